@@ -1,0 +1,28 @@
+// steradian VERB [--option VALUE] INPUT -o OUTPUT
+#include <cstdio>
+#include <exception>
+
+#include "steradian/error.h"
+#include "steradian/version.h"
+#include "verbs.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Light computed without sampling: area light integrals in closed form.");
+  app.set_version_flag("--version", std::string("steradian ") + steradian::version());
+  app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();
+  app.get_formatter()->column_width(36);
+
+  steradian::app::Exit exit;
+  steradian::app::add_info(app, exit);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "steradian: %s\n", e.what());
+    return 1;
+  }
+  return exit.code;
+}

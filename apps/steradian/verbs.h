@@ -1,0 +1,15 @@
+// The program's verbs, one file each. add_x describes the verb's options to the command line and says what to run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace steradian::app {
+
+// What main returns: 0 done, 1 the work failed or a comparison did not hold, 2 wrong use.
+struct Exit {
+  int code = 0;
+};
+
+void add_info(CLI::App& app, Exit& exit);
+
+}  // namespace steradian::app

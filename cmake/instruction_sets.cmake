@@ -1,0 +1,27 @@
+# Pack code (*_pack.cpp) is compiled once per instruction set, each unit in its own inline namespace
+# (include/steradian/config.h), and chosen at run time (source/core/simd.h). The strict variants are the same code
+# without contraction and without approximate square roots: bit-equal to scalar float, for the tests.
+set(STERADIAN_INSTRUCTION_SETS sse2 avx2 avx512)
+set(STERADIAN_FLAGS_sse2 -msse2)
+set(STERADIAN_FLAGS_avx2 -mavx2 -mfma -mtune=haswell)
+set(STERADIAN_FLAGS_avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd -mfma -mtune=skylake-avx512
+                           -mprefer-vector-width=512)
+
+# steradian_pack_objects(NAME SOURCES...): object libraries NAME_sse2, NAME_avx2, NAME_avx512.
+function(steradian_pack_objects name namespace_suffix)
+  foreach(isa ${STERADIAN_INSTRUCTION_SETS})
+    add_library(${name}_${isa} OBJECT ${ARGN})
+    target_compile_definitions(${name}_${isa} PRIVATE STERADIAN_ISA=isa_${isa}${namespace_suffix})
+    # No trapping math and no errno: nothing here reads either, and both keep loops from becoming vectors.
+    target_compile_options(${name}_${isa} PRIVATE ${STERADIAN_FLAGS_${isa}} -fno-math-errno -fno-trapping-math
+                           -fno-exceptions)
+    # g++ 12 takes the undefined operands of its own AVX-512 intrinsics for uninitialised variables.
+    target_compile_options(${name}_${isa} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized)
+    target_link_libraries(${name}_${isa} PRIVATE steradian_kernels steradian_warnings)
+    target_include_directories(${name}_${isa} PRIVATE ${PROJECT_SOURCE_DIR}/source)
+    # Sanitised or unoptimised packs would call out-of-line copies that the linker may merge across units.
+    if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+      target_compile_options(${name}_${isa} PRIVATE -O2)
+    endif()
+  endforeach()
+endfunction()

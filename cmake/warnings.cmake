@@ -1,0 +1,5 @@
+add_library(steradian_warnings INTERFACE)
+target_compile_options(steradian_warnings INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion)
+if(STERADIAN_WERROR)
+  target_compile_options(steradian_warnings INTERFACE -Werror)
+endif()

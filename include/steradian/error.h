@@ -1,0 +1,27 @@
+// Error: bad input or a missing device. Says where in the user's input, what is wrong, and what to do about it.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace steradian {
+
+class Error : public std::runtime_error {
+ public:
+  // place: file, place in the file, option or key ("scene.gltf: meshes[2].primitives[0]"); may be empty
+  // problem: what is wrong there; hint: what to do, may be empty
+  Error(std::string place, std::string problem, std::string hint = {})
+      : std::runtime_error((place.empty() ? "" : place + ": ") + problem + (hint.empty() ? "" : " (" + hint + ")")),
+        place_(std::move(place)),
+        problem_(std::move(problem)),
+        hint_(std::move(hint)) {}
+
+  const std::string& place() const { return place_; }
+  const std::string& problem() const { return problem_; }
+  const std::string& hint() const { return hint_; }
+
+ private:
+  std::string place_, problem_, hint_;
+};
+
+}  // namespace steradian

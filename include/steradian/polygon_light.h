@@ -1,0 +1,46 @@
+// PolygonLight: a flat light of any outline, with holes. What a scene says, and what the integrals walk.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "steradian/vector.h"
+
+namespace steradian {
+
+// Lit side: the one from which the outline runs counter-clockwise. Holes run the other way; either order is taken.
+struct PolygonLight {
+  std::vector<Vec3d> vertices;
+  std::vector<std::vector<Vec3d>> holes;
+  Vec3d radiance{1, 1, 1};  // linear RGB, W/(m2 sr) or nits
+  bool two_sided = false;
+};
+
+// A light ready to be walked: every contour in walk order (the reverse of the stored order, see kernels/polygon.glsl).
+struct PreparedPolygon {
+  std::vector<Vec3d> vertices;        // of all contours, one after the other
+  std::vector<std::size_t> contours;  // where each contour begins, and the number of vertices at the end
+  Vec3d normal;                       // unit, to the lit side; zero for a light without area
+  Vec3d centroid;                     // mean of the outline's vertices
+  double area = 0;                    // of the outline without the holes [m2]
+  Vec3d radiance{1, 1, 1};
+  bool two_sided = false;
+
+  // +1 where p sees the lit side, -1 where it sees the back, 0 in the plane or for a light without area.
+  int side_of(Vec3d p) const;
+};
+
+// Reverses into walk order, drops repeated vertices, turns the holes against the outline.
+// Throws Error for fewer than three vertices, a vertex that is not finite, and vertices further than 1e-5 of the
+// light's size off its plane.
+PreparedPolygon prepare_polygon(const PolygonLight& light);
+
+// Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, in double, in [0, pi].
+// 0 from behind (unless two-sided), and in the light's plane. Error: docs/accuracy.md, "polygon irradiance".
+double polygon_irradiance(const PreparedPolygon& light, Vec3d position, Vec3d normal);
+float polygon_irradiance_float(const PreparedPolygon& light, Vec3d position, Vec3d normal);
+
+// Solid angle [sr], in [0, 2 pi], of the whole light (no horizon). 0 from behind, unless two-sided.
+double polygon_solid_angle(const PreparedPolygon& light, Vec3d position);
+
+}  // namespace steradian

@@ -1,0 +1,48 @@
+// Ground truth: adaptive quadrature with an error bound, and Monte Carlo with a standard error, for every lobe.
+#pragma once
+
+#include <cstdint>
+
+#include "steradian/material.h"
+#include "steradian/polygon_light.h"
+
+namespace steradian {
+
+// Where light is asked for. Unit vectors, away from the surface.
+struct ShadingPoint {
+  Vec3d position;
+  Vec3d normal;
+  Vec3d view;
+};
+
+struct ReferenceOptions {
+  double relative_error = 1e-10;   // stop when the bound is below this share of the value ...
+  double absolute_error = 1e-13;   // ... or below this, for light of radiance 1
+  int max_evaluations = 4'000'000;
+};
+
+struct ReferenceResult {
+  Vec3d radiance;
+  double bound = 0;  // on the absolute error of the largest channel
+};
+
+// Radiance towards the view: the integral over the light of radiance times lobe, by adaptive cubature in double.
+// 0 for a view below the surface and a light without area.
+ReferenceResult reference_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
+                                   const ReferenceOptions& options = {});
+
+struct SampledOptions {
+  int spp = 256;           // pairs of a light sample and a lobe sample
+  std::uint64_t seed = 1;
+};
+
+struct SampledResult {
+  Vec3d radiance;
+  double standard_error = 0;  // of the largest channel
+};
+
+// The same by Monte Carlo: light and lobe sampling, balance heuristic. Same seed, same result.
+SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
+                               const SampledOptions& options = {});
+
+}  // namespace steradian

@@ -1,0 +1,7 @@
+// Everything public. See the single headers: each is the manual of its topic.
+#pragma once
+
+#include "steradian/error.h"
+#include "steradian/kernels.h"
+#include "steradian/polygon_light.h"
+#include "steradian/version.h"

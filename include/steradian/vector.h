@@ -1,0 +1,79 @@
+// Vec3d, Vec3f: plain vectors for scenes and hosts. Kernels have their own (vec.h), made of Real<S>.
+#pragma once
+
+#include <cmath>
+
+namespace steradian {
+
+template <class T>
+struct Vector3 {
+  T x{}, y{}, z{};
+
+  friend constexpr Vector3 operator+(Vector3 a, Vector3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr Vector3 operator-(Vector3 a, Vector3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vector3 operator-(Vector3 a) { return {-a.x, -a.y, -a.z}; }
+  friend constexpr Vector3 operator*(Vector3 a, T s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend constexpr Vector3 operator*(T s, Vector3 a) { return a * s; }
+  friend constexpr Vector3 operator*(Vector3 a, Vector3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend constexpr Vector3 operator/(Vector3 a, T s) { return {a.x / s, a.y / s, a.z / s}; }
+  constexpr Vector3& operator+=(Vector3 b) { return *this = *this + b; }
+  constexpr Vector3& operator-=(Vector3 b) { return *this = *this - b; }
+  constexpr Vector3& operator*=(T s) { return *this = *this * s; }
+  friend constexpr bool operator==(Vector3 a, Vector3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+  template <class U>
+  constexpr explicit operator Vector3<U>() const {
+    return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
+  }
+};
+
+using Vec3d = Vector3<double>;
+using Vec3f = Vector3<float>;
+
+template <class T>
+constexpr T dot(Vector3<T> a, Vector3<T> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+constexpr Vector3<T> cross(Vector3<T> a, Vector3<T> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+T length(Vector3<T> a) {
+  return std::sqrt(dot(a, a));
+}
+// Unit vector; the zero vector stays zero.
+template <class T>
+Vector3<T> normalized(Vector3<T> a) {
+  const T largest = std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+  if (!(largest > T(0))) return {};
+  a = a / largest;  // squares of tiny and huge vectors would leave the range
+  return a / length(a);
+}
+template <class T>
+bool is_finite(Vector3<T> a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+// Columns of an orthonormal right-handed frame with z along the unit vector n.
+// Source: Duff et al., "Building an orthonormal basis, revisited", 2017.
+struct Frame {
+  Vec3d x, y, z;
+
+  static Frame from_normal(Vec3d n) {
+    const double s = std::copysign(1.0, n.z);
+    const double a = -1.0 / (s + n.z);
+    const double b = n.x * n.y * a;
+    return {{1.0 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}, n};
+  }
+  // x along t as far as t is perpendicular to n; any frame about n where it is not.
+  static Frame from_normal_and_tangent(Vec3d n, Vec3d t) {
+    const Vec3d x = normalized(t - n * dot(n, t));
+    if (length(x) < 0.5) return from_normal(n);
+    return {x, cross(n, x), n};
+  }
+  Vec3d to_local(Vec3d w) const { return {dot(x, w), dot(y, w), dot(z, w)}; }
+  Vec3d to_world(Vec3d l) const { return x * l.x + y * l.y + z * l.z; }
+};
+
+}  // namespace steradian

@@ -1,0 +1,34 @@
+// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
+//
+// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
+// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
+real phong_power(real x, real n) {
+    return exp(n * log(max(x, 1.0e-30)));
+}
+
+// The view mirrored at the surface.
+//
+//   v        view direction, shading frame
+vec3 phong_mirror(vec3 v) {
+    return vec3(-v.x, -v.y, v.z);
+}
+
+// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
+//
+//   l        unit direction of the light, r unit axis of the lobe
+//   n        exponent, at least 0
+//
+// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
+real phong_lobe(vec3 l, vec3 r, real n) {
+    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
+}
+
+// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
+//
+//   h        unit half vector, shading frame
+real blinn_phong_distribution(vec3 h, real n) {
+    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+}

@@ -1,0 +1,51 @@
+#include "core/pack.h"
+#include "render/cpu/irradiance.h"
+
+STERADIAN_BEGIN_ISA
+namespace {
+
+__attribute__((flatten)) void irradiance(const PreparedPolygon& light, const SurfacePoints& points, float* result) {
+  PackKernels k;
+  const Vec3d* vertices = light.vertices.data();
+  const std::size_t* contours = light.contours.data();
+  const std::size_t contour_count = light.contours.size() - 1;
+  const PackVec3 plane_normal(light.normal.x, light.normal.y, light.normal.z);
+  const PackVec3 plane_point(light.centroid.x, light.centroid.y, light.centroid.z);
+  const bool two_sided = light.two_sided;
+
+  for (std::size_t i = 0; i < points.count; i += kLanes) {
+    const PackVec3 p(load(points.x + i), load(points.y + i), load(points.z + i));
+    const PackVec3 n(load(points.nx + i), load(points.ny + i), load(points.nz + i));
+    const auto height = dot(p - plane_point, plane_normal);
+    const auto behind = height < PackReal(0.0);
+    const auto lit = two_sided ? !(height <= PackReal(0.0) && height >= PackReal(0.0)) : height > PackReal(0.0);
+    if (!any_lane(lit)) {
+      store(result + i, PackReal(0.0));
+      continue;
+    }
+    const auto frame = k.frame_from_normal(n);
+    const auto direction = [&](const Vec3d& v) {
+      return k.polygon_direction(transform_transposed(frame, PackVec3(v.x, v.y, v.z) - p));
+    };
+    auto walk = k.polygon_begin();
+    for (std::size_t c = 0; c < contour_count; ++c) {
+      const std::size_t begin = contours[c], end = contours[c + 1];
+      PackVec3 previous = direction(vertices[end - 1]);
+      for (std::size_t j = begin; j < end; ++j) {
+        const PackVec3 next = direction(vertices[j]);
+        walk = k.polygon_add_edge(walk, previous, next);
+        previous = next;
+      }
+    }
+    store(result + i, select(lit, k.polygon_irradiance(walk, behind), PackReal(0.0)));
+  }
+}
+
+}  // namespace
+
+const IrradianceTable& irradiance_table() {
+  static constexpr IrradianceTable table = {irradiance};
+  return table;
+}
+
+STERADIAN_END_ISA

@@ -1,0 +1,148 @@
+#include "steradian/polygon_light.h"
+
+#include <algorithm>
+#include <string>
+
+#include "steradian/error.h"
+#include "steradian/kernels.h"
+
+namespace steradian {
+namespace {
+
+using Contour = std::vector<Vec3d>;
+
+// Newell's normal: twice the area, about an origin of its own so that a small light far away keeps its digits.
+Vec3d area_vector(const Contour& contour) {
+  Vec3d sum{};
+  for (std::size_t i = 1; i + 1 < contour.size(); ++i)
+    sum += cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
+  return sum * 0.5;
+}
+
+Contour without_repeats(const Contour& contour) {
+  Contour result;
+  for (const Vec3d& v : contour)
+    if (result.empty() || !(v == result.back())) result.push_back(v);
+  while (result.size() > 1 && result.front() == result.back()) result.pop_back();
+  return result;
+}
+
+void check_contour(const Contour& contour, const std::string& name) {
+  if (contour.size() < 3)
+    throw Error(name, "a polygon needs at least 3 vertices, here are " + std::to_string(contour.size()));
+  for (std::size_t i = 0; i < contour.size(); ++i)
+    if (!is_finite(contour[i])) throw Error(name + "[" + std::to_string(i) + "]", "a coordinate is not finite");
+}
+
+void check_plane(const Contour& contour, const std::string& name, Vec3d origin, Vec3d normal, double size) {
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Vec3d& v = contour[i];
+    // Coordinates come with the rounding of single precision, which grows with the distance from the origin.
+    const double rounding = 2e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
+    const double off = std::fabs(dot(v - origin, normal));
+    if (off > 1e-5 * size + rounding)
+      throw Error(name + "[" + std::to_string(i) + "]",
+                  "the vertex is " + std::to_string(off) + " off the polygon's plane",
+                  "a light must be flat; split it into triangles");
+  }
+}
+
+template <class S>
+typename Kernels<S>::vec3 to_kernel(Vec3d v) {
+  return {v.x, v.y, v.z};
+}
+
+template <class S, class AddEdge>
+void walk_edges(const PreparedPolygon& light, const Frame& frame, Vec3d position, AddEdge add_edge) {
+  Kernels<S> k;
+  for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
+    const std::size_t begin = light.contours[c], end = light.contours[c + 1];
+    auto previous = k.polygon_direction(to_kernel<S>(frame.to_local(light.vertices[end - 1] - position)));
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto direction = k.polygon_direction(to_kernel<S>(frame.to_local(light.vertices[i] - position)));
+      add_edge(previous, direction);
+      previous = direction;
+    }
+  }
+}
+
+template <class S>
+S irradiance(const PreparedPolygon& light, Vec3d position, Vec3d normal) {
+  const int side = light.side_of(position);
+  if (side == 0 || (side < 0 && !light.two_sided)) return S(0);
+  Kernels<S> k;
+  auto walk = k.polygon_begin();
+  walk_edges<S>(light, Frame::from_normal(normal), position,
+                [&](const auto& a, const auto& b) { walk = k.polygon_add_edge(walk, a, b); });
+  return k.polygon_irradiance(walk, Mask<S>(side < 0)).v;
+}
+
+}  // namespace
+
+int PreparedPolygon::side_of(Vec3d p) const {
+  if (vertices.empty()) return 0;
+  const double height = dot(p - centroid, normal);
+  return (height > 0) - (height < 0);
+}
+
+PreparedPolygon prepare_polygon(const PolygonLight& light) {
+  check_contour(light.vertices, "vertices");
+  for (std::size_t h = 0; h < light.holes.size(); ++h) check_contour(light.holes[h], "holes[" + std::to_string(h) + "]");
+  if (!is_finite(light.radiance)) throw Error("radiance", "a component is not finite");
+
+  PreparedPolygon result;
+  result.radiance = light.radiance;
+  result.two_sided = light.two_sided;
+  result.contours.push_back(0);
+  const Contour outline = without_repeats(light.vertices);
+  for (const Vec3d& v : outline) result.centroid += v / static_cast<double>(outline.size());
+  double size = 0;
+  for (const Vec3d& v : outline) size = std::max(size, length(v - result.centroid));
+
+  const Vec3d area = area_vector(outline);
+  // An outline thinner than rounding encloses nothing.
+  if (outline.size() < 3 || !(length(area) > 1e-14 * size * size)) return result;
+  result.normal = normalized(area);
+  result.area = length(area);
+  check_plane(outline, "vertices", result.centroid, result.normal, size);
+
+  const auto append = [&](const Contour& contour, bool reversed) {
+    if (reversed)
+      result.vertices.insert(result.vertices.end(), contour.rbegin(), contour.rend());
+    else
+      result.vertices.insert(result.vertices.end(), contour.begin(), contour.end());
+    result.contours.push_back(result.vertices.size());
+  };
+  append(outline, true);
+  for (std::size_t h = 0; h < light.holes.size(); ++h) {
+    const Contour hole = without_repeats(light.holes[h]);
+    if (hole.size() < 3) continue;
+    check_plane(hole, "holes[" + std::to_string(h) + "]", result.centroid, result.normal, size);
+    const double along = dot(area_vector(hole), result.normal);
+    result.area -= std::fabs(along);
+    append(hole, along < 0);  // in walk order a hole runs counter-clockwise as seen from the lit side
+  }
+  result.area = std::max(result.area, 0.0);
+  return result;
+}
+
+double polygon_irradiance(const PreparedPolygon& light, Vec3d position, Vec3d normal) {
+  return irradiance<double>(light, position, normal);
+}
+
+float polygon_irradiance_float(const PreparedPolygon& light, Vec3d position, Vec3d normal) {
+  return irradiance<float>(light, position, normal);
+}
+
+double polygon_solid_angle(const PreparedPolygon& light, Vec3d position) {
+  const int side = light.side_of(position);
+  if (side == 0 || (side < 0 && !light.two_sided)) return 0.0;
+  Kernels<double> k;
+  const Vec3d first = light.vertices.front() - position;
+  auto walk = k.solid_angle_begin(k.polygon_direction(to_kernel<double>(first)));
+  walk_edges<double>(light, Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, position,
+                     [&](const auto& a, const auto& b) { walk = k.solid_angle_add_edge(walk, a, b); });
+  return k.solid_angle_finish(walk, Mask<double>(side < 0)).v;
+}
+
+}  // namespace steradian
