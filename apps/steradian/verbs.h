@@ -10,6 +10,7 @@ struct Exit {
   int code = 0;
 };
 
+void add_diff(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 
 }  // namespace steradian::app
