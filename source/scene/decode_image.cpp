@@ -20,7 +20,9 @@
 namespace steradian {
 
 ImageFormat format_of(std::span<const std::uint8_t> bytes) {
-  const auto begins = [&](const char* magic, std::size_t n) { return bytes.size() >= n && std::memcmp(bytes.data(), magic, n) == 0; };
+  const auto begins = [&](const char* magic, std::size_t n) {
+    return bytes.size() >= n && std::memcmp(bytes.data(), magic, n) == 0;
+  };
   if (begins("\x89PNG", 4) || begins("\xFF\xD8\xFF", 3)) return ImageFormat::png_or_jpeg;
   if (begins("\xABKTX", 4) || begins("RIFF", 4) || begins("DDS ", 4)) return ImageFormat::known_but_not_read;
   return ImageFormat::unknown;
@@ -35,9 +37,12 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& place
     throw Error(place, std::string("cannot read the picture: ") + stbi_failure_reason(), hint);
   const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (texels > max_texels)
-    throw Error(place, "the picture claims " + std::to_string(width) + " x " + std::to_string(height) + " texels, more than may be read (" + std::to_string(max_texels) + ")",
+    throw Error(place,
+                "the picture claims " + std::to_string(width) + " x " + std::to_string(height) +
+                    " texels, more than may be read (" + std::to_string(max_texels) + ")",
                 "use smaller textures");
-  const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
+  const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+      stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
   if (!decoded) throw Error(place, std::string("cannot read the picture: ") + stbi_failure_reason(), hint);
   Image image;
   image.width = width;

@@ -16,12 +16,16 @@ enum Component { kByte = 5120, kUnsignedByte, kShort, kUnsignedShort, kUnsignedI
 std::size_t bytes_of(int component) {
   switch (component) {
     case kByte:
-    case kUnsignedByte: return 1;
+    case kUnsignedByte:
+      return 1;
     case kShort:
-    case kUnsignedShort: return 2;
+    case kUnsignedShort:
+      return 2;
     case kUnsignedInt:
-    case kFloat: return 4;
-    default: return 0;
+    case kFloat:
+      return 4;
+    default:
+      return 0;
   }
 }
 
@@ -64,15 +68,19 @@ Elements checked_elements(const GltfDocument& document, const JsonCursor& owner,
   std::size_t stride = element_bytes;
   if (strided) {
     const JsonCursor view_json = document.object("bufferViews", view);
-    stride = static_cast<std::size_t>(view_json.integer("byteStride", static_cast<std::int64_t>(element_bytes), 1, 252));
+    stride = static_cast<std::size_t>(
+        view_json.integer("byteStride", static_cast<std::int64_t>(element_bytes), 1, 252));
     if (stride < element_bytes)
-      view_json.at("byteStride").fail("is " + std::to_string(stride) + ", less than an element's " + std::to_string(element_bytes) + " bytes");
+      view_json.at("byteStride")
+          .fail("is " + std::to_string(stride) + ", less than an element's " + std::to_string(element_bytes) +
+                " bytes");
   }
   const auto offset = static_cast<std::size_t>(owner.integer("byteOffset", 0, 0, kMaxInteger));
   const std::size_t needed = count == 0 ? 0 : stride * (count - 1) + element_bytes;
   if (offset > bytes.size() || needed > bytes.size() - offset)
-    owner.fail("count " + std::to_string(count) + " at offset " + std::to_string(offset) + " needs " + std::to_string(needed) +
-                   " bytes, bufferView " + std::to_string(view) + " has " + std::to_string(bytes.size()),
+    owner.fail("count " + std::to_string(count) + " at offset " + std::to_string(offset) + " needs " +
+                   std::to_string(needed) + " bytes, bufferView " + std::to_string(view) + " has " +
+                   std::to_string(bytes.size()),
                "the file is broken; export it again");
   return {bytes.data() + offset, stride};
 }
@@ -88,9 +96,11 @@ Layout layout_of(const JsonCursor& accessor) {
 }
 
 Elements dense_elements(const GltfDocument& document, const JsonCursor& accessor, const Layout& layout) {
-  if (accessor.has("bufferView")) return checked_elements(document, accessor, layout.count, layout.element_bytes, true);
+  if (accessor.has("bufferView"))
+    return checked_elements(document, accessor, layout.count, layout.element_bytes, true);
   if (layout.count > kMaxZeros)
-    accessor.fail("count " + std::to_string(layout.count) + " without a bufferView, more than " + std::to_string(kMaxZeros) + " zeros");
+    accessor.fail("count " + std::to_string(layout.count) + " without a bufferView, more than " +
+                  std::to_string(kMaxZeros) + " zeros");
   return {};
 }
 
@@ -107,7 +117,8 @@ double component_value(const std::uint8_t* p, const Layout& layout) {
       const double x = load<std::int8_t>(p);
       return layout.normalized ? std::max(x / 127, -1.0) : x;
     }
-    case kUnsignedByte: return layout.normalized ? *p / 255.0 : *p;
+    case kUnsignedByte:
+      return layout.normalized ? *p / 255.0 : *p;
     case kShort: {
       const double x = load<std::int16_t>(p);
       return layout.normalized ? std::max(x / 32767, -1.0) : x;
@@ -116,8 +127,10 @@ double component_value(const std::uint8_t* p, const Layout& layout) {
       const double x = load<std::uint16_t>(p);
       return layout.normalized ? x / 65535 : x;
     }
-    case kUnsignedInt: return load<std::uint32_t>(p);
-    default: return load<float>(p);
+    case kUnsignedInt:
+      return load<std::uint32_t>(p);
+    default:
+      return load<float>(p);
   }
 }
 
@@ -138,7 +151,8 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
   if (!sparse) return result;
   const auto count = static_cast<std::size_t>(sparse->at("count").as_integer(1, kMaxInteger));
   if (count > layout.count)
-    sparse->at("count").fail("is " + std::to_string(count) + ", more than the accessor's " + std::to_string(layout.count));
+    sparse->at("count").fail("is " + std::to_string(count) + ", more than the accessor's " +
+                             std::to_string(layout.count));
   const JsonCursor indices = sparse->at("indices");
   const int component = component_type(indices);
   if (component != kUnsignedByte && component != kUnsignedShort && component != kUnsignedInt)
@@ -149,7 +163,8 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t index = unsigned_value(where.data + i * where.stride, component);
     if (index >= layout.count)
-      indices.fail("element " + std::to_string(i) + " is " + std::to_string(index) + ", the accessor has " + std::to_string(layout.count));
+      indices.fail("element " + std::to_string(i) + " is " + std::to_string(index) + ", the accessor has " +
+                   std::to_string(layout.count));
     result.indices.push_back(index);
   }
   return result;
@@ -172,7 +187,8 @@ std::size_t checked_count(const GltfDocument& document, int index) {
   return layout.count;
 }
 
-FloatArray read_floats(const GltfDocument& document, int index, std::string_view types, NotFinite not_finite) {
+FloatArray read_floats(const GltfDocument& document, int index, std::string_view types,
+                       NotFinite not_finite) {
   const JsonCursor accessor = document.object("accessors", index);
   const Layout layout = allowed_layout(accessor, types);
   const Elements dense = dense_elements(document, accessor, layout);
@@ -187,7 +203,8 @@ FloatArray read_floats(const GltfDocument& document, int index, std::string_view
     for (std::size_t c = 0; c < components; ++c) {
       const double x = component_value(p + c * bytes_of(layout.component), layout);
       if (!std::isfinite(x) && not_finite == NotFinite::refuse)
-        accessor.fail("element " + std::to_string(element) + " is not finite", "the file is broken; export it again");
+        accessor.fail("element " + std::to_string(element) + " is not finite",
+                      "the file is broken; export it again");
       result.values[element * components + c] = std::isfinite(x) ? static_cast<float>(x) : 0.0f;
     }
   };
@@ -201,7 +218,8 @@ FloatArray read_floats(const GltfDocument& document, int index, std::string_view
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int index, std::string_view types) {
   const JsonCursor accessor = document.object("accessors", index);
   const Layout layout = allowed_layout(accessor, types);
-  if (layout.component != kUnsignedByte && layout.component != kUnsignedShort && layout.component != kUnsignedInt)
+  if (layout.component != kUnsignedByte && layout.component != kUnsignedShort &&
+      layout.component != kUnsignedInt)
     accessor.at("componentType").fail("must be an unsigned integer type");
   const Elements dense = dense_elements(document, accessor, layout);
   const Sparse sparse = read_sparse(document, accessor, layout);

@@ -14,7 +14,8 @@ constexpr int kMaxDepth = 200;
 Bytes read_file(const std::filesystem::path& path, const std::string& place) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw Error(place, "cannot find the file " + path.string(), "check the path");
+  if (!std::filesystem::exists(status))
+    throw Error(place, "cannot find the file " + path.string(), "check the path");
   if (!std::filesystem::is_regular_file(status)) throw Error(place, path.string() + " is not a regular file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(place, "cannot read the file " + path.string(), "check its permissions");
@@ -28,7 +29,8 @@ Bytes read_file(const std::filesystem::path& path, const std::string& place) {
 }
 
 std::uint32_t little_endian_32(const std::uint8_t* p) {
-  return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 | std::uint32_t{p[3]} << 24;
+  return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
+         std::uint32_t{p[3]} << 24;
 }
 
 void check_depth(std::string_view text, const std::string& path) {
@@ -42,7 +44,8 @@ void check_depth(std::string_view text, const std::string& path) {
     } else if (c == '"') {
       in_string = true;
     } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth) throw Error(path, "the JSON is nested more than " + std::to_string(kMaxDepth) + " deep");
+      if (++depth > kMaxDepth)
+        throw Error(path, "the JSON is nested more than " + std::to_string(kMaxDepth) + " deep");
     } else if (c == ']' || c == '}') {
       --depth;
     }
@@ -73,13 +76,18 @@ bool is_glb(const Bytes& file) { return file.size() >= 4 && std::memcmp(file.dat
 
 Container split_glb(const Bytes& file, const std::string& path) {
   const char* hint = "the file may be truncated; export it again";
-  if (file.size() < 20) throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
+  if (file.size() < 20)
+    throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
   const std::uint32_t version = little_endian_32(file.data() + 4);
   if (version != 2)
-    throw Error(path, "header: version " + std::to_string(version) + " of the format, only 2 is read", "convert it to glTF 2.0");
+    throw Error(path, "header: version " + std::to_string(version) + " of the format, only 2 is read",
+                "convert it to glTF 2.0");
   const std::uint32_t length = little_endian_32(file.data() + 8);
   if (length > file.size() || length < 20)
-    throw Error(path, "header: length " + std::to_string(length) + ", the file has " + std::to_string(file.size()) + " bytes", hint);
+    throw Error(path,
+                "header: length " + std::to_string(length) + ", the file has " + std::to_string(file.size()) +
+                    " bytes",
+                hint);
 
   Container container;
   std::size_t at = 12;
@@ -90,7 +98,9 @@ Container split_glb(const Bytes& file, const std::string& path) {
     const std::uint32_t type = little_endian_32(file.data() + at + 4);
     at += 8;
     if (size > length - at)
-      throw Error(place, "claims " + std::to_string(size) + " bytes, " + std::to_string(length - at) + " are left", hint);
+      throw Error(place,
+                  "claims " + std::to_string(size) + " bytes, " + std::to_string(length - at) + " are left",
+                  hint);
     constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
     if (chunk == 0) {
       if (type != kJson) throw Error(place, "the first chunk must be JSON", hint);
@@ -154,7 +164,8 @@ Bytes base64_decoded(std::string_view text, const std::string& place) {
 
 void read_buffers(GltfDocument& document, std::optional<std::span<const std::uint8_t>> binary) {
   for (const JsonCursor& buffer : document.root().elements("buffers")) {
-    const auto claimed = static_cast<std::size_t>(buffer.at("byteLength").as_integer(1, std::int64_t{1} << 53));
+    const auto claimed =
+        static_cast<std::size_t>(buffer.at("byteLength").as_integer(1, std::int64_t{1} << 53));
     Bytes bytes;
     if (const auto uri = buffer.find("uri")) {
       bytes = read_uri(document, *uri);
@@ -164,8 +175,9 @@ void read_buffers(GltfDocument& document, std::optional<std::span<const std::uin
       bytes.assign(binary->begin(), binary->end());
     }
     if (bytes.size() < claimed)
-      buffer.fail("byteLength is " + std::to_string(claimed) + ", its data have " + std::to_string(bytes.size()),
-                  "the data may be truncated; export the file again");
+      buffer.fail(
+          "byteLength is " + std::to_string(claimed) + ", its data have " + std::to_string(bytes.size()),
+          "the data may be truncated; export the file again");
     bytes.resize(claimed);
     document.buffers.push_back(std::move(bytes));
   }
@@ -186,7 +198,8 @@ std::size_t GltfDocument::count(const char* array) const {
 }
 
 JsonCursor GltfDocument::object(const char* array, int index) const {
-  return {json[array][static_cast<std::size_t>(index)], path + ": " + array + "[" + std::to_string(index) + "]"};
+  return {json[array][static_cast<std::size_t>(index)],
+          path + ": " + array + "[" + std::to_string(index) + "]"};
 }
 
 Bytes read_uri(const GltfDocument& document, const JsonCursor& uri) {
@@ -197,7 +210,8 @@ Bytes read_uri(const GltfDocument& document, const JsonCursor& uri) {
       uri.fail("a data URI must be \"data:...;base64,...\"");
     return base64_decoded(std::string_view(text).substr(comma + 1), uri.place());
   }
-  if (text.find("://") != std::string::npos) uri.fail("files from the network are not read", "put the file beside the scene");
+  if (text.find("://") != std::string::npos)
+    uri.fail("files from the network are not read", "put the file beside the scene");
   const std::string name = percent_decoded(text);
   if (name.empty() || name.find('\0') != std::string::npos) uri.fail("is not a file name");
   return read_file(std::filesystem::path(document.path).parent_path() / name, uri.place());
@@ -230,8 +244,8 @@ GltfDocument read_gltf(const std::string& path) {
   document.json = parse_json(container.json, path);
   const JsonCursor root = document.root();
   if (!document.json.is_object()) root.fail("the document must be a JSON object");
-  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
-                            "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
+  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
+                            "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
     for (const JsonCursor& element : root.elements(array))
       if (!element.value().is_object()) element.fail("must be an object");
   check_version(root);

@@ -1,5 +1,5 @@
-// GltfDocument: a .gltf or .glb file taken apart: its JSON and the bytes of its buffers. Every size is checked
-// against the bytes that are there before anything is allocated for it.
+// GltfDocument: a .gltf or .glb file taken apart: its JSON and the bytes of its buffers. Every size is
+// checked against the bytes that are there before anything is allocated for it.
 #pragma once
 
 #include <cstdint>

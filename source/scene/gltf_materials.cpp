@@ -22,7 +22,8 @@ void read_base(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& texture
       const auto c = base->as_numbers<4>();
       for (const double x : c)
         if (x < 0 || x > 1) base->fail("components must be from 0 to 1");
-      m.base_color = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]), static_cast<float>(c[3])};
+      m.base_color = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
+                      static_cast<float>(c[3])};
     }
     m.base_color_texture = textures.use(*pbr, "baseColorTexture", ColorSpace::srgb);
     m.metallic = factor(*pbr, "metallicFactor", 1);
@@ -116,7 +117,8 @@ Vec3d grey_or_rgb(const JsonCursor& object, const char* key, Vec3d otherwise) {
 void read_widths(Material& m, const JsonCursor& lobe) {
   constexpr double kSmallest = 1e-4;  // the smallest alpha of the library's convention
   const int ways = lobe.has("roughness") + lobe.has("alpha") + (lobe.has("alpha_x") || lobe.has("alpha_y"));
-  if (ways > 1) lobe.fail("gives its width more than once", "use one of roughness, alpha, alpha_x with alpha_y");
+  if (ways > 1)
+    lobe.fail("gives its width more than once", "use one of roughness, alpha, alpha_x with alpha_y");
   const double r = lobe.number("roughness", 0.5, 0, 1);
   const double alpha = lobe.number("alpha", r * r, 0, 1);
   m.alpha_x = std::max(lobe.number("alpha_x", alpha, 0, 1), kSmallest);
@@ -127,11 +129,16 @@ void read_widths(Material& m, const JsonCursor& lobe) {
 
 const char* keys_of(Brdf brdf) {
   switch (brdf) {
-    case Brdf::lambert: return " albedo ";
-    case Brdf::phong: return " exponent albedo ";
-    case Brdf::ggx: return " roughness alpha alpha_x alpha_y tangent f0 f90 shadowing ";
-    case Brdf::blinn_phong: return " exponent ";
-    case Brdf::beckmann: return " roughness alpha alpha_x alpha_y tangent ";
+    case Brdf::lambert:
+      return " albedo ";
+    case Brdf::phong:
+      return " exponent albedo ";
+    case Brdf::ggx:
+      return " roughness alpha alpha_x alpha_y tangent f0 f90 shadowing ";
+    case Brdf::blinn_phong:
+      return " exponent ";
+    case Brdf::beckmann:
+      return " roughness alpha alpha_x alpha_y tangent ";
   }
   return "";
 }
@@ -144,7 +151,8 @@ Material read_lobe(const JsonCursor& lobe) {
   const std::string allowed = keys_of(m.brdf);
   for (const auto& [key, value] : lobe.value().items())
     if (key != "brdf" && allowed.find(" " + key + " ") == std::string::npos)
-      lobe.fail("\"" + key + "\" is not a key of " + name_of(m.brdf), "known are" + allowed.substr(0, allowed.size() - 1));
+      lobe.fail("\"" + key + "\" is not a key of " + name_of(m.brdf),
+                "known are" + allowed.substr(0, allowed.size() - 1));
   m.albedo = grey_or_rgb(lobe, "albedo", m.albedo);
   if (m.brdf == Brdf::phong || m.brdf == Brdf::blinn_phong) {
     lobe.at("exponent");
@@ -159,7 +167,8 @@ Material read_lobe(const JsonCursor& lobe) {
   return m;
 }
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings) {
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures,
+                                            Warnings& warnings) {
   std::vector<SurfaceMaterial> result;
   for (const JsonCursor& json : document.root().elements("materials")) {
     SurfaceMaterial m;

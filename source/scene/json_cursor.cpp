@@ -19,8 +19,9 @@ std::string shown(double x) {
 }  // namespace
 
 void JsonCursor::wrong_type(const char* wanted) const {
-  fail(std::string("must be ") + wanted + ", is " +
-       (value_->is_number() ? "the number " + value_->dump() : std::string("of type ") + value_->type_name()));
+  fail(
+      std::string("must be ") + wanted + ", is " +
+      (value_->is_number() ? "the number " + value_->dump() : std::string("of type ") + value_->type_name()));
 }
 
 std::optional<JsonCursor> JsonCursor::find(std::string_view key) const {
@@ -89,8 +90,9 @@ double JsonCursor::number(std::string_view key, double otherwise, double low, do
   const double x = member->as_number();
   if (x < low || x > high)
     member->fail("is " + shown(x) + ", must be " +
-                 (high == std::numeric_limits<double>::infinity() ? "at least " + shown(low)
-                                                                  : "from " + shown(low) + " to " + shown(high)));
+                 (high == std::numeric_limits<double>::infinity()
+                      ? "at least " + shown(low)
+                      : "from " + shown(low) + " to " + shown(high)));
   return x;
 }
 

@@ -17,7 +17,7 @@
 namespace steradian {
 
 class JsonCursor {
- public:
+public:
   // place: "scene.gltf" for the root; members append ": key", ".key" and "[i]".
   JsonCursor(const nlohmann::json& value, std::string place) : value_(&value), place_(std::move(place)) {}
 
@@ -27,14 +27,16 @@ class JsonCursor {
     throw Error(place_, problem, hint);
   }
 
-  // Members. All but `is_object` throw where this is no object or the member is of another type than asked for.
+  // Members. All but `is_object` throw where this is no object or the member is of another type than asked
+  // for.
   bool has(std::string_view key) const { return find(key).has_value(); }
   std::optional<JsonCursor> find(std::string_view key) const;
-  JsonCursor at(std::string_view key) const;                          // required
-  std::vector<JsonCursor> elements(std::string_view key) const;       // none where it is absent
-  double number(std::string_view key, double otherwise) const;        // finite
+  JsonCursor at(std::string_view key) const;                     // required
+  std::vector<JsonCursor> elements(std::string_view key) const;  // none where it is absent
+  double number(std::string_view key, double otherwise) const;   // finite
   double number(std::string_view key, double otherwise, double low, double high) const;
-  std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t low, std::int64_t high) const;
+  std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t low,
+                       std::int64_t high) const;
   bool flag(std::string_view key, bool otherwise) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   Vec3d vector(std::string_view key, Vec3d otherwise) const;
@@ -57,7 +59,7 @@ class JsonCursor {
     return result;
   }
 
- private:
+private:
   [[noreturn]] void wrong_type(const char* wanted) const;
 
   const nlohmann::json* value_;

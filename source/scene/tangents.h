@@ -11,8 +11,8 @@ void make_flat_normals(Mesh& mesh);
 // Replaces normals that are zero by the area-weighted mean of the faces around; how many there were.
 std::size_t repair_normals(Mesh& mesh);
 
-// Tangents along growing u of texture set `set`, which the mesh must have; w is the sign of the bitangent. Where the
-// texture coordinates span no area: any direction in the surface.
+// Tangents along growing u of texture set `set`, which the mesh must have; w is the sign of the bitangent.
+// Where the texture coordinates span no area: any direction in the surface.
 void make_tangents(Mesh& mesh, int set);
 
 }  // namespace steradian

@@ -14,7 +14,7 @@ struct Warnings {
   void say(const std::string& sentence) { add(sentences, sentence); }
   void not_supported(const std::string& feature) { add(unsupported, feature); }
 
- private:
+private:
   static void add(std::vector<std::string>& list, const std::string& text) {
     if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
   }
