@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
 
   steradian::app::Exit exit;
   steradian::app::add_diff(app, exit);
+  steradian::app::add_render(app, exit);
   steradian::app::add_info(app, exit);
 
   try {

@@ -11,6 +11,7 @@ struct Exit {
 };
 
 void add_diff(CLI::App& app, Exit& exit);
+void add_render(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 
 }  // namespace steradian::app
