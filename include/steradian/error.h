@@ -24,4 +24,10 @@ class Error : public std::runtime_error {
   std::string place_, problem_, hint_;
 };
 
+// What was asked for cannot be: an option or a method that does not fit. The program exits with 2 instead of 1.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace steradian

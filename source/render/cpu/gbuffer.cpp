@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "render/cpu/surface.h"
 
 namespace steradian {
 namespace {
@@ -46,7 +45,25 @@ void put_nothing(SurfaceTile& tile, std::size_t i) {
   tile.material[i] = nullptr;
 }
 
+Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+
 }  // namespace
+
+Surface surface_in(const SurfaceTile& tile, std::size_t i) {
+  Surface s;
+  s.position = get(tile.position, i);
+  s.normal = get(tile.normal, i);
+  s.albedo = get(tile.albedo, i);
+  s.f0 = get(tile.f0, i);
+  s.f90 = get(tile.f90, i);
+  s.tangent = get(tile.tangent, i);
+  s.alpha_x = tile.alpha_x[i];
+  s.alpha_y = tile.alpha_y[i];
+  s.coat = tile.coat[i];
+  s.coat_alpha = tile.coat_alpha[i];
+  s.material = tile.material[i];
+  return s;
+}
 
 void fill_tile(const Scene& scene, const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place,
                SurfaceTile& tile) {

@@ -3,6 +3,7 @@
 
 #include "render/cpu/camera_rays.h"
 #include "render/cpu/ray_scene.h"
+#include "render/cpu/surface.h"
 #include "render/cpu/tile.h"
 
 namespace steradian {
@@ -14,5 +15,8 @@ struct TileArea {
 // One primary sample per pixel, at `place` within the pixel. tile.radiance becomes the emission.
 void fill_tile(const Scene& scene, const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place,
                SurfaceTile& tile);
+
+// The surface in a slot that has one, put together again.
+Surface surface_in(const SurfaceTile& tile, std::size_t slot);
 
 }  // namespace steradian

@@ -1,17 +1,21 @@
 #include "steradian/render.h"
 
-#include <tbb/global_control.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "core/float_mode.h"
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
+#include "render/cpu/methods.h"
+#include "render/cpu/monte_carlo.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -40,71 +44,185 @@ class PassClock {
   std::atomic<std::int64_t> nanoseconds_{0};
 };
 
-struct Frame2d {
-  const RenderOptions& options;
-  int tiles_x, tiles_y;
-  explicit Frame2d(const RenderOptions& o)
-      : options(o), tiles_x((o.width + kTileSide - 1) / kTileSide), tiles_y((o.height + kTileSide - 1) / kTileSide) {}
-  int count() const { return tiles_x * tiles_y; }
-  TileArea area(int index) const {
-    const int x = index % tiles_x * kTileSide, y = index / tiles_x * kTileSide;
-    return {x, y, std::min(kTileSide, options.width - x), std::min(kTileSide, options.height - y)};
-  }
+// What a pilot run of `reference` says of a tile.
+struct Pilot {
+  double variance = 0;  // of one pair of samples, summed over pixels and channels
+  double square = 0;    // of the radiance, likewise
 };
 
-void accumulate(const SurfaceTile& tile, TileArea area, float weight, Picture& picture) {
-  for (int y = 0; y < area.height; ++y)
-    for (int x = 0; x < area.width; ++x) {
-      const std::size_t i = tile_slot(x, y);
-      picture.at(area.x + x, area.y + y) +=
-          Vec3f{tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]} * weight;
+constexpr int kPilotPairs = 32;      // enough to rank tiles; the final estimate does not use them
+constexpr int kMinPairs = 64;        // below, the estimated variance is too rough for a z-test
+constexpr int kMaxPairs = 1 << 16;
+
+class Renderer {
+ public:
+  Renderer(const Scene& scene, const RenderOptions& options)
+      : scene_(scene),
+        options_(options),
+        threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
+        method_(choose_method(scene, options)),
+        camera_(find_camera(scene, options.camera), options.width, options.height),
+        rays_(scene),
+        lights_(prepare_lights(scene)),
+        direct_(direct_table_for(active_simd())),
+        tiles_x_((options.width + kTileSide - 1) / kTileSide),
+        tiles_y_((options.height + kTileSide - 1) / kTileSide),
+        samplers_([this] { return std::make_unique<DirectSampler>(scene_, options_.shadows ? &rays_ : nullptr); }),
+        arena_(threads_) {
+    build_ms_ = ms_since(start_);
+  }
+
+  Picture render() {
+    Picture picture(options_.width, options_.height);
+    if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
+    std::vector<int> pairs(static_cast<std::size_t>(tile_count()), options_.spp);
+    steps_ = static_cast<std::uint64_t>(tile_count());
+    if (method_.kind == MethodKind::reference) pairs = plan_pairs();
+    each_tile([&](int tile) { render_tile(tile, pairs[static_cast<std::size_t>(tile)], picture); });
+    return picture;
+  }
+
+  void report(RenderStats& stats) const {
+    stats.passes = {{"build", build_ms_}, gbuffer_clock_.time(threads_), direct_clock_.time(threads_)};
+    if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
+    stats.total_ms = ms_since(start_);
+    stats.threads = threads_;
+    stats.lights = lights_.size();
+    stats.triangles = scene_.triangle_count();
+    stats.method = method_.name;
+  }
+
+ private:
+  int tile_count() const { return tiles_x_ * tiles_y_; }
+
+  TileArea area(int index) const {
+    const int x = index % tiles_x_ * kTileSide, y = index / tiles_x_ * kTileSide;
+    return {x, y, std::min(kTileSide, options_.width - x), std::min(kTileSide, options_.height - y)};
+  }
+
+  template <class Work>
+  void each_tile(Work work) {
+    arena_.execute([&] {
+      tbb::parallel_for(0, tile_count(), [&](int index) {
+        const FlushDenormals flush;
+        work(index);
+        if (options_.progress) options_.progress(++done_, steps_);
+      });
+    });
+  }
+
+  // One stream of random numbers per pixel and primary sample: no result depends on who computes what.
+  reference::Random random_of(TileArea a, int x, int y, int sample, std::uint64_t phase) const {
+    const auto pixel = static_cast<std::uint64_t>(a.y + y) * static_cast<std::uint64_t>(options_.width) +
+                       static_cast<std::uint64_t>(a.x + x);
+    return reference::Random(options_.seed,
+                             (pixel * static_cast<std::uint64_t>(options_.aa) + static_cast<std::uint64_t>(sample)) * 2 + phase);
+  }
+
+  template <class Use>  // use(x, y, slot, estimate) for every pixel with a surface
+  void estimate_tile(const SurfaceTile& tile, TileArea a, int sample, int pairs, std::uint64_t phase, Use use) {
+    DirectSampler& sampler = *samplers_.local();
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        const std::size_t slot = tile_slot(x, y);
+        if (tile.material[slot] == nullptr) continue;
+        reference::Random random = random_of(a, x, y, sample, phase);
+        const Vec3f view{tile.view.x[slot], tile.view.y[slot], tile.view.z[slot]};
+        use(x, y, slot, sampler.estimate(surface_in(tile, slot), view, method_.estimated_lobes, pairs, random));
+      }
+  }
+
+  void fill(int index, int sample, SurfaceTile& tile) {
+    gbuffer_clock_.run(
+        [&] { fill_tile(scene_, rays_, camera_, area(index), pixel_place(sample, options_.aa), tile); });
+  }
+
+  // Pairs per tile so that the rms standard error is the target's share of the rms radiance, from a pilot run.
+  std::vector<int> plan_pairs() {
+    steps_ *= 2;
+    std::vector<Pilot> pilots(static_cast<std::size_t>(tile_count()));
+    each_tile([&](int index) {
+      const auto tile = std::make_unique<SurfaceTile>();
+      fill(index, 0, *tile);
+      Pilot& pilot = pilots[static_cast<std::size_t>(index)];
+      sampling_clock_.run([&] {
+        estimate_tile(*tile, area(index), 0, kPilotPairs, 1, [&](int, int, std::size_t, const Estimate& e) {
+          pilot.variance += (e.variance.x + e.variance.y + e.variance.z) * kPilotPairs;
+          pilot.square += dot(e.mean, e.mean);
+        });
+      });
+    });
+    double square = 0, sigma = 0;
+    for (const Pilot& pilot : pilots) {
+      square += pilot.square;
+      sigma += std::sqrt(pilot.variance);
     }
-}
+    // Least work for a given sum of variances over pairs: pairs in proportion to the tile's standard deviation.
+    std::vector<int> pairs;
+    for (const Pilot& pilot : pilots) {
+      const double wanted = options_.target_error * options_.target_error * square * options_.aa;
+      const double n = wanted > 0 ? std::sqrt(pilot.variance) * sigma / wanted : 0;
+      pairs.push_back(static_cast<int>(std::clamp(std::ceil(n), double{kMinPairs}, double{kMaxPairs})));
+    }
+    return pairs;
+  }
+
+  void render_tile(int index, int pairs, Picture& picture) {
+    const auto tile = std::make_unique<SurfaceTile>();
+    const TileArea a = area(index);
+    const float weight = 1.0f / static_cast<float>(options_.aa);
+    for (int s = 0; s < options_.aa; ++s) {
+      fill(index, s, *tile);
+      if (method_.exact_diffuse && tile->any_diffuse)
+        direct_clock_.run([&] {
+          const auto reaching = lights_reaching(lights_, *tile);
+          direct_.add_diffuse(*tile, reaching.data(), reaching.size());
+        });
+      if (method_.estimates())
+        sampling_clock_.run([&] {
+          std::vector<Vec3f>& variance = picture.layers.at("variance");
+          estimate_tile(*tile, a, s, pairs, 0, [&](int x, int y, std::size_t slot, const Estimate& e) {
+            tile->radiance.x[slot] += static_cast<float>(e.mean.x);
+            tile->radiance.y[slot] += static_cast<float>(e.mean.y);
+            tile->radiance.z[slot] += static_cast<float>(e.mean.z);
+            const auto pixel = static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) +
+                               static_cast<std::size_t>(a.x + x);
+            variance[pixel] += static_cast<Vec3f>(e.variance) * (weight * weight);
+          });
+        });
+      for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+          const std::size_t i = tile_slot(x, y);
+          picture.at(a.x + x, a.y + y) +=
+              Vec3f{tile->radiance.x[i], tile->radiance.y[i], tile->radiance.z[i]} * weight;
+        }
+    }
+  }
+
+  const Clock::time_point start_ = Clock::now();
+  const Scene& scene_;
+  const RenderOptions& options_;
+  const int threads_;
+  const Method method_;
+  const CameraRays camera_;
+  const RayScene rays_;
+  const std::vector<PackLight> lights_;
+  const DirectTable& direct_;
+  const int tiles_x_, tiles_y_;
+  tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
+  tbb::task_arena arena_;
+  double build_ms_ = 0;
+  PassClock gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, sampling_clock_{"sampling"};
+  std::atomic<std::uint64_t> done_{0};
+  std::uint64_t steps_ = 0;
+};
 
 }  // namespace
 
 Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats) {
-  const auto start = Clock::now();
-  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  const Camera& camera = find_camera(scene, options.camera);
-  const CameraRays camera_rays(camera, options.width, options.height);
-  const auto build_start = Clock::now();
-  const RayScene rays(scene);
-  const double build_ms = ms_since(build_start);
-  const std::vector<PackLight> lights = prepare_lights(scene);
-  const DirectTable& direct = direct_table_for(active_simd());
-  const Frame2d frame(options);
-  Picture picture(options.width, options.height);
-
-  PassClock gbuffer_clock("gbuffer"), direct_clock("direct");
-  std::atomic<std::uint64_t> done{0};
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(0, frame.count(), [&](int index) {
-      const FlushDenormals flush;
-      const auto tile = std::make_unique<SurfaceTile>();
-      const TileArea area = frame.area(index);
-      for (int s = 0; s < options.aa; ++s) {
-        gbuffer_clock.run([&] { fill_tile(scene, rays, camera_rays, area, pixel_place(s, options.aa), *tile); });
-        direct_clock.run([&] {
-          if (!tile->any_diffuse) return;
-          const auto reaching = lights_reaching(lights, *tile);
-          direct.add_diffuse(*tile, reaching.data(), reaching.size());
-        });
-        accumulate(*tile, area, 1.0f / static_cast<float>(options.aa), picture);
-      }
-      if (options.progress) options.progress(++done, static_cast<std::uint64_t>(frame.count()));
-    });
-  });
-
-  if (stats != nullptr) {
-    stats->passes = {{"build", build_ms}, gbuffer_clock.time(threads), direct_clock.time(threads)};
-    stats->total_ms = ms_since(start);
-    stats->threads = threads;
-    stats->lights = lights.size();
-    stats->triangles = scene.triangle_count();
-    stats->method = options.method;
-  }
+  Renderer renderer(scene, options);
+  Picture picture = renderer.render();
+  if (stats != nullptr) renderer.report(*stats);
   return picture;
 }
 

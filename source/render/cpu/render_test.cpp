@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "compare/z_test.h"
 #include "core/simd.h"
 #include "render/cpu/camera_rays.h"
 #include "steradian/error.h"
@@ -160,6 +161,84 @@ TEST(Render, LightsBehindTheFloorChangeNothing) {
   const Picture alone = render(scene, small());
   scene.area_lights.push_back(polygon({{-1, -2, -1}, {-1, -2, 1}, {1, -2, 1}, {1, -2, -1}}, {9, 9, 9}));
   EXPECT_EQ(alone.pixels, render(scene, small()).pixels);
+}
+
+TEST(Render, ExactDiffuseLightAgreesWithTheReferenceAtEveryPixel) {
+  Scene scene = floor_scene();
+  scene.area_lights = {ceiling_light(), wall_light()};
+  RenderOptions options;
+  options.width = 40;
+  options.height = 24;
+  const Picture exact = render(scene, options);
+  options.method = "reference";
+  options.target_error = 0.01;
+  RenderStats stats;
+  const Picture reference = render(scene, options, &stats);
+  // Float radiances round by 2e-6 where the irradiance is not small (see DiffuseFloorIsThePolygonIntegral...).
+  const ZTest test = z_test(exact, reference, 1e-5);
+  EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold "
+                                  << test.threshold;
+  // And it can fail: a light stronger by a tenth is seen.
+  Picture brighter = exact;
+  for (Vec3f& p : brighter.pixels) p *= 1.1f;
+  EXPECT_LT(z_test(brighter, reference, 1e-5).share(), 0.9975);
+  double square = 0, variance = 0;
+  for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
+    square += dot(reference.pixels[i], reference.pixels[i]);
+    const Vec3f v = reference.layers.at("variance")[i];
+    variance += v.x + v.y + v.z;
+  }
+  EXPECT_LT(std::sqrt(variance / square), 0.015);  // the target, with the pilot's own error
+}
+
+TEST(Render, ShadowsDarkenOnlyWhatTheLightDoesNotSee) {
+  Scene scene = floor_scene();
+  scene.area_lights = {ceiling_light()};
+  // A plate halfway to the light, above the middle of the floor.
+  scene.meshes.push_back(quad({-0.6f, 1, 0.6f}, {0.6f, 1, 0.6f}, {0.6f, 1, -0.6f}, {-0.6f, 1, -0.6f}, 0));
+  RenderOptions options = small();
+  options.method = "sampled";
+  options.spp = 16;
+  const Picture open = render(scene, options);
+  options.shadows = true;
+  const Picture shadowed = render(scene, options);
+  const CameraRays rays(scene.cameras[0], options.width, options.height);
+  int umbra = 0, lit = 0;
+  for (int y = 0; y < options.height; ++y)
+    for (int x = 0; x < options.width; ++x) {
+      const Vec3d p = floor_point(scene, options, x, y);
+      const auto d = static_cast<Vec3d>(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+      const Vec3d o = scene.cameras[0].position, at_plate = o + d * ((1 - o.y) / d.y);
+      if (std::fabs(at_plate.x) < 0.65 && std::fabs(at_plate.z) < 0.65) continue;  // the plate hides the floor
+      if (std::fabs(p.x) < 0.15 && std::fabs(p.z) < 0.15) {
+        EXPECT_EQ(shadowed.at(x, y).x, 0.0f) << x << ", " << y;
+        ++umbra;
+      }
+      if (std::fabs(p.x) > 2.5 && std::fabs(p.x) < 7.5 && std::fabs(p.z) < 7.5) {
+        EXPECT_NEAR(shadowed.at(x, y).x, open.at(x, y).x, 0.5f * open.at(x, y).x + 1e-3f);
+        ++lit;
+      }
+    }
+  EXPECT_GT(lit, 100);
+  (void)umbra;
+}
+
+TEST(Render, MethodsThatDoNotServeALobeAreWrongUse) {
+  Scene scene = floor_scene();
+  scene.materials[0].specular = 1;
+  scene.materials[0].name = "tiles";
+  RenderOptions options = small();
+  options.method = "exact";
+  try {
+    render(scene, options);
+    FAIL();
+  } catch (const UsageError& e) {
+    EXPECT_NE(std::string(e.what()).find("tiles"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("ggx"), std::string::npos) << e.what();
+  }
+  scene.materials[0].specular = 0;
+  options.shadows = true;
+  EXPECT_THROW(render(scene, options), UsageError);
 }
 
 TEST(Render, AnUnknownCameraIsNamedWithThoseThereAre) {

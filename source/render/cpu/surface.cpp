@@ -175,7 +175,7 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s) {
   if (weighs(s.albedo)) {
     Material m;
     m.albedo = static_cast<Vec3d>(s.albedo);
-    lobes.push_back({m, {1, 1, 1}, true});
+    lobes.push_back({m, true});
   }
   if (weighs(s.f0) || weighs(s.f90)) {
     Material m;
@@ -185,16 +185,16 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s) {
     m.tangent = static_cast<Vec3d>(s.tangent);
     m.f0 = static_cast<Vec3d>(s.f0);
     m.f90 = static_cast<Vec3d>(s.f90);
-    lobes.push_back({m, {1, 1, 1}, false});
+    lobes.push_back({m, false});
   }
-  for (const Material& m : s.material->specular_override) lobes.push_back({m, {1, 1, 1}, m.brdf == Brdf::lambert});
+  for (const Material& m : s.material->specular_override) lobes.push_back({m, m.brdf == Brdf::lambert});
   if (s.coat > 0) {
     Material m;
     m.brdf = Brdf::ggx;
     m.alpha_x = m.alpha_y = s.coat_alpha;
     m.f0 = Vec3d{kCoatF0, kCoatF0, kCoatF0} * static_cast<double>(s.coat);
     m.f90 = Vec3d{1, 1, 1} * static_cast<double>(s.coat);
-    lobes.push_back({m, {1, 1, 1}, false});
+    lobes.push_back({m, false});
   }
   return lobes;
 }

@@ -31,7 +31,6 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
 // zero weight are left out.
 struct SurfaceLobe {
   Material material;
-  Vec3d weight{1, 1, 1};
   bool diffuse = false;
 };
 std::vector<SurfaceLobe> lobes_of(const Surface& surface);

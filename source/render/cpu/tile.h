@@ -6,6 +6,8 @@
 
 namespace steradian {
 
+struct SurfaceMaterial;
+
 inline constexpr int kTileSide = 32;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileSide} * kTileSide;
 
@@ -31,7 +33,7 @@ struct SurfaceTile {
   alignas(64) TilePlane alpha_x, alpha_y;
   alignas(64) TilePlane coat, coat_alpha;
   TileVector radiance;        // the result
-  std::array<const void*, kTilePixels> material;  // SurfaceMaterial of the slot, null without a surface
+  std::array<const SurfaceMaterial*, kTilePixels> material;  // null without a surface
   bool any_surface, any_diffuse, any_specular, any_coat, any_override;
 };
 

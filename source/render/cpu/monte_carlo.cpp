@@ -1,0 +1,150 @@
+#include "render/cpu/monte_carlo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "reference/azimuth_sampler.h"
+#include "reference/lobe.h"
+#include "reference/spherical_region.h"
+
+namespace steradian {
+namespace {
+
+using reference::AzimuthSampler;
+using reference::Lobe;
+
+double saturate(double x) { return std::clamp(x, 0.0, 1.0); }
+
+// Intensity towards p over distance squared, and the unit direction to the light (KHR_lights_punctual).
+struct Incident {
+  Vec3d irradiance;  // across the direction
+  Vec3d direction;
+  Vec3d origin;
+};
+Incident punctual_incident(const PunctualLight& light, Vec3d p) {
+  if (light.kind == PunctualKind::directional) return {light.intensity, -light.direction, p - light.direction * 1e6};
+  const Vec3d to = light.position - p;
+  const double d2 = std::max(dot(to, to), 1e-12);
+  const Vec3d direction = to / std::sqrt(d2);
+  double f = 1 / d2;
+  if (std::isfinite(light.range)) f *= saturate(1 - d2 * d2 / std::pow(light.range, 4));
+  if (light.kind == PunctualKind::spot) {
+    const double scale = 1 / std::max(0.001, light.cos_inner - light.cos_outer);
+    const double c = saturate((-dot(light.direction, direction) - light.cos_outer) * scale);
+    f *= c * c;
+  }
+  return {light.intensity * f, direction, light.position};
+}
+
+// Sum over the lobes; radiance of a unit of incident radiance.
+Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
+  Vec3d sum{};
+  for (const Lobe& lobe : lobes) sum += lobe.radiance(lobe.evaluate(l));
+  return sum;
+}
+
+}  // namespace
+
+struct DirectSampler::Light {
+  const AreaLight* area;
+  std::optional<PreparedPolygon> flat;  // none: a sphere, whose outline depends on the point
+};
+
+struct DirectSampler::Scratch {
+  reference::SphericalRegion region;
+  AzimuthSampler sampler;
+  std::vector<Lobe> lobes;
+};
+
+DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows)
+    : scene_(scene), shadows_(shadows), scratch_(std::make_unique<Scratch>()) {
+  for (const AreaLight& area : scene.area_lights) {
+    Light light{&area, std::nullopt};
+    if (area.shape != LightShape::sphere) {
+      light.flat = prepare_polygon(area.polygon);
+      if (light.flat->vertices.empty()) continue;
+    }
+    lights_.push_back(std::move(light));
+  }
+}
+
+DirectSampler::~DirectSampler() = default;
+
+Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp,
+                                 reference::Random& random) {
+  Scratch& scratch = *scratch_;
+  const auto p = static_cast<Vec3d>(surface.position);
+  const Frame frame =
+      Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
+  const Vec3d v = normalized(frame.to_local(static_cast<Vec3d>(view)));
+  std::vector<Lobe>& lobes = scratch.lobes;
+  lobes.clear();
+  for (const SurfaceLobe& l : lobes_of(surface)) {
+    if (choice == LobeChoice::specular && l.diffuse) continue;
+    // A view below the shading normal still sees the diffuse lobe, which does not depend on it.
+    const Lobe lobe(l.material, l.diffuse ? Vec3d{0, 0, 1} : v);
+    if (lobe.above_surface()) lobes.push_back(lobe);
+  }
+  Estimate result;
+  if (lobes.empty()) return result;
+
+  for (const PunctualLight& light : scene_.punctual_lights) {
+    const Incident incident = punctual_incident(light, p);
+    const Vec3d l = frame.to_local(incident.direction);
+    if (l.z <= 0) continue;
+    if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(incident.origin))) continue;
+    result.mean += incident.irradiance * evaluate(lobes, l);
+  }
+
+  for (const Light& light : lights_) {
+    PreparedPolygon outline;
+    if (!light.flat) {
+      const PolygonLight seen = polygon_seen_from(*light.area, p);
+      if (seen.vertices.empty()) continue;
+      outline = prepare_polygon(seen);
+    }
+    const PreparedPolygon& polygon = light.flat ? *light.flat : outline;
+    if (polygon.vertices.empty()) continue;
+    scratch.region.assign_above_horizon(polygon, p, frame);
+    AzimuthSampler& sampler = scratch.sampler;
+    sampler.prepare(scratch.region, reference::SphericalMeasure::solid_angle);
+    if (!(sampler.measure() > 0)) continue;
+
+    const double plane_height = dot(polygon.centroid - p, polygon.normal);
+    const auto visible = [&](Vec3d l) {
+      if (shadows_ == nullptr) return true;
+      const Vec3d direction = frame.to_world(l);
+      const double distance = plane_height / dot(direction, polygon.normal);
+      return !shadows_->occluded(surface.position, static_cast<Vec3f>(p + direction * distance));
+    };
+    const auto contribution = [&](Vec3d l, double light_pdf) -> Vec3d {
+      double pdf = light_pdf;
+      for (const Lobe& lobe : lobes) pdf += lobe.pdf(l);
+      if (!(light_pdf > 0) || !(pdf > 0)) return {};
+      const Vec3d f = evaluate(lobes, l) * (1 / pdf);
+      return (f.x > 0 || f.y > 0 || f.z > 0) && visible(l) ? f : Vec3d{};
+    };
+
+    Vec3d mean{}, squares{};
+    for (int i = 0; i < spp; ++i) {
+      const double u = random.uniform(), w = random.uniform();
+      const Vec3d to_light = sampler.sample(u, w);
+      Vec3d x = contribution(to_light, sampler.pdf_within(to_light));
+      for (const Lobe& lobe : lobes) {
+        const double a = random.uniform(), b = random.uniform();
+        const Vec3d by_lobe = lobe.sample(a, b);
+        if (by_lobe.z > 0) x += contribution(by_lobe, sampler.pdf(by_lobe));
+      }
+      x = x * polygon.radiance;
+      const Vec3d delta = x - mean;  // Welford 1962
+      mean += delta / static_cast<double>(i + 1);
+      squares += delta * (x - mean);
+    }
+    result.mean += mean;
+    if (spp > 1) result.variance += squares / (static_cast<double>(spp) * (spp - 1));
+  }
+  return result;
+}
+
+}  // namespace steradian

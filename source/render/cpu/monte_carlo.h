@@ -1,0 +1,43 @@
+// Direct light of one surface point by Monte Carlo: every light by its solid angle and every lobe by its density,
+// balance heuristic, shadow rays if asked for. The ground truth of pictures.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "reference/random.h"
+#include "render/cpu/ray_scene.h"
+#include "render/cpu/surface.h"
+
+namespace steradian {
+
+// Mean and variance of a sum of independent estimates, per channel.
+struct Estimate {
+  Vec3d mean{};
+  Vec3d variance{};  // of the mean
+};
+
+// Which lobes are estimated; the others count as done elsewhere.
+enum class LobeChoice { all, specular };
+
+class DirectSampler {
+ public:
+  // shadows may be null: nothing occludes. Keeps references to the scene and the rays.
+  DirectSampler(const Scene& scene, const RayScene* shadows);
+  ~DirectSampler();
+  DirectSampler(const DirectSampler&) = delete;
+
+  // Light that the surface sends towards the viewer, without its emission. spp: sample pairs per light.
+  // One object per thread: it keeps scratch memory.
+  Estimate estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random);
+
+ private:
+  struct Light;
+  struct Scratch;
+  const Scene& scene_;
+  const RayScene* shadows_;
+  std::vector<Light> lights_;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace steradian
