@@ -1,0 +1,119 @@
+#include "reference/lobe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/half_vector_sampler.h"
+#include "reference/cosine_sampler.h"
+#include "steradian/kernels.h"
+
+namespace steradian::reference {
+namespace {
+
+Kernels<double> kernels;  // has no state
+using KernelVec3 = Kernels<double>::vec3;
+
+KernelVec3 to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
+Vec3d from_kernel(KernelVec3 v) { return {v.x.v, v.y.v, v.z.v}; }
+
+double largest_component(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+}  // namespace
+
+Lobe::Lobe(const Material& material, Vec3d view)
+    : brdf_(material.brdf),
+      view_(view),
+      n_(material.exponent),
+      ax_(material.alpha_x),
+      ay_(material.alpha_y),
+      shadowing_(material.shadowing),
+      mirror_(from_kernel(kernels.phong_mirror(to_kernel(view)))),
+      mirror_frame_(Frame::from_normal(mirror_)) {
+  switch (brdf_) {
+    case Brdf::lambert:
+    case Brdf::phong: plain_ = material.albedo; break;
+    case Brdf::ggx:
+      plain_ = material.f0;
+      fresnel_ = material.f90 - material.f0;
+      break;
+    case Brdf::blinn_phong:
+    case Brdf::beckmann: plain_ = {1, 1, 1}; break;
+  }
+}
+
+LobeValue Lobe::evaluate(Vec3d light) const {
+  if (!(light.z > 0) || !above_surface()) return {};
+  const KernelVec3 l = to_kernel(light), v = to_kernel(view_);
+  switch (brdf_) {
+    case Brdf::lambert: return {kernels.lambert_lobe(l).v, 0};
+    case Brdf::phong:
+      if (!(dot(light, mirror_) > 0)) return {};  // the kernel's power 0 knows no end of the lobe
+      return {kernels.phong_lobe(l, to_kernel(mirror_), n_).v, 0};
+    default: break;
+  }
+  const KernelVec3 h = kernels.microfacet_half_vector(l, v);
+  if (brdf_ == Brdf::blinn_phong)
+    return {kernels.microfacet_lobe_unshadowed(kernels.blinn_phong_distribution(h, n_), l, v).v, 0};
+  if (brdf_ == Brdf::beckmann)
+    return {kernels.microfacet_lobe_unshadowed(kernels.beckmann_distribution(h, ax_, ay_), l, v).v, 0};
+  const auto d = kernels.ggx_distribution(h, ax_, ay_);
+  const auto g = shadowing_ ? kernels.ggx_shadowing(l, v, ax_, ay_) : decltype(d)(1.0);
+  const double plain = kernels.microfacet_lobe_unshadowed(d * g, l, v).v;
+  return {plain, plain * kernels.fresnel_schlick(0.0, 1.0, dot(v, h)).v};
+}
+
+Vec3d Lobe::sample(double u, double v) const {
+  switch (brdf_) {
+    case Brdf::lambert: return sample_cosine_hemisphere(u, v);
+    case Brdf::phong: return mirror_frame_.to_world(sample_cosine_power(n_, u, v));
+    case Brdf::blinn_phong: return sample_reflection(view_, sample_blinn_phong_half_vector(n_, u, v));
+    case Brdf::beckmann: return sample_reflection(view_, sample_beckmann_half_vector(ax_, ay_, u, v));
+    case Brdf::ggx: return sample_reflection(view_, sample_ggx_visible_normal(view_, ax_, ay_, u, v));
+  }
+  return {};
+}
+
+double Lobe::pdf(Vec3d l) const {
+  if (brdf_ == Brdf::lambert) return pdf_cosine_hemisphere(l);
+  if (brdf_ == Brdf::phong) return pdf_cosine_power(n_, dot(l, mirror_));
+  const Vec3d h = normalized(l + view_);
+  double half_vector_pdf = 0;
+  if (brdf_ == Brdf::blinn_phong) half_vector_pdf = pdf_blinn_phong_half_vector(n_, h);
+  if (brdf_ == Brdf::beckmann) half_vector_pdf = pdf_beckmann_half_vector(ax_, ay_, h);
+  if (brdf_ == Brdf::ggx) half_vector_pdf = pdf_ggx_visible_normal(view_, ax_, ay_, h);
+  return pdf_reflection(view_, h, half_vector_pdf);
+}
+
+LobeValue Lobe::largest_factors() const { return {largest_component(plain_), largest_component(fresnel_)}; }
+
+LobeShape Lobe::shape() const {
+  const Frame frame = mirror_frame_;
+  if (brdf_ == Brdf::lambert) return {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1.0, false};
+  if (brdf_ == Brdf::phong) return {mirror_, frame.x, frame.y, 1 / std::sqrt(n_ + 1), false};
+
+  // h = normal + d turns the mirrored view by 2 (v.d) normal + 2 v_z d. Towards grazing the lobe is no longer linear in d
+  // within its width; a floor under v_z keeps the axes those of its bulk.
+  const double blinn = std::sqrt(2 / (n_ + 2));
+  const double ax = std::min(brdf_ == Brdf::blinn_phong ? blinn : ax_, 1.0);
+  const double ay = std::min(brdf_ == Brdf::blinn_phong ? blinn : ay_, 1.0);
+  const double vz = std::max(view_.z, std::max(ax, ay));
+  const Vec3d x = Vec3d{vz, 0, view_.x} * (2 * ax), y = Vec3d{0, vz, view_.y} * (2 * ay);
+  const double width = std::max(length(x), length(y));
+  return {mirror_, x / width, y / width, width, brdf_ == Brdf::ggx};
+}
+
+double Lobe::sensitivity() const {
+  switch (brdf_) {
+    case Brdf::lambert: return 1;
+    case Brdf::phong: return 1 + n_;
+    // log h_z moves by the rounding of h_z, which the length of l + v >= 2 v_z enlarges.
+    case Brdf::blinn_phong: return 1 + n_ / std::max(view_.z, 1e-6);
+    case Brdf::ggx:
+    case Brdf::beckmann: return 1 + 4 / (std::min({ax_, ay_, 1.0}) * std::max(view_.z, 1e-6));
+  }
+  return 1;
+}
+
+Vec3d Lobe::ending_plane() const { return brdf_ == Brdf::phong ? mirror_ : Vec3d{}; }
+
+}  // namespace steradian::reference

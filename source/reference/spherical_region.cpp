@@ -1,0 +1,73 @@
+#include "reference/spherical_region.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace steradian::reference {
+namespace {
+
+// Sutherland, Hodgman, "Reentrant polygon clipping", 1974; on rays, so that no vertex need be in front of anything.
+void clip(const std::vector<Vec3d>& contour, Vec3d plane, std::vector<Vec3d>& result) {
+  result.clear();
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Vec3d& p = contour[i == 0 ? contour.size() - 1 : i - 1];
+    const Vec3d& q = contour[i];
+    const double dp = dot(p, plane), dq = dot(q, plane);
+    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
+      const double wp = std::fabs(dq), wq = std::fabs(dp);
+      Vec3d x = (p * wp + q * wq) / (wp + wq);
+      x = x - plane * dot(x, plane);  // exactly on the plane: what follows relies on it not being below
+      result.push_back(x);
+    }
+    if (dq >= 0) result.push_back(q);
+  }
+}
+
+}  // namespace
+
+void SphericalRegion::assign(const PreparedPolygon& light, Vec3d position, const Frame& frame, const Vec3d* planes,
+                             int plane_count) {
+  arcs.clear();
+  magnification = 1;
+  const int side = light.side_of(position);
+  if (side == 0 || (side < 0 && !light.two_sided)) return;
+
+  for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
+    contour_.clear();
+    for (std::size_t i = light.contours[c]; i < light.contours[c + 1]; ++i) {
+      const Vec3d v = light.vertices[i] - position;
+      const double distance = length(v);
+      if (distance > 0)
+        magnification = std::max(magnification, (length(position) + length(light.vertices[i])) / distance);
+      contour_.push_back(frame.to_local(v));
+    }
+    for (int i = 0; i < plane_count; ++i) {
+      clip(contour_, planes[i], clipped_);
+      contour_.swap(clipped_);
+    }
+    const std::size_t first = arcs.size();
+    for (std::size_t i = 0; i < contour_.size(); ++i) {
+      const Vec3d& p = contour_[i];
+      const Vec3d& q = contour_[i + 1 == contour_.size() ? 0 : i + 1];
+      const Vec3d a = normalized(p), b = normalized(q);
+      // Of the difference: a x b would cancel for a tiny light.
+      const Vec3d n = cross(a, (q - p) / std::max(length(q), 1e-300));
+      const double sine = length(n);
+      if (!(sine > 0)) continue;
+      arcs.push_back({a, b, n / sine, std::atan2(sine, dot(a, b))});
+    }
+    if (side < 0) {
+      for (std::size_t i = first; i < arcs.size(); ++i) {
+        std::swap(arcs[i].a, arcs[i].b);
+        arcs[i].normal = -arcs[i].normal;
+      }
+    }
+  }
+}
+
+void SphericalRegion::assign_above_horizon(const PreparedPolygon& light, Vec3d position, const Frame& frame) {
+  const Vec3d horizon{0, 0, 1};
+  assign(light, position, frame, &horizon, 1);
+}
+
+}  // namespace steradian::reference
