@@ -76,6 +76,7 @@ void print_json(const std::vector<BenchResult>& results) {
 
 void add_bench(CLI::App& app, Exit&) {
   CLI::App* verb = app.add_subcommand("bench", "Time the integrals on this machine");
+  verb->group("This machine");
   auto options = std::make_shared<Options>();
   verb->add_option("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert")
       ->group("What")

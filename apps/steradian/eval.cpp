@@ -160,6 +160,7 @@ struct Options {
 
 void add_eval(CLI::App& app, Exit& exit) {
   CLI::App* verb = app.add_subcommand("eval", "Answer single integrals: JSON lines in, JSON lines out");
+  verb->group("Light");
   verb->footer(
       "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
       "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"

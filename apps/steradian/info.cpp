@@ -54,6 +54,7 @@ std::string text_of(const Json& value) {
 
 void add_info(CLI::App& app, Exit&) {
   CLI::App* verb = app.add_subcommand("info", "Print version, instruction sets, libraries and devices");
+  verb->group("This machine");
   auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "Print JSON");
   verb->callback([json] {
