@@ -259,12 +259,16 @@ TEST(Eval, SurvivesMutatedLines) {
     const std::size_t edits = 1 + below(3);
     for (std::size_t e = 0; e < edits; ++e) {
       const std::size_t at = below(line.size());
-      switch (below(5)) {
+      switch (below(8)) {
         case 0: line[at] = static_cast<char>(below(256)); break;
         case 1: line[at] = bytes[below(bytes.size())]; break;
         case 2: line.erase(at, 1 + below(4)); break;
         case 3: line.insert(at, 1, bytes[below(bytes.size())]); break;
-        default: line.insert(at, line.substr(below(line.size()), below(12))); break;
+        case 4: line.insert(at, line.substr(below(line.size()), below(12))); break;
+        default: {  // another digit: the line stays JSON
+          const std::size_t digit = line.find_first_of("0123456789", at);
+          if (digit != std::string::npos) line[digit] = static_cast<char>('0' + below(10));
+        }
       }
     }
     const std::string text = answer_text(line);
