@@ -3,8 +3,10 @@
 // The built-in acos and atan of shader compilers differ by up to 8e-5; these polynomials do not. Each exists for 24
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
+// Topics: trig
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
+// The one function without a topic: every kernel may use it.
 real pi() { return 3.14159265358979324; }
 
 // Degree 9, largest relative error 1.3e-08 before rounding.

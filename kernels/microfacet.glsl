@@ -2,6 +2,7 @@
 //
 // Frame: z the surface normal, x and y the directions of the widths ax and ay (equal where isotropic). l light,
 // v view, h half vector, all unit and pointing away from the surface. Width alpha = roughness squared, at least 1.0e-4.
+// Topics: microfacet, ggx, fresnel, beckmann
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Half vector of light and view. Degenerate: l = -v gives the zero vector.

@@ -1,4 +1,5 @@
 // Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
+// Topics: phong, blinn_phong
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).

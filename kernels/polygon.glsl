@@ -3,6 +3,8 @@
 // A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
 // way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
 // point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
+// Needs: inverse_trig.glsl
+// Topics: polygon, solid_angle
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The state of a walk.
@@ -41,6 +43,7 @@ vec3 polygon_edge(vec3 a, vec3 b) {
     return n * (0.5 * f);
 }
 
+// A walk before its first edge: no edges, and a horizon of angle 0.
 PolygonWalk polygon_begin() {
     PolygonWalk walk;
     walk.edges = vec3(0.0, 0.0, 0.0);

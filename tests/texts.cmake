@@ -1,0 +1,29 @@
+# Checks on texts rather than on results: the dialect of the kernels, every compiler that reads them, and the
+# symbols that keep instruction sets apart.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+file(GLOB kernel_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.glsl)
+
+add_test(NAME Dialect.KernelsKeepIt
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dialect_lint.py ${kernel_files})
+add_test(NAME Dialect.LintCatchesEveryBadSnippet
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dialect_lint_test.py)
+
+foreach(language glsl es hlsl)
+  add_test(NAME Dialect.KernelsCompileAs_${language}
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/shader_compilers.py ${language} ${PROJECT_SOURCE_DIR}/kernels)
+endforeach()
+
+# Unoptimised and sanitised units keep out-of-line copies; only the release is shipped, and only it is checked.
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  foreach(isa ${STERADIAN_INSTRUCTION_SETS})
+    add_test(NAME Packs.SymbolsNameTheirInstructionSet_${isa}
+      COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/pack_symbols.py ${CMAKE_NM} ${isa}
+              $<TARGET_OBJECTS:steradian_pack_${isa}>
+      COMMAND_EXPAND_LISTS)
+  endforeach()
+  add_library(steradian_leaking_unit OBJECT leaking_unit.cpp)
+  add_test(NAME Packs.SymbolTestFindsALeak
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/pack_symbols.py ${CMAKE_NM} avx512
+            $<TARGET_OBJECTS:steradian_leaking_unit>)
+  set_tests_properties(Packs.SymbolTestFindsALeak PROPERTIES PASS_REGULAR_EXPRESSION "W steradian::leaks.float.")
+endif()

@@ -9,6 +9,11 @@
 #define STERADIAN_ISA isa_portable
 #endif
 
+// Inline from the first mention on: later ones (source/core/simd.h) only name it.
+namespace steradian {
+inline namespace STERADIAN_ISA {}
+}  // namespace steradian
+
 #define STERADIAN_BEGIN_ISA \
   namespace steradian {     \
   inline namespace STERADIAN_ISA {

@@ -32,6 +32,8 @@ struct Kernels {
 
 #include "polygon.glsl"
 
+#include "ellipsoid.glsl"
+
 #include "lambert.glsl"
 
 #include "phong.glsl"

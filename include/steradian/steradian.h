@@ -3,5 +3,7 @@
 
 #include "steradian/error.h"
 #include "steradian/kernels.h"
+#include "steradian/load_scene.h"
 #include "steradian/polygon_light.h"
+#include "steradian/scene.h"
 #include "steradian/version.h"

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "steradian/config.h"
+
 namespace steradian {
 
 enum class Simd { sse2, avx2, avx512 };

@@ -1,5 +1,5 @@
-#include "core/pack.h"
 #include "render/cpu/irradiance.h"
+#include "render/cpu/polygon_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
@@ -24,19 +24,9 @@ __attribute__((flatten)) void irradiance(const PreparedPolygon& light, const Sur
       continue;
     }
     const auto frame = k.frame_from_normal(n);
-    const auto direction = [&](const Vec3d& v) {
-      return k.polygon_direction(transform_transposed(frame, PackVec3(v.x, v.y, v.z) - p));
-    };
     auto walk = k.polygon_begin();
-    for (std::size_t c = 0; c < contour_count; ++c) {
-      const std::size_t begin = contours[c], end = contours[c + 1];
-      PackVec3 previous = direction(vertices[end - 1]);
-      for (std::size_t j = begin; j < end; ++j) {
-        const PackVec3 next = direction(vertices[j]);
-        walk = k.polygon_add_edge(walk, previous, next);
-        previous = next;
-      }
-    }
+    walk_contours(vertices, contours, contour_count, frame, p,
+                  [&](const PackVec3& a, const PackVec3& b) { walk = k.polygon_add_edge(walk, a, b); });
     store(result + i, select(lit, k.polygon_irradiance(walk, behind), PackReal(0.0)));
   }
 }

@@ -1,0 +1,127 @@
+// steradian render SCENE -o IMAGE
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/progress.h"
+#include "core/simd.h"
+#include "steradian/error.h"
+#include "steradian/load_scene.h"
+#include "steradian/render.h"
+#include "steradian/version.h"
+#include "verbs.h"
+
+namespace steradian::app {
+namespace {
+
+struct Options {
+  std::string scene, output, size = "1280x720", backend = "cpu", shadows = "off", stats, command;
+  double exposure = 0;
+  int max_lights = 256;
+  RenderOptions render;
+};
+
+// "1280x720" to two ints. The limit keeps a slip of the finger from asking for terabytes.
+void parse_size(const std::string& text, RenderOptions& render) {
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used) == 2 &&
+      static_cast<std::size_t>(used) == text.size() && render.width >= 1 && render.height >= 1 &&
+      render.width <= 16384 && render.height <= 16384)
+    return;
+  throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
+}
+
+nlohmann::ordered_json stats_json(const Options& options, const RenderStats& stats) {
+  nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+  for (const PassTime& pass : stats.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
+  return {{"version", version()},
+          {"command", options.command},
+          {"backend", options.backend},
+          {"device", "cpu"},
+          {"simd", name_of(active_simd())},
+          {"threads", stats.threads},
+          {"width", options.render.width},
+          {"height", options.render.height},
+          {"seed", options.render.seed},
+          {"lights", stats.lights},
+          {"triangles", stats.triangles},
+          {"method", stats.method},
+          {"passes", passes},
+          {"total_ms", stats.total_ms}};
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+void run(Options& options) {
+  RenderOptions& render_options = options.render;
+  parse_size(options.size, render_options);
+  render_options.shadows = options.shadows == "on";
+
+  const LoadedScene loaded = load_scene(options.scene, {options.max_lights});
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
+
+  std::unique_ptr<Progress> progress;
+  render_options.progress = [&](std::uint64_t, std::uint64_t total) {
+    static std::once_flag once;
+    std::call_once(once, [&] { progress = std::make_unique<Progress>("render", total); });
+    progress->add();
+  };
+  RenderStats stats;
+  Picture picture = render(loaded.scene, render_options, &stats);
+  progress.reset();
+
+  picture.metadata = {{"steradian.version", version()},
+                      {"steradian.scene", options.scene},
+                      {"steradian.method", stats.method},
+                      {"steradian.shadows", options.shadows},
+                      {"steradian.size", options.size},
+                      {"steradian.aa", std::to_string(render_options.aa)},
+                      {"steradian.seed", std::to_string(render_options.seed)},
+                      {"steradian.exposure", fmt::format("{}", options.exposure)}};
+  write_picture(picture, options.output, static_cast<float>(options.exposure));
+  if (!options.stats.empty()) write_text(options.stats, stats_json(options, stats).dump(2) + "\n");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Exit&) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("render", "Render a scene (.gltf, .glb) to a picture (.exr linear, .png tone mapped)");
+  RenderOptions& r = options->render;
+  verb->add_option("SCENE", options->scene, "scene file")->required();
+  verb->add_option("-o,--output", options->output, "picture: .exr or .png")->required();
+  verb->add_option("--method", r.method, "how specular light is done")
+      ->check(CLI::IsMember({"auto", "exact", "sampled", "reference"}))
+      ->group("Light");
+  verb->add_option("--shadows", options->shadows, "cast shadows (reference methods only)")
+      ->check(CLI::IsMember({"off", "on"}))
+      ->group("Light");
+  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")
+      ->check(CLI::Range(1, 1 << 20))
+      ->group("Light");
+  verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->group("Picture");
+  verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
+  verb->add_option("--exposure", options->exposure, "stops, of .png")->check(CLI::Range(-30.0, 30.0))->group("Picture");
+  verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
+  verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample")
+      ->check(CLI::Range(1, 1 << 20))
+      ->group("Sampling");
+  verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->group("Sampling");
+  verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
+  verb->add_option("--backend", options->backend, "where to compute")->check(CLI::IsMember({"cpu"}))->group("Machine");
+  verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
+  verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")
+      ->group("Machine");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace steradian::app

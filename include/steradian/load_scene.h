@@ -1,0 +1,27 @@
+// load_scene: a glTF 2.0 file (.gltf or .glb) to a Scene. What is read and what is not: docs/scenes.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "steradian/scene.h"
+
+namespace steradian {
+
+struct LoadOptions {
+  int max_lights = 256;  // area lights kept, strongest first (AreaLight::power); at least 1
+};
+
+struct LoadedScene {
+  Scene scene;
+  std::vector<std::string>
+      warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
+};
+
+// Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file
+// without lights gets a default area light, one without cameras a camera that frames the scene; both are said
+// in a warning. Throws Error with file, place in the file and what to do for everything that is broken or
+// required but unsupported.
+LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
+
+}  // namespace steradian

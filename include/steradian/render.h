@@ -1,0 +1,46 @@
+// render: a scene to a picture on the CPU.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "steradian/picture.h"
+#include "steradian/scene.h"
+
+namespace steradian {
+
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  std::string camera;          // name; empty: the first
+  std::string method = "auto"; // of the specular lobe, see docs/methods
+  bool shadows = false;        // reference methods only
+  int aa = 1;                  // primary samples a pixel, at the same places in every pixel
+  int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
+  double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
+  std::uint64_t seed = 1;
+  int threads = 0;             // 0: all
+  std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
+};
+
+struct PassTime {
+  std::string name;
+  double ms = 0;  // thread time over threads
+};
+
+struct RenderStats {
+  std::vector<PassTime> passes;
+  double total_ms = 0;
+  int threads = 0;
+  std::string method;  // what `auto` became
+  std::size_t lights = 0;
+  std::size_t triangles = 0;
+};
+
+// Throws Error for a camera that is not there and for a method that does not serve a lobe of the scene.
+// The same scene, options and seed give the same bytes at any number of threads.
+Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats = nullptr);
+
+}  // namespace steradian

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "steradian/compare.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+void check_finite(const Picture& picture, const char* which) {
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (!is_finite(picture.at(x, y)))
+        throw Error(which, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is not finite");
+}
+
+// 0/0 is no difference at all; x/0 is one beyond measure.
+double ratio(double a, double b, double both_zero) {
+  if (b != 0) return a / b;
+  return a == 0 ? both_zero : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Difference difference(const Picture& a, const Picture& b) {
+  if (a.width != b.width || a.height != b.height)
+    throw Error("", "the pictures differ in size: " + std::to_string(a.width) + " x " + std::to_string(a.height) +
+                        " and " + std::to_string(b.width) + " x " + std::to_string(b.height));
+  check_finite(a, "first picture");
+  check_finite(b, "second picture");
+  Difference d;
+  double square = 0, square_b = 0, sum_a = 0, sum_b = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      const auto pa = static_cast<Vec3d>(a.at(x, y)), pb = static_cast<Vec3d>(b.at(x, y));
+      const Vec3d e = pa - pb;
+      square += dot(e, e);
+      square_b += dot(pb, pb);
+      sum_a += pa.x + pa.y + pa.z;
+      sum_b += pb.x + pb.y + pb.z;
+      const double largest = std::max({std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)});
+      if (largest > d.max) {
+        d.max = largest;
+        d.max_x = x;
+        d.max_y = y;
+      }
+    }
+  const double n = 3.0 * static_cast<double>(a.pixels.size());
+  d.rmse = n > 0 ? std::sqrt(square / n) : 0;
+  d.relative_l2 = std::sqrt(ratio(square, square_b, 0));
+  d.mean_ratio = ratio(sum_a, sum_b, 1);
+  return d;
+}
+
+}  // namespace steradian

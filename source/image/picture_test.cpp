@@ -1,0 +1,92 @@
+#include "steradian/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+std::string temporary(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / ("steradian_picture_test_" + std::to_string(getpid()) + name)).string();
+}
+
+Picture test_picture() {
+  Picture picture(7, 5);
+  picture.layers["variance"].resize(35);
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x) {
+      const float v = static_cast<float>(x) + 10.0f * static_cast<float>(y);
+      picture.at(x, y) = {v, v * 0.25f, 1e5f + v};
+      picture.layers["variance"][static_cast<std::size_t>(y * 7 + x)] = {1e-9f * v, -v, 0.5f};
+    }
+  picture.metadata["steradian.method"] = "exact";
+  return picture;
+}
+
+}  // namespace
+
+TEST(Picture, ExrKeepsEveryBitLayersAndMetadata) {
+  const std::string path = temporary(".exr");
+  const Picture a = test_picture();
+  write_picture(a, path);
+  const Picture b = read_picture(path);
+  ASSERT_EQ(b.width, 7);
+  ASSERT_EQ(b.height, 5);
+  EXPECT_EQ(a.pixels, b.pixels);
+  EXPECT_EQ(a.layers, b.layers);
+  EXPECT_EQ(b.metadata.at("steradian.method"), "exact");
+  std::filesystem::remove(path);
+}
+
+TEST(Picture, PngIsToneMappedAndCarriesText) {
+  const std::string path = temporary(".png");
+  Picture a(2, 1);
+  a.at(0, 0) = {0.18f, 0.18f, 0.18f};
+  a.metadata["steradian.method"] = "exact";
+  write_picture(a, path);
+  const Picture b = read_picture(path);
+  // Neutral grey passes through the curve less its 0.04 offset; 8 bits of sRGB resolve 0.004 here.
+  EXPECT_NEAR(b.at(0, 0).x, 0.14f, 0.004f);
+  EXPECT_EQ(b.at(1, 0).y, 0.0f);
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(bytes.find(std::string("steradian.method\0exact", 22)), std::string::npos);
+  std::filesystem::remove(path);
+}
+
+TEST(Picture, SrgbFunctionsAreInverse) {
+  for (int i = 0; i <= 255; ++i) {
+    const float e = static_cast<float>(i) / 255.0f;
+    EXPECT_NEAR(srgb_encode(srgb_decode(e)), e, 1e-6f);
+  }
+}
+
+TEST(Picture, ToneCurveRisesAndStaysInRange) {
+  float last = -1;
+  for (int i = 0; i < 400; ++i) {
+    const float x = static_cast<float>(i) * 0.05f;
+    const float y = tone_map({x, x, x}, 0.0f).x;
+    EXPECT_GE(y, last);
+    EXPECT_LE(y, 1.0f);
+    last = y;
+  }
+}
+
+TEST(Picture, BadFilesAreRefusedWithTheirName) {
+  EXPECT_THROW(write_picture(test_picture(), temporary(".bmp")), Error);
+  EXPECT_THROW(write_picture(test_picture(), "/nonexistent/folder/a.exr"), Error);
+  EXPECT_THROW(read_picture("/nonexistent.exr"), Error);
+  const std::string path = temporary("_bad.exr");
+  std::ofstream(path) << "not a picture";
+  EXPECT_THROW(read_picture(path), Error);
+  std::filesystem::remove(path);
+}
+
+}  // namespace steradian

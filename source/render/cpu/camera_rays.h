@@ -1,0 +1,30 @@
+// Primary rays: where in a pixel they start, and their directions.
+#pragma once
+
+#include "steradian/scene.h"
+
+namespace steradian {
+
+// Place of sample `index` of `count` within the pixel, in [0, 1)^2: the centre for one sample, the additive
+// recurrence of the plastic number for more (Roberts 2018), which stays even for any count. Every pixel has the same
+// places, so that methods and references see the same points.
+struct PixelPlace {
+  float x, y;
+};
+PixelPlace pixel_place(int index, int count);
+
+class CameraRays {
+ public:
+  CameraRays(const Camera& camera, int width, int height);
+  Vec3f origin() const { return origin_; }
+  // Unit direction through a place in the picture, in pixels from its upper left corner.
+  Vec3f direction(float x, float y) const { return normalized(corner_ + right_ * x + down_ * y); }
+
+ private:
+  Vec3f origin_, corner_, right_, down_;
+};
+
+// The camera of that name, the first for the empty name. Throws Error naming the cameras there are.
+const Camera& find_camera(const Scene& scene, const std::string& name);
+
+}  // namespace steradian

@@ -1,0 +1,39 @@
+// Lights as packs read them, and which of them can reach a tile.
+#pragma once
+
+#include <vector>
+
+#include "render/cpu/tile.h"
+#include "steradian/scene.h"
+
+namespace steradian {
+
+struct PackLight {
+  enum class Kind { polygon, ellipsoid, point, spot, directional };
+  Kind kind = Kind::polygon;
+  Vec3f radiance{};  // punctual lights: intensity (illuminance for directional)
+
+  // polygon, in walk order
+  std::vector<Vec3f> vertices;
+  std::vector<std::size_t> contours;
+  Vec3f plane_normal{}, plane_point{};
+  bool two_sided = false;
+
+  // ellipsoid: centre, half axes, and the rows of the matrix that takes it to the unit sphere
+  Vec3f center{}, axis_x{}, axis_y{}, axis_z{};
+  Vec3f unit_x{}, unit_y{}, unit_z{};
+
+  // punctual
+  Vec3f position{}, direction{};
+  float inverse_range2 = 0;  // 1 / range^2, 0 without a limit
+  float spot_scale = 0, spot_offset = 1;
+};
+
+// All lights of a scene. Lights without area, power or volume are left out.
+std::vector<PackLight> prepare_lights(const Scene& scene);
+
+// Lights that may reach a surface of the tile: conservative bounds of positions and normals against the light's plane
+// and the surfaces' horizons.
+std::vector<const PackLight*> lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile);
+
+}  // namespace steradian

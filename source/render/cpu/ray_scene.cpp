@@ -1,0 +1,121 @@
+#include "render/cpu/ray_scene.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "render/cpu/surface.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+constexpr unsigned kSeenByCamera = 1;
+constexpr unsigned kCastsShadow = 2;
+
+template <class T>
+void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, const T* data,
+                 std::size_t count) {
+  void* target = rtcSetNewGeometryBuffer(geometry, type, 0, format, item, count);
+  if (target == nullptr) throw Error("", "out of memory for " + std::to_string(count) + " triangles or vertices");
+  std::memcpy(target, data, item * count);
+}
+
+}  // namespace
+
+// Cut-out materials: a hit where alpha is below the cutoff is none.
+struct RayScene::AlphaTest {
+  const Scene& scene;
+  const Mesh& mesh;
+
+  static void filter(const RTCFilterFunctionNArguments* args) {
+    const auto& self = *static_cast<const AlphaTest*>(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+      if (args->valid[i] == 0) continue;
+      const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+      const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+      const SurfaceMaterial& material = self.scene.materials[static_cast<std::size_t>(self.mesh.material)];
+      if (base_color_at(self.scene, self.mesh, triangle, u, v).w < material.alpha_cutoff) args->valid[i] = 0;
+    }
+  }
+};
+
+RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")), rtc_(nullptr) {
+  if (device_ == nullptr) throw Error("", "Embree finds no device");
+  rtc_ = rtcNewScene(device_);
+  rtcSetSceneBuildQuality(rtc_, RTC_BUILD_QUALITY_MEDIUM);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    if (mesh.indices.empty()) continue;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(),
+                mesh.positions.size());
+    copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(),
+                mesh.triangle_count());
+    rtcSetGeometryMask(geometry, mesh.is_light_shape ? kSeenByCamera : kSeenByCamera | kCastsShadow);
+    if (scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask) {
+      alpha_tests_.push_back(std::make_unique<AlphaTest>(AlphaTest{scene, mesh}));
+      rtcSetGeometryUserData(geometry, alpha_tests_.back().get());
+      rtcSetGeometryIntersectFilterFunction(geometry, AlphaTest::filter);
+      rtcSetGeometryOccludedFilterFunction(geometry, AlphaTest::filter);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(rtc_, geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(rtc_);
+}
+
+RayScene::~RayScene() {
+  rtcReleaseScene(rtc_);
+  rtcReleaseDevice(device_);
+}
+
+void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, rtc_, &context, &rays);
+}
+
+bool RayScene::intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  hit.ray = {origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f,
+             std::numeric_limits<float>::infinity(), kSeenByCamera, 0, 0};
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(rtc_, &context, &hit);
+  return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+namespace {
+
+bool blocked(RTCScene rtc, Vec3f from, Vec3f direction, float near, float far) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = {from.x, from.y, from.z, near, direction.x, direction.y, direction.z, 0.0f, far, kCastsShadow, 0, 0};
+  rtcOccluded1(rtc, &context, &ray);
+  return ray.tfar < 0;  // Embree's sign of a hit
+}
+
+// How far the origin of a shadow ray keeps off its surface: a few roundings of its coordinates.
+float offset_of(Vec3f p) {
+  return 1e-5f + 4e-6f * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+}
+
+}  // namespace
+
+bool RayScene::occluded(Vec3f from, Vec3f to) const {
+  const Vec3f d = to - from;
+  const float distance = length(d);
+  const float near = offset_of(from) + 1e-4f * std::min(distance, 1.0f), far = distance * (1.0f - 1e-4f) - offset_of(to);
+  if (!(far > near)) return false;
+  return blocked(rtc_, from, d / distance, near, far);
+}
+
+bool RayScene::occluded_towards(Vec3f from, Vec3f direction) const {
+  return blocked(rtc_, from, direction, offset_of(from) + 1e-4f, std::numeric_limits<float>::infinity());
+}
+
+}  // namespace steradian

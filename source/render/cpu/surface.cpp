@@ -1,0 +1,202 @@
+#include "render/cpu/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace steradian {
+namespace {
+
+constexpr float kMinAlpha = 1e-4f;
+constexpr float kCoatF0 = 0.04f;  // KHR_materials_clearcoat: a coat of index 1.5
+
+// Values at the corners of a triangle, blended.
+struct Corner {
+  std::uint32_t i0, i1, i2;
+  float w0, u, v;
+
+  Corner(const Mesh& mesh, unsigned triangle, float u_, float v_)
+      : i0(mesh.indices[3 * std::size_t{triangle}]),
+        i1(mesh.indices[3 * std::size_t{triangle} + 1]),
+        i2(mesh.indices[3 * std::size_t{triangle} + 2]),
+        w0(1.0f - u_ - v_),
+        u(u_),
+        v(v_) {}
+  Vec3f operator()(const std::vector<Vec3f>& a) const { return a[i0] * w0 + a[i1] * u + a[i2] * v; }
+  Vec2f operator()(const std::vector<Vec2f>& a) const {
+    return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v};
+  }
+  Vec4f operator()(const std::vector<Vec4f>& a) const {
+    return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v,
+            a[i0].z * w0 + a[i1].z * u + a[i2].z * v, a[i0].w * w0 + a[i1].w * u + a[i2].w * v};
+  }
+};
+
+Vec4f texel(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use) {
+  if (!use.present()) return {1, 1, 1, 1};
+  const auto& set = mesh.texcoords[use.texcoord];
+  return sample_texture(scene.images, use, set.empty() ? Vec2f{} : at(set));
+}
+
+Vec4f base_color(const Scene& scene, const Mesh& mesh, const Corner& at, const SurfaceMaterial& m) {
+  Vec4f c = m.base_color;
+  const auto multiply = [&](Vec4f t) { c = {c.x * t.x, c.y * t.y, c.z * t.z, c.w * t.w}; };
+  if (m.base_color_texture.present()) multiply(texel(scene, mesh, at, m.base_color_texture));
+  if (!mesh.colors.empty()) multiply(at(mesh.colors));
+  return c;
+}
+
+Vec3f any_tangent(Vec3f n) { return static_cast<Vec3f>(Frame::from_normal(static_cast<Vec3d>(n)).x); }
+
+// The frame of tangent-space textures: the mesh's tangent made perpendicular to n.
+Vec3f tangent_of(const Mesh& mesh, const Corner& at, Vec3f n, float& handedness) {
+  handedness = 1;
+  if (mesh.tangents.empty()) return any_tangent(n);
+  const Vec4f t4 = at(mesh.tangents);
+  const Vec3f t{t4.x, t4.y, t4.z};
+  const Vec3f perpendicular = normalized(t - n * dot(n, t));
+  if (!(dot(perpendicular, perpendicular) > 0.5f)) return any_tangent(n);
+  handedness = t4.w < 0 ? -1.0f : 1.0f;
+  return perpendicular;
+}
+
+Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1 - t) + b * t; }
+
+}  // namespace
+
+Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v) {
+  const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+  return base_color(scene, mesh, Corner(mesh, triangle, u, v), m);
+}
+
+Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view) {
+  const Corner at(mesh, triangle, u, v);
+  const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+  Surface s;
+  s.material = &m;
+  s.position = at(mesh.positions);
+  const Vec3f& p0 = mesh.positions[at.i0];
+  const Vec3f geometric = cross(mesh.positions[at.i1] - p0, mesh.positions[at.i2] - p0);
+  const bool front = dot(geometric, view) >= 0;
+  Vec3f n = normalized(at(mesh.normals));
+  if (!(dot(n, n) > 0.5f)) n = normalized(geometric);
+  if (!front) n = -n;
+
+  const Vec4f base = base_color(scene, mesh, at, m);
+  const Vec3f color{base.x, base.y, base.z};
+  if (m.unlit) {
+    s.normal = n;
+    s.tangent = any_tangent(n);
+    s.emission = color;
+    return s;
+  }
+  if (m.emits() && (front || m.double_sided)) {
+    s.emission = m.emissive;
+    if (m.emissive_texture.present()) {
+      const Vec4f t = texel(scene, mesh, at, m.emissive_texture);
+      s.emission = s.emission * Vec3f{t.x, t.y, t.z};
+    }
+  }
+
+  float handedness = 1;
+  Vec3f t = tangent_of(mesh, at, n, handedness);
+  if (m.normal_texture.present()) {
+    const Vec4f c = texel(scene, mesh, at, m.normal_texture);
+    const float scale = m.normal_texture.scale;
+    const float side = front ? 1.0f : -1.0f;  // the back shows the bumps from inside
+    const Vec3f b = cross(n, t) * handedness;
+    const Vec3f bent = normalized(t * ((2 * c.x - 1) * scale * side) + b * ((2 * c.y - 1) * scale * side) +
+                                  n * std::max(2 * c.z - 1, 0.0f));
+    if (dot(bent, bent) > 0.5f && dot(bent, n) > 0) n = bent;
+    t = normalized(t - n * dot(n, t));
+    if (!(dot(t, t) > 0.5f)) t = any_tangent(n);
+  }
+  s.normal = n;
+
+  float metallic = m.metallic, roughness = m.roughness;
+  if (m.metallic_roughness_texture.present()) {
+    const Vec4f c = texel(scene, mesh, at, m.metallic_roughness_texture);
+    roughness *= c.y;
+    metallic *= c.z;
+  }
+  metallic = std::clamp(metallic, 0.0f, 1.0f);
+  const float alpha = std::clamp(roughness * roughness, kMinAlpha, 1.0f);
+  s.alpha_x = s.alpha_y = alpha;
+  s.tangent = t;
+  if (m.anisotropy > 0) {
+    float strength = m.anisotropy, angle = m.anisotropy_rotation;
+    if (m.anisotropy_texture.present()) {
+      const Vec4f c = texel(scene, mesh, at, m.anisotropy_texture);
+      angle += std::atan2(2 * c.y - 1, 2 * c.x - 1);
+      strength *= c.z;
+    }
+    // KHR_materials_anisotropy: the lobe widens along the rotated tangent towards alpha = 1.
+    s.alpha_x = alpha + (1 - alpha) * strength * strength;
+    s.tangent = t * std::cos(angle) + cross(n, t) * (handedness * std::sin(angle));
+  }
+
+  float specular = m.specular;
+  if (m.specular_texture.present()) specular *= texel(scene, mesh, at, m.specular_texture).w;
+  Vec3f specular_color = m.specular_color;
+  if (m.specular_color_texture.present()) {
+    const Vec4f c = texel(scene, mesh, at, m.specular_color_texture);
+    specular_color = specular_color * Vec3f{c.x, c.y, c.z};
+  }
+  const float r = (m.ior - 1) / (m.ior + 1);
+  const auto clamp1 = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
+  const Vec3f colored = specular_color * (r * r);
+  const Vec3f dielectric = Vec3f{clamp1(colored.x), clamp1(colored.y), clamp1(colored.z)} * specular;
+  s.albedo = color * ((1 - metallic) * (1 - std::max({dielectric.x, dielectric.y, dielectric.z})));
+  s.f0 = mix(dielectric, color, metallic);
+  s.f90 = mix(Vec3f{specular, specular, specular}, Vec3f{1, 1, 1}, metallic);
+
+  s.coat = m.clearcoat;
+  if (m.clearcoat_texture.present()) s.coat *= texel(scene, mesh, at, m.clearcoat_texture).x;
+  if (s.coat > 0) {
+    float coat_roughness = m.clearcoat_roughness;
+    if (m.clearcoat_roughness_texture.present())
+      coat_roughness *= texel(scene, mesh, at, m.clearcoat_roughness_texture).y;
+    s.coat_alpha = std::clamp(coat_roughness * coat_roughness, kMinAlpha, 1.0f);
+    // KHR_materials_clearcoat: what the coat reflects at the view's angle does not reach the layers below.
+    const float c = std::clamp(1 - std::fabs(dot(n, view)), 0.0f, 1.0f);
+    const float under = 1 - s.coat * (kCoatF0 + (1 - kCoatF0) * c * c * c * c * c);
+    s.albedo *= under;
+    s.f0 *= under;
+    s.f90 *= under;
+    s.emission *= under;
+  }
+  if (!m.specular_override.empty()) s.f0 = s.f90 = {};
+  return s;
+}
+
+std::vector<SurfaceLobe> lobes_of(const Surface& s) {
+  std::vector<SurfaceLobe> lobes;
+  const auto weighs = [](Vec3f w) { return w.x > 0 || w.y > 0 || w.z > 0; };
+  if (s.material->unlit) return lobes;
+  if (weighs(s.albedo)) {
+    Material m;
+    m.albedo = static_cast<Vec3d>(s.albedo);
+    lobes.push_back({m, {1, 1, 1}, true});
+  }
+  if (weighs(s.f0) || weighs(s.f90)) {
+    Material m;
+    m.brdf = Brdf::ggx;
+    m.alpha_x = s.alpha_x;
+    m.alpha_y = s.alpha_y;
+    m.tangent = static_cast<Vec3d>(s.tangent);
+    m.f0 = static_cast<Vec3d>(s.f0);
+    m.f90 = static_cast<Vec3d>(s.f90);
+    lobes.push_back({m, {1, 1, 1}, false});
+  }
+  for (const Material& m : s.material->specular_override) lobes.push_back({m, {1, 1, 1}, m.brdf == Brdf::lambert});
+  if (s.coat > 0) {
+    Material m;
+    m.brdf = Brdf::ggx;
+    m.alpha_x = m.alpha_y = s.coat_alpha;
+    m.f0 = Vec3d{kCoatF0, kCoatF0, kCoatF0} * static_cast<double>(s.coat);
+    m.f90 = Vec3d{1, 1, 1} * static_cast<double>(s.coat);
+    lobes.push_back({m, {1, 1, 1}, false});
+  }
+  return lobes;
+}
+
+}  // namespace steradian

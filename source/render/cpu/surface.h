@@ -1,0 +1,39 @@
+// What a hit on a mesh looks like to a light: position, normal, lobes. Scalar; one call a pixel.
+#pragma once
+
+#include "steradian/scene.h"
+
+namespace steradian {
+
+// The metallic-roughness surface at one point, textures looked up.
+//
+// Radiance = emission + diffuse + specular (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - max F0 of
+// the dielectric): what its specular lobe reflects at the normal does not reach it.
+struct Surface {
+  Vec3f position;
+  Vec3f normal;      // shading normal, unit, turned to the viewer's side
+  Vec3f tangent;     // unit, perpendicular to the normal: direction of alpha_x
+  Vec3f emission;    // radiance towards the viewer
+  Vec3f albedo;      // diffuse
+  Vec3f f0, f90;     // specular; both 0: no such lobe
+  float alpha_x = 1, alpha_y = 1;
+  float coat = 0, coat_alpha = 1;  // clear coat: weight, width; F0 0.04
+  const SurfaceMaterial* material = nullptr;
+};
+
+// Base colour with alpha, of a mesh's triangle at barycentric coordinates u, v (of the second and third vertex).
+Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v);
+
+// `view` points to the viewer, unit.
+Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view);
+
+// The lobes of a surface as the scalar integrators take them: diffuse, specular or its override, coat. Lobes of
+// zero weight are left out.
+struct SurfaceLobe {
+  Material material;
+  Vec3d weight{1, 1, 1};
+  bool diffuse = false;
+};
+std::vector<SurfaceLobe> lobes_of(const Surface& surface);
+
+}  // namespace steradian

@@ -1,0 +1,38 @@
+// SurfaceTile: the G-buffer of one tile, as a structure of arrays that packs read.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace steradian {
+
+inline constexpr int kTileSide = 32;
+inline constexpr std::size_t kTilePixels = std::size_t{kTileSide} * kTileSide;
+
+// Slot of pixel (x, y): blocks of 4 x 4 pixels, row by row. Sixteen neighbours in a pack (and in a packet of rays)
+// agree on branches far more often than sixteen pixels of a row.
+constexpr std::size_t tile_slot(int x, int y) {
+  const int block = (y / 4) * (kTileSide / 4) + x / 4;
+  return static_cast<std::size_t>(block * 16 + (y % 4) * 4 + x % 4);
+}
+
+using TilePlane = std::array<float, kTilePixels>;
+
+struct TileVector {
+  alignas(64) TilePlane x, y, z;
+};
+
+// Slots without a surface hold a normal of zero; every light sends them nothing.
+struct SurfaceTile {
+  TileVector position, normal, view;
+  TileVector albedo;          // diffuse
+  TileVector f0, f90;         // specular GGX, zero where there is none
+  TileVector tangent;
+  alignas(64) TilePlane alpha_x, alpha_y;
+  alignas(64) TilePlane coat, coat_alpha;
+  TileVector radiance;        // the result
+  std::array<const void*, kTilePixels> material;  // SurfaceMaterial of the slot, null without a surface
+  bool any_surface, any_diffuse, any_specular, any_coat, any_override;
+};
+
+}  // namespace steradian

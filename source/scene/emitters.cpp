@@ -1,0 +1,185 @@
+#include "scene/emitters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/merge_polygons.h"
+
+namespace steradian {
+namespace {
+
+// Samples per triangle side of a mean over a texture: at most this, whatever the texture's size.
+constexpr int kMostSamples = 64;
+
+struct UvMap {
+  Vec3d origin, du, dv;
+  double u0 = 0, v0 = 0;
+  bool valid = false;
+};
+
+Triangle world_triangle(const Mesh& mesh, std::size_t t) {
+  const auto at = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]); };
+  return {at(0), at(1), at(2)};
+}
+
+Vec2f texcoord(const Mesh& mesh, int set, std::size_t t, std::size_t corner) {
+  return mesh.texcoords[set].empty() ? Vec2f{} : mesh.texcoords[set][mesh.indices[3 * t + corner]];
+}
+
+// The gradients of u and v in the triangle's plane.
+UvMap uv_map(const Mesh& mesh, int set, std::size_t t) {
+  const Triangle p = world_triangle(mesh, t);
+  const Vec3d e1 = p[1] - p[0], e2 = p[2] - p[0], n = cross(e1, e2);
+  const double n2 = dot(n, n);
+  UvMap map;
+  if (!(n2 > 0)) return map;
+  const Vec3d g1 = cross(e2, n) / n2, g2 = cross(n, e1) / n2;  // dual to e1, e2
+  const Vec2f t0 = texcoord(mesh, set, t, 0), t1 = texcoord(mesh, set, t, 1), t2 = texcoord(mesh, set, t, 2);
+  const auto d = [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); };
+  map.origin = p[0];
+  map.du = g1 * d(t1.x, t0.x) + g2 * d(t2.x, t0.x);
+  map.dv = g1 * d(t1.y, t0.y) + g2 * d(t2.y, t0.y);
+  map.u0 = static_cast<double>(t0.x);
+  map.v0 = static_cast<double>(t0.y);
+  map.valid = true;
+  return map;
+}
+
+// Whether the texture map of `map` holds at the corners of triangle t, to a thousandth of the texture.
+bool continues(const UvMap& map, const Mesh& mesh, int set, std::size_t t) {
+  const Triangle p = world_triangle(mesh, t);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec2f uv = texcoord(mesh, set, t, c);
+    const Vec3d r = p[c] - map.origin;
+    if (std::fabs(dot(r, map.du) + map.u0 - static_cast<double>(uv.x)) > 1e-3) return false;
+    if (std::fabs(dot(r, map.dv) + map.v0 - static_cast<double>(uv.y)) > 1e-3) return false;
+  }
+  return map.valid;
+}
+
+int samples_per_side(const Image& image, const TextureUse& use, Vec2f a, Vec2f b, Vec2f c) {
+  const Vec2f ta = use.transformed(a), tb = use.transformed(b), tc = use.transformed(c);
+  const float du = std::max({ta.x, tb.x, tc.x}) - std::min({ta.x, tb.x, tc.x});
+  const float dv = std::max({ta.y, tb.y, tc.y}) - std::min({ta.y, tb.y, tc.y});
+  const float texels = std::max(du * static_cast<float>(image.width), dv * static_cast<float>(image.height));
+  return static_cast<int>(std::clamp(std::ceil(texels), 1.0f, static_cast<float>(kMostSamples)));
+}
+
+// Mean texel of a triangle: centroids of n^2 equal small triangles.
+Vec3d mean_texel(const Scene& scene, const TextureUse& use, Vec2f a, Vec2f b, Vec2f c) {
+  const int n = samples_per_side(scene.images[static_cast<std::size_t>(use.image)], use, a, b, c);
+  Vec3d sum{};
+  const auto add = [&](double i, double j) {
+    const auto u = static_cast<float>(i / n), v = static_cast<float>(j / n), w = 1 - u - v;
+    const Vec4f s =
+        sample_texture(scene.images, use, {a.x * w + b.x * u + c.x * v, a.y * w + b.y * u + c.y * v});
+    sum += static_cast<Vec3d>(Vec3f{s.x, s.y, s.z});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; i + j < n; ++j) {
+      add(i + 1 / 3.0, j + 1 / 3.0);
+      if (i + j + 1 < n) add(i + 2 / 3.0, j + 2 / 3.0);
+    }
+  return sum / (static_cast<double>(n) * n);
+}
+
+Vec3d mean_radiance(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m,
+                    const std::vector<std::size_t>& triangles) {
+  const Vec3d factor = static_cast<Vec3d>(m.emissive);
+  if (!m.emissive_texture.present()) return factor;
+  const int set = m.emissive_texture.texcoord;
+  Vec3d sum{};
+  double total = 0;
+  for (const std::size_t t : triangles) {
+    const Triangle p = world_triangle(mesh, t);
+    const double area = length(cross(p[1] - p[0], p[2] - p[0]));
+    sum += mean_texel(scene, m.emissive_texture, texcoord(mesh, set, t, 0), texcoord(mesh, set, t, 1),
+                      texcoord(mesh, set, t, 2)) *
+           area;
+    total += area;
+  }
+  return total > 0 ? factor * (sum / total) : Vec3d{};
+}
+
+AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) {
+  const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+  AreaLight light;
+  light.name = mesh.name.empty() ? m.name : mesh.name;
+  light.polygon.radiance = mean_radiance(scene, mesh, m, polygon.triangles);
+  light.polygon.two_sided = m.double_sided;
+  if (m.emissive_texture.present()) {
+    const UvMap map = uv_map(mesh, m.emissive_texture.texcoord, polygon.triangles.front());
+    light.texture = LightTexture{
+        m.emissive_texture, map.origin, map.du, map.dv, map.u0, map.v0, static_cast<Vec3d>(m.emissive)};
+  }
+  light.polygon.vertices = std::move(polygon.outline);
+  light.polygon.holes = std::move(polygon.holes);
+  light.power = luminance(light.polygon.radiance) * prepare_polygon(light.polygon).area;
+  return light;
+}
+
+}  // namespace
+
+std::size_t add_emitters(Scene& scene) {
+  std::size_t without_area = 0;
+  for (Mesh& mesh : scene.meshes) {
+    const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+    if (mesh.is_light_shape || m.unlit || !m.emits()) continue;
+    std::vector<Triangle> triangles;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) triangles.push_back(world_triangle(mesh, t));
+    const bool textured = m.emissive_texture.present();
+    const int set = m.emissive_texture.texcoord;
+    MergedPolygons merged = merge_coplanar(triangles, [&](std::size_t a, std::size_t b) {
+      return !textured || continues(uv_map(mesh, set, a), mesh, set, b);
+    });
+    without_area += merged.without_area;
+    mesh.triangle_lights.assign(triangles.size(), -1);
+    for (MergedPolygon& polygon : merged.polygons) {
+      for (const std::size_t t : polygon.triangles)
+        mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
+      scene.area_lights.push_back(to_light(scene, mesh, std::move(polygon)));
+    }
+  }
+  return without_area;
+}
+
+KeptLights keep_strongest(Scene& scene, std::size_t most) {
+  KeptLights result;
+  const std::size_t n = scene.area_lights.size();
+  std::vector<std::size_t> ranked(n);
+  std::iota(ranked.begin(), ranked.end(), std::size_t{0});
+  std::stable_sort(ranked.begin(), ranked.end(), [&](std::size_t a, std::size_t b) {
+    return scene.area_lights[a].power > scene.area_lights[b].power;
+  });
+  std::vector<bool> keep(n, false);
+  double all = 0, kept = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double power = scene.area_lights[ranked[i]].power;
+    all += power;
+    if (!(power > 0)) {
+      ++result.without_power;
+    } else if (i >= most) {
+      ++result.too_many;
+    } else {
+      keep[ranked[i]] = true;
+      kept += power;
+    }
+  }
+  result.share = all > 0 ? kept / all : 1;
+
+  std::vector<std::int32_t> renumbered(n, -1);
+  std::vector<AreaLight> lights;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!keep[i]) continue;
+    renumbered[i] = static_cast<std::int32_t>(lights.size());
+    lights.push_back(std::move(scene.area_lights[i]));
+  }
+  scene.area_lights = std::move(lights);
+  for (Mesh& mesh : scene.meshes)
+    for (std::int32_t& light : mesh.triangle_lights)
+      if (light >= 0) light = renumbered[static_cast<std::size_t>(light)];
+  return result;
+}
+
+}  // namespace steradian

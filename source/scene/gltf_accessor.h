@@ -1,0 +1,30 @@
+// Reads glTF accessors: typed arrays with strides, normalised integers and sparse replacements, all bounds
+// checked.
+#pragma once
+
+#include <string_view>
+
+#include "scene/gltf_document.h"
+
+namespace steradian {
+
+struct FloatArray {
+  std::size_t count = 0;
+  int components = 0;
+  std::vector<float> values;  // count times components; all finite
+};
+
+// How many elements an accessor claims, after the claim was found to be covered by its bytes.
+std::size_t checked_count(const GltfDocument& document, int accessor);
+
+// types: the allowed "type"s separated by spaces ("VEC3 VEC4"). Integers are taken as numbers, normalised
+// ones as [0, 1] or [-1, 1]. A value that is not finite is an Error where `finite` says so, else it becomes
+// 0.
+enum class NotFinite { refuse, zero };
+FloatArray read_floats(const GltfDocument& document, int accessor, std::string_view types,
+                       NotFinite finite = NotFinite::refuse);
+
+// Scalars (or, with types "VEC4", joints): unsigned integers only.
+std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int accessor, std::string_view types);
+
+}  // namespace steradian

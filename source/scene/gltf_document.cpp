@@ -1,0 +1,256 @@
+#include "scene/gltf_document.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+namespace steradian {
+namespace {
+
+// Deeper nesting than any real file has; parsers and destructors of nested values may recurse.
+constexpr int kMaxDepth = 200;
+
+Bytes read_file(const std::filesystem::path& path, const std::string& place) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    throw Error(place, "cannot find the file " + path.string(), "check the path");
+  if (!std::filesystem::is_regular_file(status)) throw Error(place, path.string() + " is not a regular file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(place, "cannot read the file " + path.string(), "check its permissions");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw Error(place, "cannot read the file " + path.string());
+  Bytes bytes(static_cast<std::size_t>(size));
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (file.gcount() != static_cast<std::streamsize>(bytes.size()))
+    throw Error(place, "the file " + path.string() + " ended while it was read");
+  return bytes;
+}
+
+std::uint32_t little_endian_32(const std::uint8_t* p) {
+  return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
+         std::uint32_t{p[3]} << 24;
+}
+
+void check_depth(std::string_view text, const std::string& path) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMaxDepth)
+        throw Error(path, "the JSON is nested more than " + std::to_string(kMaxDepth) + " deep");
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+nlohmann::json parse_json(std::string_view text, const std::string& path) {
+  check_depth(text, path);
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& e) {
+    // The library's message says line and column after its own prefix "[json.exception...] ".
+    std::string what = e.what();
+    if (const auto end = what.find("] "); end != std::string::npos) what = what.substr(end + 2);
+    // It may quote bytes of a binary file: keep what prints.
+    for (char& c : what)
+      if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
+    throw Error(path, "not valid JSON: " + what, "is this a glTF file?");
+  }
+}
+
+struct Container {
+  std::string_view json;
+  std::optional<std::span<const std::uint8_t>> binary;
+};
+
+bool is_glb(const Bytes& file) { return file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0; }
+
+Container split_glb(const Bytes& file, const std::string& path) {
+  const char* hint = "the file may be truncated; export it again";
+  if (file.size() < 20)
+    throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
+  const std::uint32_t version = little_endian_32(file.data() + 4);
+  if (version != 2)
+    throw Error(path, "header: version " + std::to_string(version) + " of the format, only 2 is read",
+                "convert it to glTF 2.0");
+  const std::uint32_t length = little_endian_32(file.data() + 8);
+  if (length > file.size() || length < 20)
+    throw Error(path,
+                "header: length " + std::to_string(length) + ", the file has " + std::to_string(file.size()) +
+                    " bytes",
+                hint);
+
+  Container container;
+  std::size_t at = 12;
+  for (int chunk = 0; at < length; ++chunk) {
+    const std::string place = path + ": chunk " + std::to_string(chunk);
+    if (length - at < 8) throw Error(place, "the header is cut off", hint);
+    const std::uint32_t size = little_endian_32(file.data() + at);
+    const std::uint32_t type = little_endian_32(file.data() + at + 4);
+    at += 8;
+    if (size > length - at)
+      throw Error(place,
+                  "claims " + std::to_string(size) + " bytes, " + std::to_string(length - at) + " are left",
+                  hint);
+    constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
+    if (chunk == 0) {
+      if (type != kJson) throw Error(place, "the first chunk must be JSON", hint);
+      container.json = {reinterpret_cast<const char*>(file.data()) + at, size};
+    } else if (type == kBinary && !container.binary) {
+      container.binary = std::span(file.data() + at, size);
+    }
+    at += size;
+  }
+  return container;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string percent_decoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0) {
+      result += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
+      i += 2;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+int base64_digit(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  if (c == '+' || c == '-') return 62;
+  if (c == '/' || c == '_') return 63;
+  return -1;
+}
+
+Bytes base64_decoded(std::string_view text, const std::string& place) {
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  if (text.size() % 4 == 1) throw Error(place, "the base64 data are cut off");
+  Bytes bytes;
+  bytes.reserve(text.size() * 3 / 4);
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int digit = base64_digit(text[i]);
+    if (digit < 0) throw Error(place, "not base64: character " + std::to_string(i) + " of the data");
+    bits = (bits << 6 | static_cast<std::uint32_t>(digit)) & 0xFFFFFF;
+    held += 6;
+    if (held >= 8) {
+      held -= 8;
+      bytes.push_back(static_cast<std::uint8_t>(bits >> held));
+    }
+  }
+  return bytes;
+}
+
+void read_buffers(GltfDocument& document, std::optional<std::span<const std::uint8_t>> binary) {
+  for (const JsonCursor& buffer : document.root().elements("buffers")) {
+    const auto claimed =
+        static_cast<std::size_t>(buffer.at("byteLength").as_integer(1, std::int64_t{1} << 53));
+    Bytes bytes;
+    if (const auto uri = buffer.find("uri")) {
+      bytes = read_uri(document, *uri);
+    } else {
+      if (!document.buffers.empty() || !binary)
+        buffer.fail("\"uri\" is missing", "only the first buffer of a .glb may take the binary chunk");
+      bytes.assign(binary->begin(), binary->end());
+    }
+    if (bytes.size() < claimed)
+      buffer.fail(
+          "byteLength is " + std::to_string(claimed) + ", its data have " + std::to_string(bytes.size()),
+          "the data may be truncated; export the file again");
+    bytes.resize(claimed);
+    document.buffers.push_back(std::move(bytes));
+  }
+}
+
+void check_version(const JsonCursor& root) {
+  const JsonCursor asset = root.at("asset");
+  const std::string version = asset.at("version").as_text();
+  if (version.substr(0, 2) != "2.")
+    asset.at("version").fail("glTF " + version + ", only 2.x is read", "convert it to glTF 2.0");
+}
+
+}  // namespace
+
+std::size_t GltfDocument::count(const char* array) const {
+  const auto it = json.find(array);
+  return it != json.end() && it->is_array() ? it->size() : 0;
+}
+
+JsonCursor GltfDocument::object(const char* array, int index) const {
+  return {json[array][static_cast<std::size_t>(index)],
+          path + ": " + array + "[" + std::to_string(index) + "]"};
+}
+
+Bytes read_uri(const GltfDocument& document, const JsonCursor& uri) {
+  const std::string text = uri.as_text();
+  if (text.starts_with("data:")) {
+    const auto comma = text.find(',');
+    if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64"))
+      uri.fail("a data URI must be \"data:...;base64,...\"");
+    return base64_decoded(std::string_view(text).substr(comma + 1), uri.place());
+  }
+  if (text.find("://") != std::string::npos)
+    uri.fail("files from the network are not read", "put the file beside the scene");
+  const std::string name = percent_decoded(text);
+  if (name.empty() || name.find('\0') != std::string::npos) uri.fail("is not a file name");
+  return read_file(std::filesystem::path(document.path).parent_path() / name, uri.place());
+}
+
+std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffer_view) {
+  const JsonCursor view = document.object("bufferViews", buffer_view);
+  constexpr std::int64_t kMax = std::int64_t{1} << 53;
+  const int buffer = view.at("buffer").as_index(document.buffers.size(), "buffer");
+  const auto offset = static_cast<std::size_t>(view.integer("byteOffset", 0, 0, kMax));
+  const auto length = static_cast<std::size_t>(view.at("byteLength").as_integer(1, kMax));
+  const Bytes& bytes = document.buffers[static_cast<std::size_t>(buffer)];
+  if (offset > bytes.size() || length > bytes.size() - offset)
+    view.fail("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) + " of buffer " +
+                  std::to_string(buffer) + ", which has " + std::to_string(bytes.size()),
+              "the file is broken; export it again");
+  return std::span(bytes).subspan(offset, length);
+}
+
+GltfDocument read_gltf(const std::string& path) {
+  const Bytes file = read_file(path, path);
+  if (file.empty()) throw Error(path, "the file is empty");
+  GltfDocument document;
+  document.path = path;
+  Container container{{reinterpret_cast<const char*>(file.data()), file.size()}, {}};
+  if (is_glb(file))
+    container = split_glb(file, path);
+  else if (path.ends_with(".glb"))
+    throw Error(path, "does not begin with \"glTF\"", "this is not a .glb file");
+  document.json = parse_json(container.json, path);
+  const JsonCursor root = document.root();
+  if (!document.json.is_object()) root.fail("the document must be a JSON object");
+  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
+                            "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
+    for (const JsonCursor& element : root.elements(array))
+      if (!element.value().is_object()) element.fail("must be an object");
+  check_version(root);
+  read_buffers(document, container.binary);
+  return document;
+}
+
+}  // namespace steradian

@@ -1,0 +1,195 @@
+#include "scene/gltf_lights.h"
+
+#include <cmath>
+#include <limits>
+
+namespace steradian {
+namespace {
+
+constexpr double kPi = 3.14159265358979324;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMostIntensity = 1e30;
+
+Vec3d read_color(const JsonCursor& light) {
+  const Vec3d c = light.vector("color", {1, 1, 1});
+  if (c.x < 0 || c.y < 0 || c.z < 0) light.at("color").fail("components must not be negative");
+  return c;
+}
+
+std::vector<JsonCursor> lights_of(const GltfDocument& document, const char* extension) {
+  const auto root = find_extension(document.root(), extension);
+  return root ? root->elements("lights") : std::vector<JsonCursor>{};
+}
+
+// Calls make(definition, node, transform) for every visible node that carries a light of the extension.
+template <class Make>
+void for_each_light(const GltfDocument& document, const GltfNodes& nodes, const char* extension, Make make) {
+  const auto lights = lights_of(document, extension);
+  for (const GltfNode& visible : nodes.visible) {
+    const JsonCursor node = document.object("nodes", visible.index);
+    const auto reference = find_extension(node, extension);
+    if (!reference) continue;
+    const int light = reference->at("light").as_index(lights.size(), "light");
+    make(lights[static_cast<std::size_t>(light)], node, visible.world);
+  }
+}
+
+// Half axes of a flat light in the node's plane z = 0, x cross y along the node's -z after the transform.
+Ellipse flat_axes(const Affine& world, double half_x, double half_y) {
+  Ellipse e{world.t, world.x * -half_x, world.y * half_y};
+  if (dot(cross(e.x, e.y), world.z) > 0) e.x = -e.x;
+  return e;
+}
+
+// Knud Thomsen's formula, within 1.1 % of an ellipsoid's surface: good enough to rank lights by.
+double ellipsoid_area(Vec3d x, Vec3d y, Vec3d z) {
+  constexpr double p = 1.6075;
+  const double a = std::pow(length(x), p), b = std::pow(length(y), p), c = std::pow(length(z), p);
+  return 4 * kPi * std::pow((a * b + a * c + b * c) / 3, 1 / p);
+}
+
+AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+  AreaLight light;
+  light.name = json.text("name", node.text("name", ""));
+  const std::string type = json.at("type").as_text();
+  const Vec3d radiance = read_color(json) * json.number("intensity", 1, 0, kMostIntensity);
+  const double half = json.number("size", 1, 0, 1e30) / 2;
+  double area = 0;
+  if (type == "rect") {
+    const auto rect = json.find("rect");
+    const double aspect = rect ? rect->number("aspect", 1, 0, 1e9) : 1;
+    const Ellipse e = flat_axes(world, half * aspect, half);
+    light.polygon.vertices = {e.center - e.x - e.y, e.center + e.x - e.y, e.center + e.x + e.y,
+                              e.center - e.x + e.y};
+    light.center = e.center;
+    area = 4 * length(cross(e.x, e.y));
+  } else if (type == "disk") {
+    const Ellipse e = flat_axes(world, half, half);
+    light.shape = LightShape::disk;
+    light.polygon = equal_area_polygon(e, radiance);
+    light.center = e.center;
+    light.x = e.x;
+    light.y = e.y;
+    area = kPi * length(cross(e.x, e.y));
+  } else if (type == "sphere") {
+    light.shape = LightShape::sphere;
+    light.center = world.t;
+    light.x = world.x * half;
+    light.y = world.y * half;
+    light.z = world.z * half;
+    area = ellipsoid_area(light.x, light.y, light.z);
+  } else {
+    json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk and sphere");
+  }
+  light.polygon.radiance = radiance;
+  light.power = luminance(radiance) * area;
+  if (!std::isfinite(light.power)) json.fail("the light leaves the range of numbers");
+  return light;
+}
+
+SurfaceMaterial material_of_light(const AreaLight& light) {
+  SurfaceMaterial m;
+  m.name = light.name;
+  m.base_color = {0, 0, 0, 1};
+  m.specular = 0;
+  m.metallic = 0;
+  m.emissive = static_cast<Vec3f>(light.polygon.radiance);
+  return m;
+}
+
+Mesh flat_mesh(const PolygonLight& polygon) {
+  Mesh mesh;
+  Vec3d area{};
+  const auto& v = polygon.vertices;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+    area += cross(v[i] - v[0], v[i + 1] - v[0]);
+    mesh.indices.insert(mesh.indices.end(),
+                        {0u, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 1)});
+  }
+  for (const Vec3d& p : v) mesh.positions.push_back(static_cast<Vec3f>(p));
+  mesh.normals.assign(v.size(), static_cast<Vec3f>(normalized(area)));
+  return mesh;
+}
+
+Mesh ellipsoid_mesh(const AreaLight& light) {
+  constexpr std::uint32_t kAround = 64, kDown = 32;
+  const Affine m{light.x, light.y, light.z, light.center};
+  Mesh mesh;
+  for (std::uint32_t j = 0; j <= kDown; ++j)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double theta = kPi * j / kDown, phi = 2 * kPi * i / kAround;
+      const Vec3d u{std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)};
+      mesh.positions.push_back(static_cast<Vec3f>(m.point(u)));
+      mesh.normals.push_back(static_cast<Vec3f>(m.normal(u)));
+    }
+  for (std::uint32_t j = 0; j < kDown; ++j)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const std::uint32_t a = j * kAround + i, b = j * kAround + (i + 1) % kAround, c = a + kAround,
+                          d = b + kAround;
+      if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, c, b});
+      if (j + 1 < kDown) mesh.indices.insert(mesh.indices.end(), {b, c, d});
+    }
+  if (m.determinant() < 0)
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+      std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh mesh_of_light(const AreaLight& light) {
+  Mesh mesh = light.shape == LightShape::sphere ? ellipsoid_mesh(light) : flat_mesh(light.polygon);
+  mesh.name = light.name;
+  mesh.is_light_shape = true;
+  return mesh;
+}
+
+void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
+  for_each_light(document, nodes, "EXT_lights_area",
+                 [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+                   AreaLight light = read_area_light(json, node, world);
+                   if (light.power > 0) {
+                     Mesh mesh = mesh_of_light(light);
+                     for (const Vec3f& p : mesh.positions)
+                       if (!is_finite(p)) node.fail("the light leaves the range of numbers");
+                     mesh.material = static_cast<int>(scene.materials.size());
+                     mesh.triangle_lights.assign(mesh.triangle_count(),
+                                                 static_cast<std::int32_t>(scene.area_lights.size()));
+                     scene.materials.push_back(material_of_light(light));
+                     scene.meshes.push_back(std::move(mesh));
+                   }
+                   scene.area_lights.push_back(std::move(light));
+                 });
+}
+
+std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes) {
+  std::vector<PunctualLight> result;
+  for_each_light(document, nodes, "KHR_lights_punctual",
+                 [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+                   PunctualLight light;
+                   light.name = json.text("name", node.text("name", ""));
+                   const std::string type = json.at("type").as_text();
+                   if (type == "spot")
+                     light.kind = PunctualKind::spot;
+                   else if (type == "directional")
+                     light.kind = PunctualKind::directional;
+                   else if (type != "point")
+                     json.at("type").fail("\"" + type + "\" is not a light",
+                                          "known are point, spot and directional");
+                   light.position = world.t;
+                   light.direction = normalized(world.vector({0, 0, -1}));
+                   light.intensity = read_color(json) * json.number("intensity", 1, 0, kMostIntensity);
+                   light.range = json.number("range", kInfinity, 1e-30, kInfinity);
+                   if (const auto spot = json.find("spot")) {
+                     const double outer = spot->number("outerConeAngle", kPi / 4, 1e-9, kPi / 2 + 1e-6);
+                     const double inner = spot->number("innerConeAngle", 0, 0, kPi / 2);
+                     if (inner >= outer) spot->fail("innerConeAngle must be less than outerConeAngle");
+                     light.cos_inner = std::cos(inner);
+                     light.cos_outer = std::fmax(std::cos(outer), 0.0);
+                   }
+                   result.push_back(light);
+                 });
+  return result;
+}
+
+}  // namespace steradian

@@ -1,0 +1,18 @@
+// EXT_lights_area and KHR_lights_punctual.
+#pragma once
+
+#include "scene/gltf_nodes.h"
+#include "steradian/scene.h"
+
+namespace steradian {
+
+// Appends the area lights of the visible nodes, and for each the mesh and the material by which the camera
+// sees it.
+void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene);
+
+std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes);
+
+// The triangles of a light's shape: a fan for flat ones, 64 x 32 quadrilaterals for an ellipsoid.
+Mesh mesh_of_light(const AreaLight& light);
+
+}  // namespace steradian

@@ -1,0 +1,17 @@
+// glTF meshes to triangle meshes in world space.
+#pragma once
+
+#include <vector>
+
+#include "scene/gltf_nodes.h"
+#include "scene/warnings.h"
+#include "steradian/scene.h"
+
+namespace steradian {
+
+// Every mesh of every visible node, one Mesh per primitive that makes triangles. Appends a default material
+// to `materials` where a primitive has none.
+std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nodes,
+                              std::vector<SurfaceMaterial>& materials, Warnings& warnings);
+
+}  // namespace steradian

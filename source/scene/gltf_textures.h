@@ -1,0 +1,33 @@
+// Textures of a glTF file: references checked, images decoded when first used.
+#pragma once
+
+#include <vector>
+
+#include "scene/gltf_document.h"
+#include "scene/warnings.h"
+#include "steradian/texture.h"
+
+namespace steradian {
+
+class GltfTextures {
+public:
+  GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings);
+
+  // The texture that member `key` of `owner` refers to; not present() where there is none or its format is
+  // not read.
+  TextureUse use(const JsonCursor& owner, const char* key, ColorSpace space);
+
+private:
+  int scene_image(int gltf_image);
+  int load_image(int gltf_image);
+  void apply_sampler(TextureUse& use, const JsonCursor& sampler) const;
+  void apply_transform(TextureUse& use, const JsonCursor& transform) const;
+
+  const GltfDocument& document_;
+  std::vector<Image>& images_;
+  Warnings& warnings_;
+  std::vector<int> loaded_;  // by glTF image: into images_, or one of the two states below
+  std::size_t texels_left_;
+};
+
+}  // namespace steradian

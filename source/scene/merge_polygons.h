@@ -1,0 +1,35 @@
+// Merges coplanar adjacent triangles into polygons with holes, so that a light of many triangles is one light
+// with few edges.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "steradian/vector.h"
+
+namespace steradian {
+
+using Triangle = std::array<Vec3d, 3>;
+
+struct MergedPolygon {
+  std::vector<Vec3d> outline;  // counter-clockwise as seen from the triangles' front
+  std::vector<std::vector<Vec3d>> holes;
+  std::vector<std::size_t> triangles;  // what it was made of
+};
+
+struct MergedPolygons {
+  std::vector<MergedPolygon> polygons;  // in the order of their first triangles
+  std::size_t without_area = 0;         // triangles left out: thinner than the rounding of their coordinates
+};
+
+// Triangles are adjacent where two corners are equal to the last bit and they face alike. may_join(a, b):
+// whether adjacent coplanar triangles a and b belong together (the same texture map, say).
+//
+// A patch whose outline is ambiguous (it touches itself in a corner, overlaps itself, has an edge of three
+// triangles) stays triangles: more edges, the same light.
+MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles,
+                              const std::function<bool(std::size_t, std::size_t)>& may_join);
+
+}  // namespace steradian
