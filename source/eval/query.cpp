@@ -235,7 +235,8 @@ Query QueryReader::read(std::string_view line) {
   if (error == simdjson::CAPACITY || error == simdjson::MEMALLOC)
     throw Error("", "the line is too long to be read");
   if (error != simdjson::SUCCESS)
-    throw Error("", std::string("not JSON: ") + simdjson::error_message(error));
+    throw Error("", std::string("not JSON: ") + simdjson::error_message(error),
+                "one object a line; numbers are decimals within the range of double, so no NaN and no Infinity");
 
   Query query;
   query.method = defaults_.method;
