@@ -1,6 +1,9 @@
 // steradian info: version and what this machine offers.
 #include <fmt/format.h>
+#include <xsimd/config/xsimd_config.hpp>
+#include <simdjson.h>
 
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/simd.h"
@@ -8,15 +11,60 @@
 #include "verbs.h"
 
 namespace steradian::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Everything that info says, by key; the text form prints the same. A new fact is one more entry.
+Json facts() {
+  Json info;
+  info["version"] = version();
+#if defined(__clang__)
+  info["compiler"] = "clang " __clang_version__;
+#else
+  info["compiler"] = "g++ " __VERSION__;
+#endif
+  info["instruction_sets"] = Json::array();
+  for (const Simd simd : available_simd()) info["instruction_sets"].push_back(name_of(simd));
+  info["simd"] = name_of(active_simd());
+  info["lanes"] = lanes_of(active_simd());
+  info["threads"] = std::thread::hardware_concurrency();
+  const auto dotted = [](int a, int b, int c) { return fmt::format("{}.{}.{}", a, b, c); };
+  info["libraries"] = {
+      {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)},
+      {"simdjson", dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR,
+                          simdjson::SIMDJSON_VERSION_REVISION)},
+      {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"cli11", CLI11_VERSION},
+  };
+  return info;
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [key, item] : value.items())
+    text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : std::string()) + text_of(item);
+  return text;
+}
+
+}  // namespace
 
 void add_info(CLI::App& app, Exit&) {
-  CLI::App* verb = app.add_subcommand("info", "Print version, instruction sets and devices");
-  verb->callback([] {
-    fmt::print("version           {}\n", version());
-    fmt::print("instruction sets ");
-    for (Simd simd : available_simd()) fmt::print(" {}", name_of(simd));
-    fmt::print("\nin use            {} ({} lanes)\n", name_of(active_simd()), lanes_of(active_simd()));
-    fmt::print("threads           {}\n", std::thread::hardware_concurrency());
+  CLI::App* verb = app.add_subcommand("info", "Print version, instruction sets, libraries and devices");
+  verb->group("This machine");
+  auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "Print JSON");
+  verb->callback([json] {
+    const Json info = facts();
+    if (*json) return fmt::print("{}\n", info.dump(1));
+    for (auto [key, value] : info.items()) {
+      std::string label = key;
+      std::replace(label.begin(), label.end(), '_', ' ');
+      fmt::print("{:<17} {}\n", label, text_of(value));
+    }
   });
 }
 

@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   app.get_formatter()->column_width(36);
 
   steradian::app::Exit exit;
+  steradian::app::add_eval(app, exit);
+  steradian::app::add_bench(app, exit);
   steradian::app::add_diff(app, exit);
   steradian::app::add_render(app, exit);
   steradian::app::add_info(app, exit);

@@ -10,6 +10,8 @@ struct Exit {
   int code = 0;
 };
 
+void add_eval(CLI::App& app, Exit& exit);
+void add_bench(CLI::App& app, Exit& exit);
 void add_diff(CLI::App& app, Exit& exit);
 void add_render(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);

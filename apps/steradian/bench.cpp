@@ -1,0 +1,98 @@
+// steradian bench: how long the integrals take on this machine.
+#include "core/bench.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "../../bench/benches.h"
+#include "core/progress.h"
+#include "steradian/error.h"
+#include "verbs.h"
+
+namespace steradian::app {
+namespace {
+
+struct Options {
+  std::string filter, simd;
+  double min_time = 0.5;
+  bool json = false;
+};
+
+std::vector<BenchResult> run(const Options& options) {
+  if (!options.simd.empty()) setenv("STERADIAN_SIMD", options.simd.c_str(), 1);
+  BenchOptions bench_options;
+  bench_options.min_time = options.min_time;
+  const BenchList list = bench::all_benches();
+  std::vector<const BenchList::Entry*> chosen;
+  for (const auto& entry : list.entries())
+    if (entry.name.starts_with(options.filter)) chosen.push_back(&entry);
+  if (chosen.empty()) {
+    std::string names;
+    for (const auto& entry : list.entries()) names += " " + entry.name;
+    throw Error("--filter", "no bench begins with " + options.filter, "there are" + names);
+  }
+  std::vector<BenchResult> results;
+  Progress progress("bench", chosen.size());
+  for (const auto* entry : chosen) {
+    results.push_back(run_bench(entry->make(bench_options), bench_options));
+    progress.add();
+  }
+  return results;
+}
+
+// How many times faster than the scalar form of the same bench, if that ran too: "8.3 x scalar".
+std::string against_scalar(const std::vector<BenchResult>& results, const BenchResult& r) {
+  for (const BenchResult& other : results) {
+    constexpr std::string_view kScalar = "/scalar";
+    if (!other.name.ends_with(kScalar) || other.name == r.name) continue;
+    const std::string base = other.name.substr(0, other.name.size() - kScalar.size());
+    if (r.name == base || r.name.starts_with(base + "/"))
+      return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
+  }
+  return {};
+}
+
+void print_table(const std::vector<BenchResult>& results) {
+  fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd");
+  for (const BenchResult& r : results)
+    fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms,
+               r.runs, r.simd, against_scalar(results, r));
+}
+
+void print_json(const std::vector<BenchResult>& results) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const BenchResult& r : results) {
+    nlohmann::ordered_json one = {{"name", r.name},           {"items", r.items}, {"ns_per_item", r.ns_per_item},
+                                  {"median_ms", r.median_ms}, {"runs", r.runs},   {"fastest_ms", r.fastest_ms}};
+    if (!r.simd.empty()) one["simd"] = r.simd;
+    all.push_back(std::move(one));
+  }
+  fmt::print("{}\n", all.dump(1));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Exit&) {
+  CLI::App* verb = app.add_subcommand("bench", "Time the integrals on this machine");
+  verb->group("This machine");
+  auto options = std::make_shared<Options>();
+  verb->add_option("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert")
+      ->group("What")
+      ->default_str("");
+  verb->add_option("--simd", options->simd, "Instruction set of the benches that do not name one")
+      ->group("What")
+      ->check(CLI::IsMember({"sse2", "avx2", "avx512"}))
+      ->default_str("widest");
+  verb->add_option("--min-time", options->min_time, "Seconds of runs per bench")
+      ->group("How")
+      ->check(CLI::Range(0.0, 3600.0).description("0..3600"));
+  verb->add_flag("--json", options->json, "Print JSON")->group("How");
+  verb->callback([options] {
+    const std::vector<BenchResult> results = run(*options);
+    options->json ? print_json(results) : print_table(results);
+  });
+}
+
+}  // namespace steradian::app

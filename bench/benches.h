@@ -1,0 +1,18 @@
+// Every bench of `steradian bench`: one file a topic, one line here.
+#pragma once
+
+#include "core/bench.h"
+
+namespace steradian::bench {
+
+void add_lambert(BenchList& list);
+void add_eval(BenchList& list);
+
+inline BenchList all_benches() {
+  BenchList list;
+  add_lambert(list);
+  add_eval(list);
+  return list;
+}
+
+}  // namespace steradian::bench

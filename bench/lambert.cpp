@@ -1,0 +1,79 @@
+// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, some of which see the quad only in part.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "benches.h"
+#include "render/cpu/irradiance.h"
+
+namespace steradian::bench {
+namespace {
+
+constexpr std::size_t kSide = 128;
+
+struct Floor {
+  std::vector<float> x, y, z, nx, ny, nz, result;
+  PreparedPolygon light;
+
+  SurfacePoints points() const {
+    return {x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()};
+  }
+};
+
+// A floor of 8 by 8 m with gentle waves in its normals, and an upright quad that dips below it.
+std::shared_ptr<Floor> make_floor() {
+  auto floor = std::make_shared<Floor>();
+  for (std::size_t j = 0; j < kSide; ++j)
+    for (std::size_t i = 0; i < kSide; ++i) {
+      const double x = 8.0 * (static_cast<double>(i) + 0.5) / kSide - 4.0;
+      const double z = 8.0 * (static_cast<double>(j) + 0.5) / kSide;
+      const Vec3d n = normalized(Vec3d{0.1 * std::sin(3 * x), 1.0, 0.1 * std::cos(2 * z)});
+      floor->x.push_back(static_cast<float>(x));
+      floor->y.push_back(0.0f);
+      floor->z.push_back(static_cast<float>(z));
+      floor->nx.push_back(static_cast<float>(n.x));
+      floor->ny.push_back(static_cast<float>(n.y));
+      floor->nz.push_back(static_cast<float>(n.z));
+    }
+  floor->result.resize(floor->x.size());
+  PolygonLight quad;
+  quad.vertices = {{-1, -0.3, -0.5}, {1, -0.3, -0.5}, {1.2, 1.5, -0.7}, {-1.1, 1.4, -0.7}};
+  quad.vertices[3] = quad.vertices[0] + (quad.vertices[2] - quad.vertices[1]);  // flat: a parallelogram
+  floor->light = prepare_polygon(quad);
+  return floor;
+}
+
+Bench packs(const std::string& name, Simd simd) {
+  auto floor = make_floor();
+  const auto irradiance = irradiance_table_for(simd).irradiance;
+  return {name, floor->x.size(), name_of(simd), [floor, irradiance] {
+            irradiance(floor->light, floor->points(), floor->result.data());
+            keep(floor->result.front());
+          }};
+}
+
+// The library's float function, one point after the other.
+Bench scalar(const std::string& name) {
+  auto floor = make_floor();
+  return {name, floor->x.size(), "scalar", [floor] {
+            Floor& f = *floor;
+            for (std::size_t i = 0; i < f.x.size(); ++i)
+              f.result[i] = polygon_irradiance_float(f.light, Vec3d(Vec3f{f.x[i], f.y[i], f.z[i]}),
+                                                     Vec3d(Vec3f{f.nx[i], f.ny[i], f.nz[i]}));
+            keep(f.result.front());
+          }};
+}
+
+}  // namespace
+
+void add_lambert(BenchList& list) {
+  const std::string name = "kernel/lambert/quad";
+  list.add(name, [name](const BenchOptions& options) { return packs(name, options.simd); });
+  for (const Simd simd : available_simd()) {
+    const std::string one = name + "/" + name_of(simd);
+    list.add(one, [one, simd](const BenchOptions&) { return packs(one, simd); });
+  }
+  list.add(name + "/scalar", [name](const BenchOptions&) { return scalar(name + "/scalar"); });
+}
+
+}  // namespace steradian::bench

@@ -1,0 +1,86 @@
+#include "core/bench.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace steradian {
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// This thread stays on its core until the end of the scope.
+class PinnedToOneCore {
+ public:
+  PinnedToOneCore() {
+    CPU_ZERO(&before_);
+    pinned_ = sched_getaffinity(0, sizeof before_, &before_) == 0;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    const int core = sched_getcpu();
+    if (core < 0) return;
+    CPU_SET(static_cast<std::size_t>(core), &one);
+    sched_setaffinity(0, sizeof one, &one);
+  }
+  ~PinnedToOneCore() {
+    if (pinned_) sched_setaffinity(0, sizeof before_, &before_);
+  }
+  PinnedToOneCore(const PinnedToOneCore&) = delete;
+  PinnedToOneCore& operator=(const PinnedToOneCore&) = delete;
+
+ private:
+  cpu_set_t before_;
+  bool pinned_ = false;
+};
+
+// A run is long enough for the clock not to count: 1 ms is 20,000 times its step.
+constexpr double kShortestRun = 1e-3;
+constexpr double kWarmUp = 0.05;
+
+BenchResult measure(const Bench& bench, const BenchOptions& options) {
+  std::size_t calls = 0;
+  const double warm_up_begin = seconds();
+  double warm_up = 0;
+  do {
+    bench.body();
+    ++calls;
+    warm_up = seconds() - warm_up_begin;
+  } while (warm_up < std::min(kWarmUp, options.min_time));
+  const double one_call = warm_up / static_cast<double>(calls);
+  const std::size_t calls_per_run = std::max<std::size_t>(1, static_cast<std::size_t>(kShortestRun / one_call));
+
+  std::vector<double> times;
+  double total = 0;
+  while (total < options.min_time || static_cast<int>(times.size()) < options.min_runs) {
+    const double begin = seconds();
+    for (std::size_t i = 0; i < calls_per_run; ++i) bench.body();
+    const double time = seconds() - begin;
+    total += time;
+    times.push_back(time / static_cast<double>(calls_per_run));
+  }
+  std::sort(times.begin(), times.end());
+  const std::size_t middle = times.size() / 2;
+  const double median = times.size() % 2 == 1 ? times[middle] : 0.5 * (times[middle - 1] + times[middle]);
+  BenchResult result;
+  result.name = bench.name;
+  result.items = bench.items;
+  result.ns_per_item = 1e9 * median / static_cast<double>(bench.items);
+  result.median_ms = 1e3 * median;
+  result.fastest_ms = 1e3 * times.front();
+  result.runs = static_cast<int>(times.size());
+  result.simd = bench.simd;
+  return result;
+}
+
+}  // namespace
+
+BenchResult run_bench(const Bench& bench, const BenchOptions& options) {
+  if (!bench.one_core) return measure(bench, options);
+  const PinnedToOneCore pinned;
+  return measure(bench, options);
+}
+
+}  // namespace steradian

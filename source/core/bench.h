@@ -1,0 +1,63 @@
+// Benches: a body is run again and again on one core, and the median of the runs counts.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/simd.h"
+
+namespace steradian {
+
+struct BenchOptions {
+  double min_time = 0.5;  // seconds of runs per bench
+  int min_runs = 9;
+  Simd simd = active_simd();  // for what follows the active set
+};
+
+// Anything that is to be measured: the closure holds the prepared data, a call does the work on all items once.
+struct Bench {
+  std::string name;         // "kernel/lambert/quad"
+  std::size_t items;        // of one call
+  std::string simd;         // the instruction set that runs, "scalar", or empty where none is chosen
+  std::function<void()> body;
+  bool one_core = true;     // pinned; false for frames on all threads
+};
+
+// What `steradian bench` can run. Data is made only when a bench is chosen by its name.
+class BenchList {
+ public:
+  using Make = std::function<Bench(const BenchOptions&)>;
+  void add(std::string name, Make make) { entries_.push_back({std::move(name), std::move(make)}); }
+
+  struct Entry {
+    std::string name;
+    Make make;
+  };
+  const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+struct BenchResult {
+  std::string name;
+  std::size_t items = 0;
+  double ns_per_item = 0;  // median
+  double median_ms = 0;    // of one call
+  double fastest_ms = 0;
+  int runs = 0;
+  std::string simd;
+};
+
+// Warms up, pins the thread to the core it is on, runs for at least min_time and min_runs; the pin is undone after.
+BenchResult run_bench(const Bench& bench, const BenchOptions& options);
+
+// Keeps the compiler from dropping work whose result nobody reads.
+template <class T>
+void keep(const T& value) {
+  asm volatile("" : : "g"(&value) : "memory");
+}
+
+}  // namespace steradian

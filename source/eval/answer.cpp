@@ -1,0 +1,89 @@
+#include "eval/answer.h"
+
+#include <cmath>
+
+#include "eval/point_light.h"
+#include "steradian/error.h"
+
+namespace steradian::eval {
+namespace {
+
+// The light made ready, whatever its type; the errors are placed at the query's key.
+PreparedPolygon prepare(const PolygonLight& light) {
+  try {
+    return prepare_polygon(light);
+  } catch (const Error& e) {
+    throw Error("light." + e.place(), e.problem(), e.hint());
+  }
+}
+
+// A point light is one direction: every method has the same answer, without error.
+LobeAnswer point_answer(const PointLight& light, const ShadingPoint& at, const Material& m, Method method) {
+  LobeAnswer answer;
+  answer.radiance = point_light_radiance(light, at, m);
+  if (method == Method::reference) answer.bound = 0.0;
+  if (method == Method::sampled) answer.standard_error = 0.0;
+  return answer;
+}
+
+class Sum {
+ public:
+  void add(const MethodEntry& entry, const LobeAnswer& part) {
+    if (answer_.method.find(entry.name) == std::string::npos) {
+      if (!answer_.method.empty()) answer_.method += '+';
+      answer_.method += entry.name;
+    }
+    answer_.radiance += part.radiance;
+    if (part.bound) answer_.bound = answer_.bound.value_or(0.0) + *part.bound;
+    // The lobes are sampled with seeds of their own: variances add.
+    if (part.standard_error)
+      answer_.standard_error = std::hypot(answer_.standard_error.value_or(0.0), *part.standard_error);
+  }
+  Answer finish(Precision precision) && {
+    answer_.precision = precision;
+    const bool error_is_finite =
+        std::isfinite(answer_.bound.value_or(0.0)) && std::isfinite(answer_.standard_error.value_or(0.0));
+    if (!is_finite(answer_.radiance) || !error_is_finite)
+      throw Error("radiance", "the result is out of the range of numbers",
+                  "scale radiance, intensity, albedo or distances down");
+    return std::move(answer_);
+  }
+
+ private:
+  Answer answer_;
+};
+
+}  // namespace
+
+Answer evaluate(const Query& query) {
+  const ShadingPoint at = {query.position, query.normal, query.view.value_or(query.normal)};
+  const bool seen = dot(at.normal, at.view) > 0.0;
+  MethodOptions options = {query.precision, query.spp, query.seed};
+
+  const auto* polygon = std::get_if<PolygonLight>(&query.light);
+  const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
+  Sum sum;
+  for (const Material& material : query.materials) {
+    const MethodEntry& entry = resolve(query.method, material, query.precision);
+    if (!seen)
+      sum.add(entry, LobeAnswer{});
+    else if (polygon != nullptr)
+      sum.add(entry, entry.polygon(prepared, at, material, options));
+    else
+      sum.add(entry, point_answer(std::get<PointLight>(query.light), at, material, entry.method));
+    options.seed += 0x9e3779b97f4a7c15u;  // far from the seeds that people choose
+  }
+  return std::move(sum).finish(query.precision);
+}
+
+bool answer_line(QueryReader& reader, std::string_view line, std::string& out) {
+  try {
+    write_answer(out, evaluate(reader.read(line)));
+    return true;
+  } catch (const Error& e) {
+    write_error(out, e.what());
+    return false;
+  }
+}
+
+}  // namespace steradian::eval

@@ -1,0 +1,30 @@
+// Answer: what `steradian eval` says to one query, and the line of JSON that says it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "eval/query.h"
+
+namespace steradian::eval {
+
+struct Answer {
+  Vec3d radiance;      // finite
+  std::string method;  // the resolved one; "exact+reference" where materials of a list resolve differently
+  std::optional<double> bound;
+  std::optional<double> standard_error;
+  Precision precision = Precision::double_;
+};
+
+// Throws Error (key and hint) for what the query's method cannot do and for results that are not finite.
+Answer evaluate(const Query& query);
+
+// Appends one line. Numbers are the shortest decimals that read back the same; -0 is written as 0.
+void write_answer(std::string& out, const Answer& answer);
+void write_error(std::string& out, std::string_view message);
+
+// A whole step of the stream: reads, evaluates, appends the answer or the error. False for an error.
+bool answer_line(QueryReader& reader, std::string_view line, std::string& out);
+
+}  // namespace steradian::eval

@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "eval/answer.h"
+
+namespace steradian::eval {
+namespace {
+
+void append_number(std::string& out, double x, Precision precision) {
+  if (x == 0.0) {  // -0 too
+    out += '0';
+  } else if (precision == Precision::float_) {
+    fmt::format_to(std::back_inserter(out), "{}", static_cast<float>(x));
+  } else {
+    fmt::format_to(std::back_inserter(out), "{}", x);
+  }
+}
+
+}  // namespace
+
+void write_answer(std::string& out, const Answer& answer) {
+  out += "{\"radiance\":[";
+  append_number(out, answer.radiance.x, answer.precision);
+  out += ',';
+  append_number(out, answer.radiance.y, answer.precision);
+  out += ',';
+  append_number(out, answer.radiance.z, answer.precision);
+  out += "],\"method\":\"";
+  out += answer.method;  // names of our own: nothing to escape
+  out += '"';
+  if (answer.bound) {
+    out += ",\"bound\":";
+    append_number(out, *answer.bound, Precision::double_);
+  }
+  if (answer.standard_error) {
+    out += ",\"standard_error\":";
+    append_number(out, *answer.standard_error, Precision::double_);
+  }
+  out += "}\n";
+}
+
+void write_error(std::string& out, std::string_view message) {
+  out += "{\"error\":\"";
+  for (const char c : message) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  out += "\"}\n";
+}
+
+}  // namespace steradian::eval

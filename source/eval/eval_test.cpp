@@ -1,0 +1,290 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "eval/answer.h"
+#include "steradian/polygon_light.h"
+
+namespace steradian::eval {
+namespace {
+
+using nlohmann::json;
+
+const std::string kLight = R"("light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1]})";
+const std::string kPlace = R"("position":[0,0,0],"normal":[0,1,0],"view":[0,1,0.5])";
+const std::string kLambert = R"("material":{"brdf":"lambert"})";
+
+std::string query(const std::string& light, const std::string& place, const std::string& material,
+                  const std::string& rest = {}) {
+  return "{" + light + "," + place + "," + material + (rest.empty() ? "" : "," + rest) + "}";
+}
+std::string with_material(const std::string& material, const std::string& rest = {}) {
+  return query(kLight, kPlace, "\"material\":" + material, rest);
+}
+std::string with_light(const std::string& light) { return query("\"light\":" + light, kPlace, kLambert); }
+
+std::string answer_text(std::string line) {
+  static QueryReader reader;
+  const std::size_t size = line.size();
+  line.append(kQueryPadding, ' ');
+  std::string out;
+  answer_line(reader, {line.data(), size}, out);
+  return out;
+}
+json answer(const std::string& line) { return json::parse(answer_text(line)); }
+
+double red(const std::string& line) {
+  const json a = answer(line);
+  if (!a.contains("radiance")) {
+    ADD_FAILURE() << line << "\n" << a;
+    return -1;
+  }
+  return a["radiance"][0].get<double>();
+}
+
+// ---- What is right ---------------------------------------------------------------------------------------------
+
+TEST(Eval, LambertUnderACentredSquareIsTheTabulatedConfigurationFactor) {
+  // Four times the factor of a rectangle under its corner (Howell, C-11): a = b = 1, c = 2.
+  const double x = 0.5, s = std::sqrt(1 + x * x);
+  const double corner = x / s * std::atan(x / s) / M_PI;
+  EXPECT_NEAR(red(query(kLight, kPlace, kLambert)), 4 * corner, 1e-14);
+}
+
+TEST(Eval, AnswersEveryMaterialMethodAndLight) {
+  const std::string materials[] = {R"({"brdf":"lambert","albedo":[0.2,0.5,0.8]})",
+                                   R"({"brdf":"phong","exponent":20,"albedo":0.5})",
+                                   R"({"brdf":"ggx","roughness":0.5,"f0":0.04,"f90":[1,0.9,0.8]})",
+                                   R"({"brdf":"ggx","alpha":0.3,"shadowing":"none"})",
+                                   R"({"brdf":"ggx","alpha_x":0.2,"alpha_y":0.4,"tangent":[1,0,1]})",
+                                   R"({"brdf":"blinn-phong","exponent":10})",
+                                   R"({"brdf":"beckmann","alpha":0.3})"};
+  const std::string lights[] = {
+      kLight, R"("light":{"type":"point","position":[1,2,0],"intensity":[3,2,1]})",
+      R"("light":{"type":"polygon","vertices":[[-1,2,1],[-1,2,-1],[1,2,-1],[1,2,1]],)"
+      R"("holes":[[[0,2,0],[0.5,2,0],[0,2,0.5]]],"radiance":[1,2,3],"two_sided":true})"};
+  for (const std::string& light : lights)
+    for (const std::string& material : materials)
+      for (const std::string method : {"auto", "reference", "sampled"}) {
+        const std::string line = query(light, kPlace, "\"material\":" + material,
+                                       R"("method":")" + method + R"(","spp":16,"seed":3,"precision":"double")");
+        const json a = answer(line);
+        ASSERT_TRUE(a.contains("radiance")) << line << "\n" << a;
+        const bool lambert = material.find("lambert") != std::string::npos;
+        EXPECT_EQ(a["method"], method != "auto" ? method : lambert ? "exact" : "reference");
+        EXPECT_EQ(a.contains("standard_error"), method == "sampled");
+        EXPECT_EQ(a.contains("bound"), a["method"] == "reference");
+      }
+}
+
+TEST(Eval, AgreesWithTheReferenceOnLambert) {
+  const std::string line = query(kLight, kPlace, kLambert);
+  const json reference = answer(query(kLight, kPlace, kLambert, R"("method":"reference")"));
+  EXPECT_NEAR(red(line), reference["radiance"][0].get<double>(), reference["bound"].get<double>() + 1e-15);
+}
+
+TEST(Eval, VectorsNeedNotBeUnit) {
+  const std::string ggx = R"("material":{"brdf":"ggx","roughness":0.5})";
+  EXPECT_DOUBLE_EQ(red(query(kLight, kPlace, ggx)),
+                   red(query(kLight, R"("position":[0,0,0],"normal":[0,7,0],"view":[0,1e-3,5e-4])", ggx)));
+}
+
+TEST(Eval, MaterialsOfAListAdd) {
+  const std::string a = R"({"brdf":"lambert","albedo":0.3})", b = R"({"brdf":"phong","exponent":5})";
+  const json both = answer(with_material("[" + a + "," + b + "]"));
+  EXPECT_DOUBLE_EQ(both["radiance"][0].get<double>(), red(with_material(a)) + red(with_material(b)));
+  EXPECT_EQ(both["method"], "exact+reference");
+  EXPECT_TRUE(both.contains("bound"));
+  EXPECT_EQ(answer(with_material("[" + a + "," + a + "]"))["method"], "exact");
+}
+
+TEST(Eval, FloatIsFloat) {
+  const json d = answer(query(kLight, kPlace, kLambert));
+  const json f = answer(query(kLight, kPlace, kLambert, R"("precision":"float")"));
+  const double x = d["radiance"][0], y = f["radiance"][0];
+  EXPECT_NE(x, y);
+  // A quad: four edges of a few ulp each, sums within pi.
+  EXPECT_NEAR(x, y, 64 * 0x1p-24);
+  // The shortest decimal of a float has at most 9 digits.
+  EXPECT_LE(f["radiance"][0].dump().size(), 12u) << f;
+}
+
+TEST(Eval, DegenerateGeometryAndHiddenSidesGiveZeroAndNeverMinusZero) {
+  const std::string zero = "{\"radiance\":[0,0,0],\"method\":\"exact\"}\n";
+  EXPECT_EQ(answer_text(with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[2,1,0]]})")), zero);
+  EXPECT_EQ(answer_text(with_light(R"({"type":"polygon","vertices":[[0,1,0],[0,1,0],[0,1,0]]})")), zero);
+  EXPECT_EQ(answer_text(with_light(R"({"type":"rect","center":[0,2,0],"x":[0,0,0],"y":[0,0,1]})")), zero);
+  EXPECT_EQ(answer_text(with_light(R"({"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,-1]})")), zero);
+  EXPECT_EQ(answer_text(with_light(R"({"type":"point","position":[0,-1,0],"intensity":1})")), zero);
+  EXPECT_EQ(answer_text(with_light(R"({"type":"point","position":[0,0,0],"intensity":1})")), zero);
+  const std::string below = R"("position":[0,0,0],"normal":[0,1,0],"view":[1,-0.1,0])";
+  EXPECT_EQ(answer_text(query(kLight, below, kLambert)), zero);
+  EXPECT_EQ(red(query(kLight, below, R"("material":{"brdf":"ggx","roughness":0.5})")), 0);
+  Answer minus;
+  minus.radiance = {-0.0, 0.0, -0.0};
+  minus.method = "exact";
+  std::string out;
+  write_answer(out, minus);
+  EXPECT_EQ(out, zero);
+}
+
+TEST(Eval, APointLightFollowsTheInverseSquareAndTheLobe) {
+  // Lambert, 60 degrees off the normal at distance 2: I cos / (pi d^2).
+  const double expected = 5 * 0.5 / (M_PI * 4);
+  EXPECT_NEAR(red(with_light(R"({"type":"point","position":[1.7320508075688772,1,0],"intensity":5})")), expected, 1e-15);
+}
+
+TEST(Eval, NumbersReadBackTheSame) {
+  Answer a;
+  a.method = "exact";
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 1000; ++i) {
+    a.radiance.x = std::ldexp(static_cast<double>(random()), static_cast<int>(random() % 600) - 300);
+    std::string out;
+    write_answer(out, a);
+    EXPECT_EQ(std::strtod(out.c_str() + out.find('[') + 1, nullptr), a.radiance.x) << out;
+  }
+}
+
+// ---- What is wrong ---------------------------------------------------------------------------------------------
+
+struct Wrong {
+  std::string line;
+  std::vector<const char*> says;  // all of these stand in the message
+};
+
+TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
+  const std::string good = query(kLight, kPlace, kLambert);
+  const auto polygon = [](const std::string& vertices) {
+    return with_light(R"({"type":"polygon","vertices":)" + vertices + "}");
+  };
+  const std::vector<Wrong> all = {
+      {"hello", {"not JSON"}},
+      {"{", {"not JSON"}},
+      {good + "}", {"not JSON"}},
+      {std::string("{\"a\0\":1}", 8), {"not JSON"}},
+      {"{\"\xff\":1}", {"not JSON"}},
+      {"[]", {"expected an object", "a list"}},
+      {"3", {"expected an object", "a number"}},
+      {"{}", {"light: missing", "position: missing", "normal: missing", "material: missing"}},
+      {query(kLight, R"("position":[NaN,0,0],"normal":[0,1,0])", kLambert), {"not JSON"}},
+      {query(kLight, R"("position":[0,Infinity,0],"normal":[0,1,0])", kLambert), {"not JSON"}},
+      {query(kLight, R"("position":[1e999,0,0],"normal":[0,1,0])", kLambert), {"not JSON"}},
+      {query(kLight, R"("normal":[0,1,0])", kLambert), {"position: missing"}},
+      {query(kLight, R"("position":"here","normal":[0,1,0])", kLambert), {"position: expected a list", "a string"}},
+      {query(kLight, R"("position":[0,0],"normal":[0,1,0])", kLambert), {"position: expected 3", "found 2"}},
+      {query(kLight, R"("position":[0,null,0],"normal":[0,1,0])", kLambert), {"position[1]: expected a number"}},
+      {query(kLight, R"("position":[0,0,0],"normal":[0,0,0])", kLambert), {"normal: the vector is zero"}},
+      {query(kLight, R"("position":[0,0,0],"normal":[0,1,0],"view":[0,0,0])", kLambert), {"view: the vector"}},
+      {query(kLight, R"("position":[0,0,0],"normal":[0,1,0])", R"("material":{"brdf":"phong","exponent":3})"),
+       {"view: missing", "phong"}},
+      {query(kLight, kPlace, kLambert, R"("method":"magic")"), {"method: 'magic'", "sampled"}},
+      {query(kLight, kPlace, kLambert, R"("method":3)"), {"method: expected a string"}},
+      {query(kLight, kPlace, kLambert, R"("precision":"half")"), {"precision: 'half'"}},
+      {query(kLight, kPlace, kLambert, R"("precision":"float","method":"reference")"), {"precision: ", "reference"}},
+      {query(kLight, kPlace, kLambert, R"("spp":0)"), {"spp: must be"}},
+      {query(kLight, kPlace, kLambert, R"("spp":1.5)"), {"spp: expected an integer"}},
+      {query(kLight, kPlace, kLambert, R"("seed":-1)"), {"seed: must be"}},
+      {query(kLight, kPlace, kLambert, R"("derivatives":true)"), {"derivatives: ", "not supported yet"}},
+      {query(kLight, kPlace, kLambert, R"("normal":[0,0,1])"), {"normal: the key is given twice"}},
+      {query(kLight, kPlace, kLambert, R"("colour":1,"size":2)"), {"colour: unknown", "size: unknown"}},
+      {query(R"("light":{"type":"rect","centre":[0,2,0],"x":[1,0,0],"y":[0,0,1]})", kPlace,
+             R"("material":{"brdf":"lambert","exponent":2})", R"("extra":{})"),
+       {"light.centre: unknown", "light.center: missing", "material.exponent: unknown", "extra: unknown"}},
+      {with_light("7"), {"light: expected an object"}},
+      {with_light("{}"), {"light.type: missing", "polygon, rect, point"}},
+      {with_light(R"({"type":"disk"})"), {"light.type: 'disk' is not supported", "polygon, rect, point"}},
+      {with_light(R"({"type":["rect"]})"), {"light.type: expected a string"}},
+      {polygon("[[0,1,0],[1,1,0]]"), {"light.vertices: ", "at least 3 vertices", "2"}},
+      {polygon("[]"), {"light.vertices: ", "at least 3 vertices"}},
+      {polygon("[[0,1,0],[1,1,0],[1,1,\"z\"]]"), {"light.vertices[2][2]: expected a number"}},
+      {polygon("[[0,1,0],[1,1,0],[1,1,1],[0,2,1]]"), {"light.vertices[", "off the polygon's plane"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"holes":[[[0,1,0]]]})"),
+       {"light.holes[0]: ", "at least 3"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"two_sided":1})"),
+       {"light.two_sided: expected true or false"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"radiance":-1})"),
+       {"light.radiance: must not be negative"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"radiance":[1,2]})"),
+       {"light.radiance: expected 3 numbers"}},
+      {with_light(R"({"type":"rect","center":[1e308,2,0],"x":[1e308,0,0],"y":[0,0,1]})"), {"light", "finite"}},
+      {query(R"("light":{"type":"point","position":[0,1,0],"intensity":1e308})", kPlace,
+             R"("material":{"brdf":"lambert","albedo":1e300})"),
+       {"radiance: ", "out of the range"}},
+      {with_material("[]"), {"material: the list is empty"}},
+      {with_material(R"([{"brdf":"lambert"},{"brdf":"velvet"}])"), {"material[1].brdf: 'velvet'", "beckmann"}},
+      {with_material(R"({"albedo":1})"), {"material.brdf: missing"}},
+      {with_material(R"({"brdf":"phong"})"), {"material.exponent: missing"}},
+      {with_material(R"({"brdf":"ggx"})"), {"material.alpha: missing", "roughness"}},
+      {with_material(R"({"brdf":"ggx","roughness":2})"), {"material.roughness: must be from 0 to 1"}},
+      {with_material(R"({"brdf":"ggx","roughness":0.5,"alpha":0.5})"), {"material.alpha: ", "twice"}},
+      {with_material(R"({"brdf":"ggx","alpha_x":0.5})"), {"material.alpha_y: missing"}},
+      {with_material(R"({"brdf":"ggx","alpha":0.5,"shadowing":"some"})"), {"material.shadowing: 'some'"}},
+      {with_material(R"({"brdf":"phong","exponent":3})", R"("method":"exact")"), {"method: exact", "phong"}},
+  };
+  for (const Wrong& wrong : all) {
+    const json a = answer(wrong.line);
+    ASSERT_TRUE(a.contains("error")) << wrong.line << "\n" << a;
+    for (const char* text : wrong.says)
+      EXPECT_NE(a["error"].get<std::string>().find(text), std::string::npos) << wrong.line << "\n" << a << "\n" << text;
+  }
+}
+
+TEST(Eval, MessagesAreJsonWhateverTheKeyIs) {
+  const std::string odd = R"("a\"\\\n\u0001\u00e9)" + std::string(200, 'k') + R"(":1)";
+  const json a = answer(query(kLight, kPlace, kLambert, odd));
+  EXPECT_NE(a["error"].get<std::string>().find("unknown key"), std::string::npos);
+  EXPECT_LT(a["error"].get<std::string>().size(), 500u);
+}
+
+// Whatever a line is, its answer is one line of JSON: finite radiance or an error.
+TEST(Eval, SurvivesMutatedLines) {
+  const std::string seeds[] = {
+      query(kLight, kPlace, kLambert, R"("method":"exact","precision":"float")"),
+      query(R"("light":{"type":"polygon","vertices":[[-1,2,1],[-1,2,-1],[1,2,-1],[1,2,1]],)"
+            R"("holes":[[[0,2,0],[0.5,2,0],[0,2,0.5]]],"radiance":[1,2,3],"two_sided":true})",
+            kPlace, R"("material":[{"brdf":"lambert","albedo":[0.1,0.2,0.3]},{"brdf":"lambert"}])"),
+      query(R"("light":{"type":"point","position":[1,2,0],"intensity":1e3})", kPlace,
+            R"("material":{"brdf":"ggx","alpha_x":0.2,"alpha_y":0.4,"tangent":[1,0,1],"f0":0.04})"),
+  };
+  std::mt19937 random(20260101);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  const std::string bytes = "0123456789.eE+-[]{}\",:\\ntrfux \t";
+  int answered = 0, refused = 0;
+  for (int i = 0; i < 6000; ++i) {
+    std::string line = seeds[i % 3];
+    const std::size_t edits = 1 + below(3);
+    for (std::size_t e = 0; e < edits; ++e) {
+      const std::size_t at = below(line.size());
+      switch (below(8)) {
+        case 0: line[at] = static_cast<char>(below(256)); break;
+        case 1: line[at] = bytes[below(bytes.size())]; break;
+        case 2: line.erase(at, 1 + below(4)); break;
+        case 3: line.insert(at, 1, bytes[below(bytes.size())]); break;
+        case 4: line.insert(at, line.substr(below(line.size()), below(12))); break;
+        default: {  // another digit: the line stays JSON
+          const std::size_t digit = line.find_first_of("0123456789", at);
+          if (digit != std::string::npos) line[digit] = static_cast<char>('0' + below(10));
+        }
+      }
+    }
+    const std::string text = answer_text(line);
+    const json a = json::parse(text, nullptr, false);
+    ASSERT_FALSE(a.is_discarded()) << line << "\n" << text;
+    ASSERT_EQ(text.find('\n'), text.size() - 1);
+    if (a.contains("error")) {
+      ++refused;
+    } else {
+      ++answered;
+      for (const json& x : a["radiance"]) ASSERT_TRUE(std::isfinite(x.get<double>()) && x >= 0) << line << text;
+    }
+  }
+  EXPECT_GT(answered, 100);
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace steradian::eval

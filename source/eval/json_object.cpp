@@ -1,0 +1,145 @@
+#include "eval/json_object.h"
+
+namespace steradian::eval {
+namespace {
+
+constexpr std::size_t kMostProblems = 20;  // of other kinds than unknown keys, which are all named
+constexpr std::size_t kLongestKey = 80;
+
+}  // namespace
+
+std::string Place::text() const {
+  if (up == nullptr) return {};
+  std::string result = up->text();
+  if (key.empty()) return result + "[" + std::to_string(index) + "]";
+  return result + (result.empty() ? "" : ".") + std::string(key);
+}
+
+void Problems::add(const Place& place, const std::string& problem, const std::string& hint) {
+  if (texts_.size() >= kMostProblems && problem != "unknown key") return;
+  texts_.emplace_back(Error(place.text(), problem, hint).what());
+}
+
+void Problems::raise() const {
+  std::string all;
+  for (const std::string& text : texts_) all += (all.empty() ? "" : "; ") + text;
+  throw Error("", all);
+}
+
+std::string readable(std::string_view key) {
+  if (key.empty()) return "\"\"";
+  if (key.size() <= kLongestKey) return std::string(key);
+  std::size_t end = kLongestKey;
+  while (end > 0 && (static_cast<unsigned char>(key[end]) & 0xc0) == 0x80) --end;  // not within a character
+  return std::string(key.substr(0, end)) + "...";
+}
+
+std::string quoted(std::string_view name) {
+  std::string result(1, '\'');
+  result += name.empty() ? std::string() : readable(name);
+  result += '\'';
+  return result;
+}
+
+const char* type_name(Json value) {
+  switch (value.type()) {
+    case simdjson::dom::element_type::ARRAY: return "a list";
+    case simdjson::dom::element_type::OBJECT: return "an object";
+    case simdjson::dom::element_type::STRING: return "a string";
+    case simdjson::dom::element_type::BOOL: return "a truth value";
+    case simdjson::dom::element_type::NULL_VALUE: return "null";
+    default: return "a number";
+  }
+}
+
+void wrong_type(Problems& problems, const Place& place, const char* expected, Json found) {
+  problems.add(place, std::string("expected ") + expected + ", found " + type_name(found));
+}
+
+double read_number(Problems& problems, const Place& place, Json value) {
+  double x = 0;
+  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, "a number", value);
+  if (!std::isfinite(x)) problems.add(place, "the number is not finite");
+  return x;
+}
+
+double read_not_negative(Problems& problems, const Place& place, Json value) {
+  const double x = read_number(problems, place, value);
+  if (x < 0) problems.add(place, "must not be negative");
+  return x;
+}
+
+std::int64_t read_integer(Problems& problems, const Place& place, Json value, std::int64_t low, std::int64_t high) {
+  std::int64_t x = 0;
+  if (value.get(x) != simdjson::SUCCESS) {
+    wrong_type(problems, place, "an integer", value);
+    return low;
+  }
+  if (x < low || x > high)
+    problems.add(place, "must be an integer from " + std::to_string(low) + " to " + std::to_string(high));
+  return x;
+}
+
+bool read_bool(Problems& problems, const Place& place, Json value) {
+  bool x = false;
+  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, "true or false", value);
+  return x;
+}
+
+std::string_view read_string(Problems& problems, const Place& place, Json value) {
+  std::string_view x;
+  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, "a string", value);
+  return x;
+}
+
+Vec3d read_vector(Problems& problems, const Place& place, Json value) {
+  simdjson::dom::array array;
+  if (value.get(array) != simdjson::SUCCESS) {
+    wrong_type(problems, place, "a list of 3 numbers", value);
+    return {};
+  }
+  double v[3] = {0, 0, 0};
+  std::size_t n = 0;
+  for (const Json x : array) {
+    if (n < 3) v[n] = read_number(problems, place.at(n), x);
+    ++n;
+  }
+  if (n != 3) problems.add(place, "expected 3 numbers, found " + std::to_string(n));
+  return {v[0], v[1], v[2]};
+}
+
+Vec3d read_direction(Problems& problems, const Place& place, Json value) {
+  const bool clean = !problems.any();
+  const Vec3d v = read_vector(problems, place, value);
+  if (v == Vec3d{} && (clean != problems.any())) problems.add(place, "the vector is zero", "it needs a direction");
+  return normalized(v);
+}
+
+Vec3d read_colour(Problems& problems, const Place& place, Json value) {
+  if (value.is_array()) {
+    const Vec3d c = read_vector(problems, place, value);
+    if (c.x < 0 || c.y < 0 || c.z < 0) problems.add(place, "must not be negative");
+    return c;
+  }
+  if (!value.is_number()) {
+    wrong_type(problems, place, "a number or [r,g,b]", value);
+    return {};
+  }
+  const double x = read_not_negative(problems, place, value);
+  return {x, x, x};
+}
+
+std::vector<Vec3d> read_contour(Problems& problems, const Place& place, Json value) {
+  std::vector<Vec3d> contour;
+  simdjson::dom::array array;
+  if (value.get(array) != simdjson::SUCCESS) {
+    wrong_type(problems, place, "a list of vertices", value);
+    return contour;
+  }
+  for (const Json vertex : array) contour.push_back(read_vector(problems, place.at(contour.size()), vertex));
+  if (contour.size() < 3)
+    problems.add(place, "a polygon needs at least 3 vertices, here are " + std::to_string(contour.size()));
+  return contour;
+}
+
+}  // namespace steradian::eval

@@ -1,0 +1,86 @@
+#include "eval/methods.h"
+
+#include "steradian/error.h"
+#include "steradian/kernels.h"
+
+namespace steradian::eval {
+namespace {
+
+bool every_lobe(const Material&) { return true; }
+bool lambert_only(const Material& m) { return m.brdf == Brdf::lambert; }
+
+template <class S>
+Vec3d lambert(S irradiance, Vec3d radiance, Vec3d albedo) {
+  const S factor = Kernels<S>().lambert_radiance(Real<S>::of(irradiance)).v;
+  return Vec3d(Vector3<S>(radiance) * Vector3<S>(albedo) * factor);
+}
+
+LobeAnswer exact(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                 const MethodOptions& options) {
+  LobeAnswer answer;
+  if (options.precision == Precision::float_)
+    answer.radiance =
+        lambert(polygon_irradiance_float(light, at.position, at.normal), light.radiance, m.albedo);
+  else
+    answer.radiance = lambert(polygon_irradiance(light, at.position, at.normal), light.radiance, m.albedo);
+  return answer;
+}
+
+LobeAnswer reference(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                     const MethodOptions&) {
+  const ReferenceResult r = reference_radiance(light, at, m);
+  return {r.radiance, r.bound, std::nullopt};
+}
+
+LobeAnswer sampled(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                   const MethodOptions& options) {
+  SampledOptions o;
+  o.spp = options.spp;
+  o.seed = options.seed;
+  const SampledResult r = sampled_radiance(light, at, m, o);
+  return {r.radiance, std::nullopt, r.standard_error};
+}
+
+// A new method is an entry here and a name in Method.
+constexpr MethodEntry kMethods[] = {
+    {Method::exact, "exact", lambert_only, true, exact},
+    {Method::reference, "reference", every_lobe, false, reference},
+    {Method::sampled, "sampled", every_lobe, false, sampled},
+};
+
+}  // namespace
+
+std::span<const MethodEntry> methods() { return kMethods; }
+
+std::optional<Method> method_of(std::string_view name) {
+  if (name == "auto") return Method::automatic;
+  for (const MethodEntry& entry : kMethods)
+    if (name == entry.name) return entry.method;
+  return std::nullopt;
+}
+
+std::string method_names() {
+  std::string names = "auto";
+  for (const MethodEntry& entry : kMethods) names += std::string(", ") + entry.name;
+  return names;
+}
+
+const MethodEntry& resolve(Method method, const Material& material, Precision precision) {
+  const std::string brdf = name_of(material.brdf);
+  std::string serving;
+  for (const MethodEntry& entry : kMethods) {
+    if (!entry.serves(material)) continue;
+    serving += (serving.empty() ? "" : ", ") + std::string(entry.name);
+    if (method != Method::automatic && method != entry.method) continue;
+    if (precision == Precision::float_ && !entry.in_float)
+      throw Error("precision", std::string("method ") + entry.name + " works in double only for brdf " + brdf,
+                  "leave precision out");
+    return entry;
+  }
+  std::string asked = "auto";
+  for (const MethodEntry& entry : kMethods)
+    if (entry.method == method) asked = entry.name;
+  throw Error("method", asked + " does not serve brdf " + brdf, "use auto or one of: " + serving);
+}
+
+}  // namespace steradian::eval

@@ -1,0 +1,259 @@
+// The keys of a query: a table per object, a row per light type and per BRDF. A new one is one more row.
+#include "eval/query.h"
+
+#include <limits>
+
+#include "eval/json_object.h"
+
+namespace steradian::eval {
+namespace {
+
+// ---- Lights ----------------------------------------------------------------------------------------------------
+
+// What the keys of any light type say, before it is known to be whole.
+struct LightKeys {
+  PolygonLight polygon;
+  Vec3d center, x, y;
+  PointLight point_light;
+};
+
+using LightField = Field<LightKeys>;
+
+constexpr LightField kRadiance = {
+    "radiance", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.radiance = read_colour(p, at, v); }};
+constexpr LightField kTwoSided = {
+    "two_sided", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.two_sided = read_bool(p, at, v); }};
+constexpr LightField kCenter = {
+    "center", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.center = read_vector(p, at, v); }, true};
+constexpr LightField kHalfAxisX = {
+    "x", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.x = read_vector(p, at, v); }, true};
+constexpr LightField kHalfAxisY = {
+    "y", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.y = read_vector(p, at, v); }, true};
+
+constexpr LightField kPolygonFields[] = {
+    {"vertices",
+     [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.vertices = read_contour(p, at, v); }, true},
+    {"holes",
+     [](Problems& p, const Place& at, Json v, LightKeys& k) {
+       simdjson::dom::array holes;
+       if (v.get(holes) != simdjson::SUCCESS) return wrong_type(p, at, "a list of holes", v);
+       for (const Json hole : holes)
+         k.polygon.holes.push_back(read_contour(p, at.at(k.polygon.holes.size()), hole));
+     }},
+    kRadiance,
+    kTwoSided,
+};
+constexpr LightField kRectFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kRadiance, kTwoSided};
+constexpr LightField kPointFields[] = {
+    {"position",
+     [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
+    {"intensity",
+     [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
+};
+
+Light polygon_of(LightKeys&& k) { return std::move(k.polygon); }
+Light rect_of(LightKeys&& k) {
+  k.polygon.vertices = {k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y};
+  return std::move(k.polygon);
+}
+Light point_of(LightKeys&& k) { return k.point_light; }
+
+struct LightRow {
+  std::string_view name;
+  std::span<const LightField> fields;
+  Light (*finish)(LightKeys&&);
+};
+constexpr LightRow kLights[] = {
+    {"polygon", kPolygonFields, polygon_of},
+    {"rect", kRectFields, rect_of},
+    {"point", kPointFields, point_of},
+};
+
+void read_light(Problems& problems, const Place& place, Json value, Query& query) {
+  const LightRow* row = read_tag<LightRow>(problems, place, value, "type", kLights);
+  if (row == nullptr) return;
+  LightKeys keys;
+  read_fields<LightKeys>(problems, place, value, "type", row->fields, keys);
+  query.light = row->finish(std::move(keys));
+}
+
+// ---- Materials -------------------------------------------------------------------------------------------------
+
+// The widths may be said in three ways; which were used is checked at the end.
+struct MaterialKeys {
+  Material material;
+  bool roughness = false, alpha = false, alpha_x = false, alpha_y = false;
+};
+
+using MaterialField = Field<MaterialKeys>;
+
+constexpr double kSmallestAlpha = 1e-4;  // include/steradian/material.h
+
+double read_share(Problems& p, const Place& at, Json v) {
+  const double x = read_number(p, at, v);
+  if (x < 0 || x > 1) p.add(at, "must be from 0 to 1");
+  return x;
+}
+double read_alpha(Problems& p, const Place& at, Json v) { return std::max(read_share(p, at, v), kSmallestAlpha); }
+
+constexpr MaterialField kAlbedo = {"albedo", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                     k.material.albedo = read_colour(p, at, v);
+                                   }};
+constexpr MaterialField kExponent = {
+    "exponent",
+    [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.material.exponent = read_not_negative(p, at, v); },
+    true};
+constexpr MaterialField kRoughness = {"roughness", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                        const double r = read_share(p, at, v);
+                                        k.material.alpha_x = k.material.alpha_y = std::max(r * r, kSmallestAlpha);
+                                        k.roughness = true;
+                                      }};
+constexpr MaterialField kAlpha = {"alpha", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                    k.material.alpha_x = k.material.alpha_y = read_alpha(p, at, v);
+                                    k.alpha = true;
+                                  }};
+constexpr MaterialField kAlphaX = {"alpha_x", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                     k.material.alpha_x = read_alpha(p, at, v);
+                                     k.alpha_x = true;
+                                   }};
+constexpr MaterialField kAlphaY = {"alpha_y", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                     k.material.alpha_y = read_alpha(p, at, v);
+                                     k.alpha_y = true;
+                                   }};
+constexpr MaterialField kTangent = {"tangent", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                      k.material.tangent = read_direction(p, at, v);
+                                    }};
+constexpr MaterialField kF0 = {"f0", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                 k.material.f0 = read_colour(p, at, v);
+                               }};
+constexpr MaterialField kF90 = {"f90", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                  k.material.f90 = read_colour(p, at, v);
+                                }};
+constexpr MaterialField kShadowing = {"shadowing", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+                                        const std::string_view name = read_string(p, at, v);
+                                        if (v.is_string() && name != "smith" && name != "none")
+                                          p.add(at, quoted(name) + " is not known", "smith or none");
+                                        k.material.shadowing = name != "none";
+                                      }};
+
+constexpr MaterialField kLambertFields[] = {kAlbedo};
+constexpr MaterialField kPhongFields[] = {kExponent, kAlbedo};
+constexpr MaterialField kBlinnPhongFields[] = {kExponent};
+constexpr MaterialField kBeckmannFields[] = {kAlpha, kRoughness, kAlphaX, kAlphaY, kTangent};
+constexpr MaterialField kGgxFields[] = {kRoughness, kAlpha, kAlphaX, kAlphaY, kTangent, kF0, kF90, kShadowing};
+
+void anything(Problems&, const Place&, const MaterialKeys&) {}
+void one_width(Problems& p, const Place& at, const MaterialKeys& k) {
+  if (k.alpha_x != k.alpha_y) return p.add(at.in(k.alpha_x ? "alpha_y" : "alpha_x"), "missing");
+  const int ways = k.roughness + k.alpha + k.alpha_x;
+  if (ways == 0) p.add(at.in("alpha"), "missing", "or give roughness, or alpha_x and alpha_y");
+  if (ways > 1) p.add(at.in("alpha"), "the width is given twice", "one of: roughness; alpha; alpha_x and alpha_y");
+}
+
+struct MaterialRow {
+  std::string_view name;
+  Brdf brdf;
+  std::span<const MaterialField> fields;
+  void (*check)(Problems&, const Place&, const MaterialKeys&);
+};
+constexpr MaterialRow kMaterials[] = {
+    {"lambert", Brdf::lambert, kLambertFields, anything},  {"phong", Brdf::phong, kPhongFields, anything},
+    {"ggx", Brdf::ggx, kGgxFields, one_width},             {"blinn-phong", Brdf::blinn_phong, kBlinnPhongFields, anything},
+    {"beckmann", Brdf::beckmann, kBeckmannFields, one_width},
+};
+
+void read_material(Problems& problems, const Place& place, Json value, Query& query) {
+  const MaterialRow* row = read_tag<MaterialRow>(problems, place, value, "brdf", kMaterials);
+  if (row == nullptr) return;
+  MaterialKeys keys;
+  keys.material.brdf = row->brdf;
+  read_fields<MaterialKeys>(problems, place, value, "brdf", row->fields, keys);
+  row->check(problems, place, keys);
+  query.materials.push_back(keys.material);
+}
+
+void read_materials(Problems& problems, const Place& place, Json value, Query& query) {
+  simdjson::dom::array list;
+  if (value.get(list) != simdjson::SUCCESS) return read_material(problems, place, value, query);
+  std::size_t i = 0;
+  for (const Json material : list) read_material(problems, place.at(i++), material, query);
+  if (i == 0) problems.add(place, "the list is empty", "give at least one material");
+}
+
+// ---- The query -------------------------------------------------------------------------------------------------
+
+void read_method(Problems& problems, const Place& place, Json value, Query& query) {
+  const std::string_view name = read_string(problems, place, value);
+  if (!value.is_string()) return;
+  const std::optional<Method> method = method_of(name);
+  if (!method) problems.add(place, quoted(name) + " is not supported", "supported: " + method_names());
+  query.method = method.value_or(Method::automatic);
+}
+
+void read_precision(Problems& problems, const Place& place, Json value, Query& query) {
+  const std::string_view name = read_string(problems, place, value);
+  if (value.is_string() && name != "double" && name != "float")
+    problems.add(place, quoted(name) + " is not known", "double or float");
+  query.precision = name == "float" ? Precision::float_ : Precision::double_;
+}
+
+constexpr Field<Query> kQueryFields[] = {
+    {"light", read_light, true},
+    {"position", [](Problems& p, const Place& at, Json v, Query& q) { q.position = read_vector(p, at, v); }, true},
+    {"normal", [](Problems& p, const Place& at, Json v, Query& q) { q.normal = read_direction(p, at, v); }, true},
+    {"view", [](Problems& p, const Place& at, Json v, Query& q) { q.view = read_direction(p, at, v); }},
+    {"material", read_materials, true},
+    {"method", read_method},
+    {"precision", read_precision},
+    {"spp",
+     [](Problems& p, const Place& at, Json v, Query& q) {
+       q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max()));
+     }},
+    {"seed",
+     [](Problems& p, const Place& at, Json v, Query& q) {
+       q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max()));
+     }},
+    {"derivatives",
+     [](Problems& p, const Place& at, Json v, Query&) {
+       if (read_bool(p, at, v)) p.add(at, "derivatives are not supported yet", "leave the key out");
+     }},
+};
+
+}  // namespace
+
+struct QueryReader::Parser {
+  simdjson::dom::parser json;
+};
+
+QueryReader::QueryReader(QueryDefaults defaults) : parser_(std::make_unique<Parser>()), defaults_(defaults) {}
+QueryReader::~QueryReader() = default;
+
+Query QueryReader::read(std::string_view line) {
+  static_assert(kQueryPadding >= simdjson::SIMDJSON_PADDING);
+  Json root;
+  const auto error = parser_->json.parse(line.data(), line.size(), false).get(root);
+  if (error == simdjson::CAPACITY || error == simdjson::MEMALLOC)
+    throw Error("", "the line is too long to be read");
+  if (error != simdjson::SUCCESS)
+    throw Error("", std::string("not JSON: ") + simdjson::error_message(error),
+                "one object a line; numbers are decimals within the range of double, so no NaN and no Infinity");
+
+  Query query;
+  query.method = defaults_.method;
+  query.spp = defaults_.spp;
+  query.seed = defaults_.seed;
+  Problems problems;
+  const Place top;
+  if (!root.is_object()) throw Error("", std::string("expected an object, found ") + type_name(root));
+  read_fields<Query>(problems, top, root, {}, kQueryFields, query);
+  if (!problems.any() && !query.view)
+    for (const Material& m : query.materials)
+      if (m.brdf != Brdf::lambert) {
+        problems.add(top.in("view"), "missing", std::string("brdf ") + name_of(m.brdf) + " depends on it");
+        break;
+      }
+  if (problems.any()) problems.raise();
+  return query;
+}
+
+}  // namespace steradian::eval

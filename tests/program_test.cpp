@@ -1,0 +1,177 @@
+// The program as a process: streams, exit codes, help.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace steradian {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Outcome {
+  int status = -1;
+  long peak_kib = 0;
+  std::string out, err;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "steradian-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  // Runs the program on the file `in` of the folder (made of `input`), out and err to files.
+  Outcome run(std::vector<std::string> arguments, const std::string& input = {}) {
+    if (!input.empty() || !fs::exists(folder / "in")) std::ofstream(folder / "in", std::ios::binary) << input;
+    arguments.insert(arguments.begin(), STERADIAN_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& a : arguments) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    const std::string in = folder / "in", out = folder / "out", err = folder / "err";
+    const pid_t child = fork();
+    if (child == 0) {
+      dup2(open(in.c_str(), O_RDONLY), 0);
+      dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+      dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+    Outcome r;
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    r.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    r.peak_kib = usage.ru_maxrss;
+    r.out = contents(out);
+    r.err = contents(err);
+    return r;
+  }
+
+  static std::string query(int i) {
+    return R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1],"radiance":)" + std::to_string(i) +
+           R"(},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})";
+  }
+  fs::path folder;
+};
+
+TEST_F(Program, EvalKeepsTheOrderSkipsBlankLinesAndExitsOneAfterAWrongLine) {
+  const Outcome good = run({"eval"}, query(1) + "\n\n" + query(2) + "\r\n  \t\n" + query(3));
+  EXPECT_EQ(good.status, 0) << good.err;
+  std::istringstream lines(good.out);
+  std::string line;
+  int n = 0;
+  double first = 0;
+  while (std::getline(lines, line)) {
+    const double x = json::parse(line)["radiance"][0];
+    if (++n == 1) first = x;
+    EXPECT_NEAR(x, n * first, 1e-15 * n);
+  }
+  EXPECT_EQ(n, 3);
+
+  const Outcome mixed = run({"eval"}, query(1) + "\nnonsense\n" + query(2) + "\n");
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_NE(mixed.out.find("}\n{\"error\":\"not JSON"), std::string::npos) << mixed.out;
+  EXPECT_EQ(std::count(mixed.out.begin(), mixed.out.end(), '\n'), 3);
+}
+
+TEST_F(Program, EvalReadsAndWritesFilesAndAnEmptyStream) {
+  std::ofstream(folder / "queries") << query(1) << "\n";
+  const std::string answers = folder / "answers";
+  const Outcome files = run({"eval", folder / "queries", "-o", answers});
+  EXPECT_EQ(files.status, 0) << files.err;
+  EXPECT_EQ(files.out, "");
+  EXPECT_TRUE(json::parse(contents(answers)).contains("radiance"));
+  const Outcome empty = run({"eval", "-"});
+  EXPECT_EQ(empty.status, 0);
+  EXPECT_EQ(empty.out, "");
+}
+
+TEST_F(Program, EvalSaysWhatItCannotReadOrWrite) {
+  const Outcome missing = run({"eval", "/no/such/file"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.err.find("/no/such/file"), std::string::npos) << missing.err;
+  const Outcome full = run({"eval", "-o", "/dev/full"}, query(1));
+  EXPECT_EQ(full.status, 1);
+  EXPECT_NE(full.err.find("disk is full"), std::string::npos) << full.err;
+  const Outcome folder_missing = run({"eval", "-o", "/no/such/folder/file"}, query(1));
+  EXPECT_EQ(folder_missing.status, 1);
+  EXPECT_NE(folder_missing.err.find("folder does not exist"), std::string::npos) << folder_missing.err;
+}
+
+TEST_F(Program, EvalStreamsInConstantMemory) {
+  // 300,000 lines are 50 MB in and 25 MB out.
+  {
+    std::ofstream in(folder / "in", std::ios::binary);
+    for (int i = 0; i < 300000; ++i) in << query(1 + i % 1000) << '\n';
+  }
+  const Outcome r = run({"eval"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 300000);
+#if !defined(__SANITIZE_ADDRESS__)  // which keeps freed memory
+  EXPECT_LT(r.peak_kib, 64 * 1024);
+#endif
+}
+
+TEST_F(Program, EvalTakesLongLinesAndRefusesThoseOverTheLimit) {
+  std::string spaces = query(1);
+  spaces.insert(spaces.size() - 1, 3'000'000, ' ');
+  const Outcome r = run({"eval"}, spaces + "\n" + std::string(66u << 20, ' ') + "x\n" + query(2) + "\n");
+  EXPECT_EQ(r.status, 1);
+  std::istringstream lines(r.out);
+  std::string a, b, c;
+  std::getline(lines, a);
+  std::getline(lines, b);
+  std::getline(lines, c);
+  EXPECT_NE(a.find("radiance"), std::string::npos) << a;
+  EXPECT_NE(b.find("longer than 64 MiB"), std::string::npos) << b;
+  EXPECT_NE(c.find("radiance"), std::string::npos) << c;
+}
+
+TEST_F(Program, HelpVersionAndWrongUse) {
+  const Outcome help = run({"eval", "--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const char* text : {"--spp", "=256", "--seed", "Input and output"})
+    EXPECT_NE(help.out.find(text), std::string::npos) << text << "\n" << help.out;
+  const Outcome version = run({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.rfind("steradian ", 0), 0u) << version.out;
+  EXPECT_EQ(run({}).status, 2);
+  EXPECT_EQ(run({"frobnicate"}).status, 2);
+  EXPECT_EQ(run({"eval", "--spp", "0"}).status, 2);
+  EXPECT_EQ(run({"eval", "--method", "magic"}).status, 2);
+}
+
+TEST_F(Program, InfoAndBenchSpeakJson) {
+  const json info = json::parse(run({"info", "--json"}).out);
+  for (const char* key : {"version", "compiler", "instruction_sets", "simd", "threads", "libraries"})
+    EXPECT_TRUE(info.contains(key)) << key;
+  const Outcome r = run({"bench", "--json", "--min-time", "0.01"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  bool lambert = false;
+  for (const json& one : json::parse(r.out)) {
+    lambert |= one["name"] == "kernel/lambert/quad";
+    for (const char* key : {"items", "ns_per_item", "median_ms", "runs"}) EXPECT_GT(one[key].get<double>(), 0) << one;
+  }
+  EXPECT_TRUE(lambert);
+  EXPECT_EQ(run({"bench", "--filter", "nothing"}).status, 1);
+}
+
+}  // namespace
+}  // namespace steradian
