@@ -7,117 +7,133 @@
 namespace steradian::reference {
 namespace {
 
-// How often the arcs run around z, counted by azimuth.
-int winding_about_z(const std::vector<Arc>& arcs) {
+// How often the arcs run around an axis, counted by azimuth.
+int winding_about(const std::vector<Arc>& arcs, Vec3d axis) {
   double turn = 0;
   for (const Arc& arc : arcs)
-    turn += std::atan2(arc.a.x * arc.b.y - arc.a.y * arc.b.x, arc.a.x * arc.b.x + arc.a.y * arc.b.y);
+    turn += std::atan2(dot(axis, cross(arc.a, arc.b)), dot(arc.a, arc.b) - dot(axis, arc.a) * dot(axis, arc.b));
   return static_cast<int>(std::lround(turn / (2 * std::numbers::pi)));
 }
 
-// Of the arc, the point nearest to z.
-Vec3d nearest_to_z(const Arc& arc) {
-  const Vec3d foot = normalized(Vec3d{0, 0, 1} - arc.normal * arc.normal.z);
-  const bool within = dot(arc.normal, cross(arc.a, foot)) > 0 && dot(arc.normal, cross(foot, arc.b)) > 0;
-  if (within) return foot;
-  return arc.a.z > arc.b.z ? arc.a : arc.b;
+Vec3d arc_point(const Arc& arc, double tau) {
+  return arc.a * std::cos(tau) + cross(arc.normal, arc.a) * std::sin(tau);
 }
-
-constexpr std::size_t kNoArc = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-Fan::Fan(const SphericalRegion& region, const LobeShape& shape)
-    : column_x_(shape.x), column_y_(shape.y), column_z_(shape.peak) {
-  const Vec3d yz = cross(column_y_, column_z_), zx = cross(column_z_, column_x_), xy = cross(column_x_, column_y_);
-  determinant_ = dot(column_x_, yz);
-  const auto stretched = [&](Vec3d w) { return normalized(Vec3d{dot(yz, w), dot(zx, w), dot(xy, w)} / determinant_); };
+Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) {
+  determinant_ = dot(shape.x, cross(shape.y, shape.z));
+  inverse_x_ = cross(shape.y, shape.z) / determinant_;
+  inverse_y_ = cross(shape.z, shape.x) / determinant_;
+  inverse_z_ = cross(shape.x, shape.y) / determinant_;
+  half_vectors_ = !(shape.offset == Vec3d{});
 
-  std::vector<Arc> arcs;
-  arcs.reserve(region.arcs.size());
-  for (const Arc& arc : region.arcs) {
-    const Vec3d a = stretched(arc.a), b = stretched(arc.b);
-    // Normals of planes go the other way: by the transpose.
-    const Vec3d n = normalized(Vec3d{dot(column_x_, arc.normal), dot(column_y_, arc.normal), dot(column_z_, arc.normal)});
-    arcs.push_back({a, b, n, std::atan2(dot(n, cross(a, b)), dot(a, b))});
-  }
-
-  apex_ = {0, 0, 1};
-  std::size_t apex_arc = kNoArc;
-  if (winding_about_z(arcs) <= 0) {
-    double nearest = -2;
-    for (std::size_t i = 0; i < arcs.size(); ++i) {
-      const Vec3d candidate = nearest_to_z(arcs[i]);
-      if (candidate.z > nearest) {
-        nearest = candidate.z;
-        apex_ = candidate;
-        apex_arc = i;
+  const Vec3d peak{0, 0, 1};
+  Vec3d apex = peak;
+  double distance = 0;
+  if (winding_about(region.arcs, shape.peak) <= 0) {
+    distance = std::numbers::pi;
+    for (const Arc& arc : region.arcs) {
+      const Vec3d candidate = normalized(to_lobe_space(arc_point(arc, nearest_tau(arc, peak)) + shape.offset));
+      const double d = std::atan2(std::hypot(candidate.x, candidate.y), candidate.z);
+      if (d < distance) {
+        distance = d;
+        apex = candidate;
       }
     }
   }
+  apex_ = Frame::from_normal(apex);
 
-  // The scale on which the lobe falls off from the apex: its width at its peak; off the peak a power law slows down, and
-  // a Gaussian of width w falls as exp(-distance theta / w^2). Beyond 40 widths nothing of it is left in double.
-  const double distance = std::atan2(std::hypot(apex_.x, apex_.y), apex_.z);
+  // At the peak the lobe falls off on the scale of its width. Off it a power law slows down, and a Gaussian of width w
+  // falls as exp(-distance theta / w^2). Beyond 40 widths nothing of it is left in double.
   theta_scale_ = shape.long_tailed ? std::hypot(shape.width, distance)
                                    : shape.width / (1 + std::min(distance / shape.width, 40.0));
+  for (const Arc& arc : region.arcs) add_triangles(arc);
+}
 
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    const Arc& arc = arcs[i];
-    const double sine = dot(arc.normal, apex_);
-    // An arc through the apex spans nothing with it.
-    if (i == apex_arc || apex_ == arc.a || apex_ == arc.b || std::fabs(sine) < 1e-20) continue;
-    FanTriangle t;
-    Vec3d foot = normalized(apex_ - arc.normal * sine);
-    if (length(foot) < 0.5) foot = arc.a;  // the apex is the circle's pole: every point is nearest
-    const Vec3d along = cross(arc.normal, foot);
-    t.sine = sine;
-    t.cosine = dot(foot, apex_);
-    t.tau_scale = std::fabs(sine);
-    t.x = normalized(cross(along, apex_)) * std::copysign(1.0, sine);
-    t.y = along;
-    const double tau = std::atan2(dot(along, arc.a), dot(foot, arc.a));
-    const double begin = std::asinh(tau / t.tau_scale), end = std::asinh((tau + arc.angle) / t.tau_scale);
-    const auto add = [&](double from, double to) {
-      t.u_begin = from;
-      t.u_end = to;
-      if (to > from) triangles_.push_back(t);
-    };
-    if (begin < 0 && end > 0) {
-      add(begin, 0);
-      add(0, end);
-    } else {
-      add(begin, end);
+Vec3d Fan::to_lobe_space(Vec3d v) const { return {dot(inverse_x_, v), dot(inverse_y_, v), dot(inverse_z_, v)}; }
+
+// Roughly: it only says where to begin.
+double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
+  const auto closeness = [&](double tau) {
+    return dot(normalized(to_lobe_space(arc_point(arc, tau) + shape_.offset)), to);
+  };
+  constexpr int kProbes = 12;
+  double best = 0, best_closeness = -2;
+  for (int i = 0; i <= kProbes; ++i) {
+    const double tau = arc.angle * i / kProbes, c = closeness(tau);
+    if (c > best_closeness) {
+      best_closeness = c;
+      best = tau;
     }
+  }
+  // Narrow down between the best probe's neighbours by thirds.
+  double low = std::max(best - arc.angle / kProbes, 0.0), high = std::min(best + arc.angle / kProbes, arc.angle);
+  for (int i = 0; i < 24; ++i) {
+    const double third = (high - low) / 3;
+    if (closeness(low + third) < closeness(high - third))
+      low += third;
+    else
+      high -= third;
+  }
+  const double inner = 0.5 * (low + high);
+  return closeness(inner) > best_closeness ? inner : best;
+}
+
+void Fan::add_triangles(const Arc& arc) {
+  const double tau = nearest_tau(arc, apex_.z);
+  Triangle t;
+  t.nearest = arc_point(arc, tau);
+  t.along = cross(arc.normal, t.nearest);
+  // The scale along the arc: of the distance to the apex, or of the lobe's width where the arc comes closer; divided by
+  // the speed with which lobe space is passed.
+  const Vec3d p = to_lobe_space(t.nearest + shape_.offset), speed = to_lobe_space(t.along);
+  const double size = length(p);
+  const Vec3d direction = apex_.to_local(p / size);
+  const double distance = std::atan2(std::hypot(direction.x, direction.y), direction.z);
+  const double across = length(cross(p / size, speed)) / size;
+  t.tau_scale = std::clamp(std::hypot(distance, theta_scale_) / std::max(across, 1e-300), 1e-12, 1.0);
+  const double begin = std::asinh(-tau / t.tau_scale), end = std::asinh((arc.angle - tau) / t.tau_scale);
+  if (begin < 0) {
+    t.u_begin = begin;
+    t.u_end = 0;
+    triangles_.push_back(t);
+  }
+  if (end > 0) {
+    t.u_begin = 0;
+    t.u_end = end;
+    triangles_.push_back(t);
   }
 }
 
-Fan::Ray Fan::ray(const FanTriangle& t, double u) const {
-  const double tau = t.tau_scale * std::sinh(u);
-  const double tau_speed = t.tau_scale * std::cosh(u);
-  const double sin_tau = std::sin(tau), cos_tau = std::cos(tau);
-  // The arc's point in the frame (x, y, apex); sin(theta) from its own terms, which do not cancel.
-  const double along_x = std::fabs(t.sine) * cos_tau, along_y = sin_tau;
-  const double sine2 = along_x * along_x + along_y * along_y;
-  const double sine = std::sqrt(sine2);
-  const double theta = std::atan2(sine, t.cosine * cos_tau);
-  Ray ray;
-  ray.along = (t.x * along_x + t.y * along_y) / sine;
-  ray.v_scale = std::asinh(theta / theta_scale_);
+Fan::Ray Fan::ray(const Triangle& t, double u) const {
+  const double e = std::exp(u);
+  const double tau = t.tau_scale * 0.5 * (e - 1 / e), tau_speed = t.tau_scale * 0.5 * (e + 1 / e);
+  const double sine = std::sin(tau), cosine = std::cos(tau);
+  const Vec3d p = apex_.to_local(to_lobe_space(t.nearest * cosine + t.along * sine + shape_.offset));
+  const Vec3d dp = apex_.to_local(to_lobe_space(t.along * cosine - t.nearest * sine));
+  const double r2 = p.x * p.x + p.y * p.y, r = std::sqrt(r2);
+  Ray ray{};
   ray.arc_speed = tau_speed;
-  ray.measure = t.sine / sine2 * tau_speed * ray.v_scale;
+  if (!(r > 0)) return ray;  // the arc passes through the apex: nothing between them
+  ray.across = (apex_.x * p.x + apex_.y * p.y) / r;
+  ray.v_scale = std::asinh(std::atan2(r, p.z) / theta_scale_);
+  ray.measure = (p.x * dp.y - p.y * dp.x) / r2 * tau_speed * ray.v_scale;
   return ray;
 }
 
-FanPoint Fan::at(const Ray& ray, double v) const {
+Fan::Point Fan::at(const Ray& ray, double v) const {
   const double e = std::exp(v * ray.v_scale);
-  const double theta = theta_scale_ * 0.5 * (e - 1 / e);
-  const double theta_speed = theta_scale_ * 0.5 * (e + 1 / e);
+  const double theta = theta_scale_ * 0.5 * (e - 1 / e), theta_speed = theta_scale_ * 0.5 * (e + 1 / e);
   const double sine = std::sin(theta);
-  const Vec3d w = apex_ * std::cos(theta) + ray.along * sine;
-  const Vec3d l = column_x_ * w.x + column_y_ * w.y + column_z_ * w.z;
-  const double scale = 1 / length(l);
-  return {l * scale, determinant_ * scale * scale * scale * ray.measure * theta_speed * sine};
+  const Vec3d w = apex_.z * std::cos(theta) + ray.across * sine;
+  const Vec3d stretched = shape_.x * w.x + shape_.y * w.y + shape_.z * w.z;
+  const double scale = 1 / length(stretched);
+  const double measure = determinant_ * scale * scale * scale * ray.measure * theta_speed * sine;
+  const Vec3d m = stretched * scale;
+  if (!half_vectors_) return {m, measure};
+  const double v_dot_h = dot(shape_.offset, m);
+  return {normalized(m * (2 * v_dot_h) - shape_.offset), 4 * v_dot_h * measure};
 }
 
 }  // namespace steradian::reference

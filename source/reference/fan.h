@@ -1,6 +1,10 @@
 // Fan: a region of the sphere as the signed sum of triangles between one apex and the region's arcs, with coordinates
 // that open up a peak at the apex. No triangulation: whatever lies outside the region is covered as often positively
 // as negatively, for any outline with holes.
+//
+// The triangles live in the lobe's own space (LobeShape). Their sides are straight there; the arcs need not be. What
+// the horizon bounds is convex in both kinds of that space (of half vectors: a disk in the plane h_z = 1), so that no
+// triangle reaches below it.
 #pragma once
 
 #include <vector>
@@ -10,45 +14,47 @@
 
 namespace steradian::reference {
 
-// One triangle, or a part of it, in stretched space. Coordinates: (tau, theta), tau along the arc from the point
-// nearest to the apex, theta from the apex. Both are stretched once more by sinh, which spreads scales evenly.
-struct FanTriangle {
-  Vec3d x, y;            // with the apex an orthonormal frame; x to the nearest point of the arc's circle
-  double sine, cosine;   // of the distance from the apex to that circle; negative: the triangle counts negative
-  double tau_scale;      // tau = tau_scale sinh(u)
-  double u_begin, u_end;
-};
-
-// The point of the sphere at (u, v), v in [0, 1] from apex to arc.
-struct FanPoint {
-  Vec3d direction;  // unit, in the shading frame
-  double measure;   // solid angle per du dv, signed
-};
-
 class Fan {
  public:
-  // The apex is the lobe's peak where the region holds it, else the boundary's nearest point to it, as measured in a
-  // space where the lobe is round.
+  // The apex is the lobe's peak where the region holds it, else the boundary's nearest point to it.
   Fan(const SphericalRegion& region, const LobeShape& shape);
 
-  const std::vector<FanTriangle>& triangles() const { return triangles_; }
-
-  // Ray of a triangle at u: what all its points share.
-  struct Ray {
-    Vec3d along;         // perpendicular to the apex
-    double v_scale;      // theta = theta_scale sinh(v v_scale)
-    double measure;      // d phi / du, signed, times v_scale
-    double arc_speed;    // length of arc per du
+  // A triangle, or the part of it on one side of the arc's point nearest to the apex. Coordinates: u along the arc from
+  // that point, v in [0, 1] from apex to arc; both grow like the logarithm of the distance, beyond the lobe's width.
+  struct Triangle {
+    Vec3d nearest, along;  // the arc's points are nearest cos(tau) + along sin(tau), tau = tau_scale sinh(u)
+    double tau_scale;
+    double u_begin, u_end;
   };
-  Ray ray(const FanTriangle& triangle, double u) const;
-  FanPoint at(const Ray& ray, double v) const;
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  // All points of a triangle at one u.
+  struct Ray {
+    Vec3d across;      // unit, perpendicular to the apex: where the ray goes
+    double v_scale;    // angle from the apex: theta_scale sinh(v v_scale)
+    double measure;    // azimuth about the apex per du, signed, times v_scale
+    double arc_speed;  // length of arc per du [rad]
+  };
+  Ray ray(const Triangle& triangle, double u) const;
+
+  struct Point {
+    Vec3d direction;  // unit, in the shading frame
+    double measure;   // solid angle per du dv, signed
+  };
+  Point at(const Ray& ray, double v) const;
 
  private:
-  Vec3d column_x_, column_y_, column_z_;  // from stretched space to the shading frame
+  Vec3d to_lobe_space(Vec3d v) const;
+  void add_triangles(const Arc& arc);
+  double nearest_tau(const Arc& arc, Vec3d to) const;
+
+  LobeShape shape_;
+  Vec3d inverse_x_, inverse_y_, inverse_z_;  // rows of the inverse of (x, y, z)
   double determinant_;
-  Vec3d apex_;
-  double theta_scale_;
-  std::vector<FanTriangle> triangles_;
+  bool half_vectors_;
+  Frame apex_;          // z is the apex
+  double theta_scale_;  // on which the lobe falls off from the apex
+  std::vector<Triangle> triangles_;
 };
 
 }  // namespace steradian::reference

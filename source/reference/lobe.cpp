@@ -87,19 +87,13 @@ double Lobe::pdf(Vec3d l) const {
 LobeValue Lobe::largest_factors() const { return {largest_component(plain_), largest_component(fresnel_)}; }
 
 LobeShape Lobe::shape() const {
-  const Frame frame = mirror_frame_;
-  if (brdf_ == Brdf::lambert) return {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1.0, false};
-  if (brdf_ == Brdf::phong) return {mirror_, frame.x, frame.y, 1 / std::sqrt(n_ + 1), false};
-
-  // h = normal + d turns the mirrored view by 2 (v.d) normal + 2 v_z d. Towards grazing the lobe is no longer linear in d
-  // within its width; a floor under v_z keeps the axes those of its bulk.
+  const Frame& m = mirror_frame_;
+  if (brdf_ == Brdf::lambert) return {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, 1.0, false};
+  if (brdf_ == Brdf::phong) return {mirror_, m.x, m.y, mirror_, {}, 1 / std::sqrt(n_ + 1), false};
   const double blinn = std::sqrt(2 / (n_ + 2));
-  const double ax = std::min(brdf_ == Brdf::blinn_phong ? blinn : ax_, 1.0);
-  const double ay = std::min(brdf_ == Brdf::blinn_phong ? blinn : ay_, 1.0);
-  const double vz = std::max(view_.z, std::max(ax, ay));
-  const Vec3d x = Vec3d{vz, 0, view_.x} * (2 * ax), y = Vec3d{0, vz, view_.y} * (2 * ay);
-  const double width = std::max(length(x), length(y));
-  return {mirror_, x / width, y / width, width, brdf_ == Brdf::ggx};
+  const double ax = brdf_ == Brdf::blinn_phong ? blinn : ax_, ay = brdf_ == Brdf::blinn_phong ? blinn : ay_;
+  const double width = std::max(ax, ay);
+  return {mirror_, {ax / width, 0, 0}, {0, ay / width, 0}, {0, 0, 1}, view_, std::min(width, 1.0), brdf_ == Brdf::ggx};
 }
 
 double Lobe::sensitivity() const {

@@ -18,12 +18,16 @@ struct LobeValue {
   LobeValue& operator+=(LobeValue b) { return *this = *this + b; }
 };
 
-// Where the lobe is, roughly: what an integrator needs to find it. Never a matter of correctness.
+// A space in which the lobe is round and simple, for an integrator to work in. Never a matter of correctness.
+//
+// A direction l lies there in the direction of the solution w of x w_x + y w_y + z w_z = l + offset. The offset is zero,
+// or the view: w is then a half vector, and a distribution of any two widths is round about (0, 0, 1).
 struct LobeShape {
-  Vec3d peak;       // unit direction, above the surface
-  Vec3d x, y;       // peak + s x and peak + t y run along the lobe's axes; the wider one has length 1
-  double width;     // in units of x and y
-  bool long_tailed;  // falls off as a power, not as a Gaussian
+  Vec3d peak;         // the l of w = (0, 0, 1)
+  Vec3d x, y, z;      // at most of length 1
+  Vec3d offset;
+  double width;       // angle from (0, 0, 1) [rad]
+  bool long_tailed;   // falls off as a power, not as a Gaussian
 };
 
 // Directions are unit and in the shading frame: z the normal, x the tangent of the widths.

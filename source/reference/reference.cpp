@@ -45,7 +45,7 @@ class Cubature {
   // Until the bound is below the larger of the two; errors of the radiance for a light of radiance 1.
   void run(double relative, double absolute, int max_evaluations) {
     for (std::size_t i = 0; i < fan_.triangles().size(); ++i) {
-      const FanTriangle& t = fan_.triangles()[i];
+      const Fan::Triangle& t = fan_.triangles()[i];
       push(evaluated({i, t.u_begin, t.u_end, 0, 1, {}}));
     }
     resum();
@@ -106,7 +106,7 @@ class Cubature {
   }
 
   Cell evaluated(Cell cell) {
-    const FanTriangle& triangle = fan_.triangles()[cell.triangle];
+    const Fan::Triangle& triangle = fan_.triangles()[cell.triangle];
     const double u_mid = 0.5 * (cell.u0 + cell.u1), u_half = 0.5 * (cell.u1 - cell.u0);
     const double v_mid = 0.5 * (cell.v0 + cell.v1), v_half = 0.5 * (cell.v1 - cell.v0);
     std::array<LobeValue, kKronrodPoints * kKronrodPoints> values;
@@ -117,7 +117,7 @@ class Cubature {
       const Fan::Ray ray = fan_.ray(triangle, u_mid + u_half * nu.x);
       LobeValue row_kronrod, row_gauss, last;
       for (const KronrodNode& nv : kKronrodNodes) {
-        const FanPoint p = fan_.at(ray, v_mid + v_half * nv.x);
+        const Fan::Point p = fan_.at(ray, v_mid + v_half * nv.x);
         last = lobe_.evaluate(p.direction);
         const LobeValue f = last * p.measure;
         values[index++] = f;
