@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference/chi2.h"
 #include "reference/gauss_kronrod.h"
 #include "reference/random_configurations.h"
 
@@ -70,6 +71,166 @@ TEST(Reference, BoundHoldsForEveryLobe) {
     lit += fine.radiance.x > 1e-6;
   }
   std::printf("%d lit\n", lit);
+}
+
+namespace {
+
+// A square overhead, so large and so close that only 1e-4 of the hemisphere's directions pass it by.
+PreparedPolygon ceiling() {
+  PolygonLight light;
+  light.vertices = {{-1e4, -1e4, 1}, {-1e4, 1e4, 1}, {1e4, 1e4, 1}, {1e4, -1e4, 1}};
+  return prepare_polygon(light);
+}
+
+ShadingPoint seen_at(double vz) { return {{}, {0, 0, 1}, {std::sqrt(1 - vz * vz), 0, vz}}; }
+
+Material of(Brdf brdf) {
+  Material m;
+  m.brdf = brdf;
+  return m;
+}
+
+}  // namespace
+
+TEST(Reference, UnderASkyLobesHaveTheirKnownIntegrals) {
+  // What the ceiling leaves out are elevations below atan(1e-4 to 1.5e-4).
+  const double gap = 1.5e-4;
+  Material m = of(Brdf::phong);
+  for (double n : {0.0, 1.0, 2.0, 50.0, 10'000.0}) {
+    m.exponent = n;
+    // Seen from above, the lobe is about the normal, all of it above the horizon. The gap holds gap^(n + 1).
+    const ReferenceResult r = reference_radiance(ceiling(), seen_at(1), m);
+    EXPECT_NEAR(r.radiance.x, 1, std::pow(gap, n + 1) + r.bound) << n;
+    // Exponent 1 about an axis at the angle t from the normal: the form factor of a half sky, (1 + cos t) / 2.
+    if (n == 1) {
+      EXPECT_NEAR(reference_radiance(ceiling(), seen_at(0.5), m).radiance.x, 0.5 * (1 + 0.5), 2 * gap);
+    }
+  }
+  // Blinn-Phong from above: half vectors up to 45 degrees, l.z = 2 h.z^2 - 1 > 0. With dl = 4 h.z dh the integral of
+  // D / 4 is (n+2)/(2 pi) 2 pi int h.z^(n+1) dh.z from sqrt(1/2) to 1 = 1 - 2^(-(n+2)/2).
+  m = of(Brdf::blinn_phong);
+  for (double n : {0.0, 3.0, 10'000.0}) {
+    m.exponent = n;
+    EXPECT_NEAR(reference_radiance(ceiling(), seen_at(1), m).radiance.x, 1 - std::pow(2, -0.5 * (n + 2)), gap * (n + 2)) << n;
+  }
+  // Beckmann from above: slopes up to 1. 1 - exp(-1/alpha^2).
+  m = of(Brdf::beckmann);
+  for (double alpha : {1e-4, 0.1, 1.0}) {
+    m.alpha_x = m.alpha_y = alpha;
+    EXPECT_NEAR(reference_radiance(ceiling(), seen_at(1), m).radiance.x, 1 - std::exp(-1 / (alpha * alpha)), 2 * gap) << alpha;
+  }
+  // GGX without shadowing, the same: 1 / (1 + alpha^2).
+  m = of(Brdf::ggx);
+  m.shadowing = false;
+  for (double alpha : {1e-4, 0.1, 1.0}) {
+    m.alpha_x = m.alpha_y = alpha;
+    EXPECT_NEAR(reference_radiance(ceiling(), seen_at(1), m).radiance.x, 1 / (1 + alpha * alpha), 2 * gap) << alpha;
+  }
+  // With shadowing: a sharp lobe reflects everything, a rough one never more, at any view.
+  m.shadowing = true;
+  for (double vz : {1.0, 0.5, 0.05})
+    for (double alpha : {1e-4, 0.1, 1.0}) {
+      m.alpha_x = m.alpha_y = alpha;
+      const double energy = reference_radiance(ceiling(), seen_at(vz), m).radiance.x;
+      EXPECT_LE(energy, 1 + 1e-9);
+      if (alpha == 1e-4) {
+        // The tail beyond a slope s, of which the horizon hides a part, holds (alpha / s)^2.
+        EXPECT_NEAR(energy, 1, 4 * alpha / vz) << vz;
+      }
+    }
+}
+
+TEST(Reference, FresnelIsLinearInItsReflectances) {
+  Random random(4);
+  for (int i = 0; i < 50; ++i) {
+    const auto c = random_configuration(random);
+    Material m = of(Brdf::ggx);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const auto at = [&](double f0, double f90) {
+      m.f0 = {f0, f0, f0};
+      m.f90 = {f90, f90, f90};
+      return reference_radiance(light, c.at, m);
+    };
+    const auto off = at(1, 1), none = at(0, 1), some = at(0.3, 0.9);
+    EXPECT_NEAR(some.radiance.x, 0.3 * (off.radiance.x - none.radiance.x) + 0.9 * none.radiance.x,
+                some.bound + off.bound + none.bound);
+  }
+}
+
+TEST(Reference, ColoursOfLightAndMaterialMultiply) {
+  PolygonLight coloured;
+  coloured.vertices = {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}};
+  coloured.radiance = {1, 2, 30};
+  Material m;
+  m.albedo = {0.5, 1, 0.1};
+  const auto r = reference_radiance(prepare_polygon(coloured), seen_at(1), m);
+  EXPECT_NEAR(r.radiance.y, 4 * r.radiance.x, 1e-14);
+  EXPECT_NEAR(r.radiance.z, 6 * r.radiance.x, 1e-14);
+  EXPECT_GT(r.radiance.x, 0.1);
+}
+
+TEST(Reference, DegenerateLightsAndViewsBelowGiveNothing) {
+  PolygonLight line;
+  line.vertices = {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}};
+  PolygonLight repeated;
+  repeated.vertices = {{0, 0, 1}, {0, 0, 1}, {1, 0, 1}};
+  for (Brdf brdf : {Brdf::lambert, Brdf::phong, Brdf::ggx, Brdf::blinn_phong, Brdf::beckmann}) {
+    const Material m = of(brdf);
+    for (const PolygonLight& light : {line, repeated}) {
+      EXPECT_EQ(largest(reference_radiance(prepare_polygon(light), seen_at(0.5), m).radiance), 0);
+      EXPECT_EQ(largest(sampled_radiance(prepare_polygon(light), seen_at(0.5), m).radiance), 0);
+    }
+    ShadingPoint below = seen_at(0.5);
+    below.view.z = -0.5;
+    EXPECT_EQ(largest(reference_radiance(ceiling(), below, m).radiance), 0);
+    EXPECT_EQ(largest(sampled_radiance(ceiling(), below, m).radiance), 0);
+    EXPECT_GT(largest(reference_radiance(ceiling(), seen_at(0.5), m).radiance), 0.1);
+  }
+}
+
+TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
+  Random random(9);
+  int tested = 0, random_ones = 0;
+  double worst = 0, squares = 0;
+  for (int i = 0; tested < 300; ++i) {
+    const auto c = random_configuration(random);
+    Material m = random_material(random);
+    // Where a handful of samples carries everything, their mean is not yet normally distributed.
+    m.alpha_x = std::max(m.alpha_x, 0.05);
+    m.alpha_y = std::max(m.alpha_y, 0.05);
+    m.exponent = std::min(m.exponent, 300.0);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const double exact = largest(reference_radiance(light, c.at, m, {1e-7, 1e-10, 400'000}).radiance);
+    if (!(exact > 1e-3)) continue;
+    ++tested;
+    const SampledResult s = sampled_radiance(light, c.at, m, {2000, static_cast<std::uint64_t>(i)});
+    const double z = (largest(s.radiance) - exact) / (s.standard_error + 1e-7 * exact);
+    worst = std::max(worst, std::fabs(z));
+    // Light samples alone can be exact (Lambert, a light that no lobe sample hits): no statistics there.
+    if (s.standard_error > 1e-5 * exact) {
+      squares += z * z;
+      ++random_ones;
+    }
+    // Sidak: 300 tests that fail together once in 1,000 have each a level of 3.3e-6: 4.65 standard errors.
+    EXPECT_LE(std::fabs(z), 4.65) << i << ": " << describe(c, m) << ", exact " << exact << ", sampled "
+                                  << largest(s.radiance) << " +- " << s.standard_error;
+  }
+  // And the errors are not only small enough, they are as large as said: sum of squares of normals.
+  const double p = reference::chi2_p_value(squares, random_ones);
+  EXPECT_GT(random_ones, 200);
+  EXPECT_GT(p, 1e-4) << squares;
+  EXPECT_LT(p, 1 - 1e-4) << squares;
+  std::printf("largest |z| %.2f of %d, mean square %.3f\n", worst, tested, squares / random_ones);
+}
+
+TEST(Sampled, TheSeedDecides) {
+  const Material m = of(Brdf::ggx);
+  const auto first = sampled_radiance(ceiling(), seen_at(0.5), m, {100, 7});
+  const auto again = sampled_radiance(ceiling(), seen_at(0.5), m, {100, 7});
+  const auto other = sampled_radiance(ceiling(), seen_at(0.5), m, {100, 8});
+  EXPECT_EQ(first.radiance.x, again.radiance.x);
+  EXPECT_EQ(first.standard_error, again.standard_error);
+  EXPECT_NE(first.radiance.x, other.radiance.x);
 }
 
 }  // namespace steradian

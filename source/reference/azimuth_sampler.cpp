@@ -1,0 +1,188 @@
+#include "reference/azimuth_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace steradian::reference {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+Vec3d across_at(double azimuth) { return {std::cos(azimuth), std::sin(azimuth), 0}; }
+
+// Where the side's great circle meets the half plane of z and `across`; its normal's z is positive.
+Vec3d meet(Vec3d normal, Vec3d across) { return normalized(across * normal.z - Vec3d{0, 0, dot(normal, across)}); }
+
+}  // namespace
+
+void AzimuthSampler::prepare(const SphericalRegion& region, SphericalMeasure measure) {
+  measure_ = measure;
+  total_ = 0;
+  sides_.clear();
+  slices_.clear();
+  slice_sides_.clear();
+  ends_.clear();
+  if (region.arcs.empty()) return;
+
+  // Azimuths run from a vertex, so that a small light lies near 0 and 2 pi and keeps its digits on one side at least.
+  zero_azimuth_ = std::atan2(region.arcs[0].a.y, region.arcs[0].a.x);
+  for (const Arc& arc : region.arcs) {
+    if (arc.normal.z > 0)
+      add_side(arc.a, arc.b, arc.normal, 1);
+    else if (arc.normal.z < 0)
+      add_side(arc.b, arc.a, -arc.normal, -1);  // an arc towards or away from z spans no sector
+  }
+  for (const Side& side : sides_) {
+    ends_.push_back(side.begin);
+    ends_.push_back(side.end);
+  }
+  std::sort(ends_.begin(), ends_.end());
+  for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+    if (!(ends_[i + 1] > ends_[i])) continue;
+    Slice slice{ends_[i], ends_[i + 1], 0, slice_sides_.size(), 0};
+    for (std::size_t s = 0; s < sides_.size(); ++s)
+      if (sides_[s].begin <= slice.begin && sides_[s].end >= slice.end) slice_sides_.push_back(s);
+    slice.last = slice_sides_.size();
+    if (slice.first == slice.last) continue;
+    total_ += std::max(slice_measure(slice, slice.end), 0.0);
+    slice.share = total_;
+    slices_.push_back(slice);
+  }
+}
+
+// a to b by growing azimuth, less than half a turn; cut where azimuths begin again.
+void AzimuthSampler::add_side(Vec3d a, Vec3d b, Vec3d normal, double sign) {
+  const auto azimuth_of = [&](Vec3d w) {
+    double azimuth = std::atan2(w.y, w.x) - zero_azimuth_;
+    if (azimuth < 0) azimuth += kTurn;
+    return azimuth >= kTurn ? 0.0 : azimuth;
+  };
+  const bool a_at_z = a.x == 0 && a.y == 0, b_at_z = b.x == 0 && b.y == 0;
+  if (a_at_z || b_at_z) return;
+  const double begin = azimuth_of(a), end = azimuth_of(b);
+  if (begin <= end && end - begin <= std::numbers::pi) {
+    if (end > begin) sides_.push_back({a, normal, begin, end, sign});
+    return;
+  }
+  if (begin - end < std::numbers::pi) return;  // backwards by rounding: an arc that nearly points to z
+  if (kTurn > begin) sides_.push_back({a, normal, begin, kTurn, sign});
+  if (end > 0) sides_.push_back({meet(normal, across_at(zero_azimuth_)), normal, 0, end, sign});
+}
+
+double AzimuthSampler::sector(const Side& side, double azimuth) const {
+  const Vec3d q = meet(side.normal, across_at(azimuth + zero_azimuth_));
+  if (measure_ == SphericalMeasure::projected_solid_angle)
+    return 0.5 * side.normal.z * std::atan2(dot(side.normal, cross(side.a, q)), dot(side.a, q));
+  // Van Oosterom, Strackee 1983, eq. 8, of the triangle z, a, q.
+  return 2 * std::atan2(side.a.x * q.y - side.a.y * q.x, 1 + side.a.z + q.z + dot(side.a, q));
+}
+
+double AzimuthSampler::extent(const Side& side, Vec3d across) const {
+  const double along = dot(side.normal, across);
+  const double sine2 = side.normal.z * side.normal.z / (side.normal.z * side.normal.z + along * along);
+  if (measure_ == SphericalMeasure::projected_solid_angle) return 0.5 * sine2;
+  const double cosine = std::max(-along, 0.0) / std::hypot(side.normal.z, along);
+  return sine2 / (1 + cosine);
+}
+
+double AzimuthSampler::slice_measure(const Slice& slice, double azimuth) const {
+  double sum = 0;
+  for (std::size_t i = slice.first; i < slice.last; ++i) {
+    const Side& side = sides_[slice_sides_[i]];
+    const double before = side.begin < slice.begin ? sector(side, slice.begin) : 0;
+    sum += side.sign * (sector(side, azimuth) - before);
+  }
+  return sum;
+}
+
+double AzimuthSampler::slice_density(const Slice& slice, double azimuth) const {
+  const Vec3d across = across_at(azimuth + zero_azimuth_);
+  double sum = 0;
+  for (std::size_t i = slice.first; i < slice.last; ++i) {
+    const Side& side = sides_[slice_sides_[i]];
+    sum += side.sign * extent(side, across);
+  }
+  return sum;
+}
+
+Vec3d AzimuthSampler::sample(double u, double v) const {
+  if (!(total_ > 0)) return {};
+  const double share = u * total_;
+  auto slice = std::upper_bound(slices_.begin(), slices_.end(), share,
+                                [](double s, const Slice& candidate) { return s < candidate.share; });
+  if (slice == slices_.end()) --slice;
+  const double before = slice == slices_.begin() ? 0 : std::prev(slice)->share;
+
+  // Newton's steps within a bracket that shrinks; halved where a step would leave it.
+  const double target = share - before;
+  double low = slice->begin, high = slice->end;
+  double azimuth = low + (high - low) * std::clamp(target / (slice->share - before), 0.0, 1.0);
+  for (int i = 0; i < 60; ++i) {
+    const double error = slice_measure(*slice, azimuth) - target;
+    (error > 0 ? high : low) = azimuth;
+    double next = azimuth - error / slice_density(*slice, azimuth);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double step = std::fabs(next - azimuth);
+    azimuth = next;
+    if (step <= 4e-16 * kTurn) break;
+  }
+
+  // From the outside in: an interval counts where the sides further out wind around it.
+  const Vec3d across = across_at(azimuth + zero_azimuth_);
+  struct Crossing {
+    double extent, sign;
+  };
+  constexpr std::size_t kFew = 32;
+  std::array<Crossing, kFew> few;
+  std::vector<Crossing> many;
+  const std::size_t count = slice->last - slice->first;
+  Crossing* crossings = few.data();
+  if (count > kFew) {
+    many.resize(count);
+    crossings = many.data();
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Side& side = sides_[slice_sides_[slice->first + i]];
+    crossings[i] = {extent(side, across), side.sign};
+  }
+  std::sort(crossings, crossings + count, [](const Crossing& a, const Crossing& b) { return a.extent > b.extent; });
+  const auto walk = [&](double stop) {  // returns the extent at which `stop` of the intervals' lengths is used up
+    double winding = 0, length = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      winding += crossings[i].sign;
+      const double inner = i + 1 < count ? crossings[i + 1].extent : 0;
+      const double step = winding > 0.5 ? crossings[i].extent - inner : 0;
+      if (length + step > stop) return crossings[i].extent - (stop - length);
+      length += step;
+    }
+    return -length;  // not reached: minus the sum of all lengths
+  };
+  const double length = -walk(2 * kTurn);
+  const double e = std::max(walk(v * length), 0.0);
+  // The extent is sin^2/2, or 1 - cos.
+  if (measure_ == SphericalMeasure::projected_solid_angle) {
+    const double sine2 = std::min(2 * e, 1.0);
+    return across * std::sqrt(sine2) + Vec3d{0, 0, std::sqrt(1 - sine2)};
+  }
+  return across * std::sqrt(std::max(e * (2 - e), 0.0)) + Vec3d{0, 0, 1 - e};
+}
+
+bool AzimuthSampler::contains(Vec3d l) const {
+  double winding = 0;
+  for (const Side& side : sides_) {
+    double azimuth = std::atan2(l.y, l.x) - zero_azimuth_;
+    if (azimuth < 0) azimuth += kTurn;
+    // Inside of the side: det(a, b, l) > 0.
+    if (azimuth >= side.begin && azimuth < side.end && dot(side.normal, l) > 0) winding += side.sign;
+  }
+  return winding > 0.5;
+}
+
+double AzimuthSampler::pdf_within(Vec3d l) const {
+  if (!(total_ > 0) || !(l.z > 0)) return 0;
+  return (measure_ == SphericalMeasure::projected_solid_angle ? l.z : 1.0) / total_;
+}
+
+}  // namespace steradian::reference

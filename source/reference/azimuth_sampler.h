@@ -1,0 +1,62 @@
+// AzimuthSampler: directions within a polygon of any outline, with holes, of even density, exactly: no triangulation and no
+// rejection. Evenly by solid angle, or by solid angle times cosine (projected).
+//
+// About the normal z, each arc and z span a sector; the region is the signed sum of the sectors. The share of the region
+// up to an azimuth is monotone and has a closed form: Girard's excess of a triangle, or, in the projected disk, half an
+// arc's angle times its normal's z. Its inverse by Newton's method within a bracket gives the azimuth; on it, the
+// remaining coordinate is even within the intervals between the arcs.
+//
+// Prepare once per light and shading point; an object used again keeps its memory.
+#pragma once
+
+#include <vector>
+
+#include "reference/spherical_region.h"
+
+namespace steradian::reference {
+
+enum class SphericalMeasure { solid_angle, projected_solid_angle };
+
+class AzimuthSampler {
+ public:
+  // The region within the hemisphere z >= 0.
+  void prepare(const SphericalRegion& region, SphericalMeasure measure);
+
+  // Of the region, in the measure; 0: nothing to sample.
+  double measure() const { return total_; }
+
+  // For u, v in [0, 1); the zero vector where there is nothing to sample.
+  Vec3d sample(double u, double v) const;
+
+  // Per solid angle. A direction that sample() returned needs no test: pdf_within.
+  double pdf(Vec3d l) const { return contains(l) ? pdf_within(l) : 0; }
+  double pdf_within(Vec3d l) const;
+  bool contains(Vec3d l) const;
+
+ private:
+  // An arc by growing azimuth, and how its sector counts. Azimuths are counted from zero_azimuth_, in [0, 2 pi].
+  struct Side {
+    Vec3d a, normal;
+    double begin, end, sign;
+  };
+  struct Slice {  // between two neighbouring ends of sides
+    double begin, end, share;  // share: of all slices up to this one's end
+    std::size_t first, last;   // its sides in slice_sides_
+  };
+
+  void add_side(Vec3d a, Vec3d b, Vec3d normal, double sign);
+  double sector(const Side& side, double azimuth) const;  // its measure from the side's begin
+  double extent(const Side& side, Vec3d across) const;    // the measure per azimuth
+  double slice_measure(const Slice& slice, double azimuth) const;
+  double slice_density(const Slice& slice, double azimuth) const;
+
+  SphericalMeasure measure_ = SphericalMeasure::solid_angle;
+  double total_ = 0;
+  double zero_azimuth_ = 0;
+  std::vector<Side> sides_;
+  std::vector<Slice> slices_;
+  std::vector<std::size_t> slice_sides_;
+  std::vector<double> ends_;
+};
+
+}  // namespace steradian::reference
