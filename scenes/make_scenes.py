@@ -284,13 +284,13 @@ def gallery():
            translation=[0.0, 1.05, -1.2], rotation=[HALF, 0.0, 0.0, HALF])
 
     g.area_light("ceiling panel", {"type": "rect", "color": [1.0, 0.95, 0.88], "intensity": 6.0, "size": 0.8, "rect": {"aspect": 3.0}},
-                 translation=[0.0, h - 0.02, 0.4], rotation=DOWN)
+                 translation=[0.0, h - 0.02, -2.2], rotation=DOWN)
     g.node("star", translation=[0.0, 2.45, -d + 0.02],
            mesh=g.mesh("star", star(5, 0.72, 0.3), g.material("star", (0.0, 0.0, 0.0), emission=(9.0, 6.2, 2.6), specular=0.0)))
     g.area_light("disk", {"type": "disk", "color": [0.45, 0.68, 1.0], "intensity": 7.0, "size": 1.0},
-                 translation=[-w + 0.02, 2.0, 0.3], rotation=TO_PLUS_X)
+                 translation=[-w + 0.02, 2.1, -2.3], rotation=TO_PLUS_X)
     g.area_light("lamp", {"type": "sphere", "color": [1.0, 0.55, 0.3], "intensity": 14.0, "size": 0.36},
-                 translation=[3.2, 0.6, 0.9])
+                 translation=[2.45, 0.4, 0.5])
     g.camera("main", [0.35, 1.65, 6.6], [0.0, 1.25, -1.2], 0.62)
     return g
 
@@ -306,7 +306,7 @@ def plane():
 
 def ring():
     g = Gltf()
-    g.node("floor", mesh=g.mesh("floor", plate((-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)), g.diffuse("floor", (0.7, 0.68, 0.65))))
+    g.node("floor", mesh=g.mesh("floor", plate((-9, 0, 6), (9, 0, 6), (9, 0, -9), (-9, 0, -9)), g.diffuse("floor", (0.7, 0.68, 0.65))))
 
     def band(u, v):
         # A ring of rounded rectangular section: what makes the heart-shaped light on the floor is its inner side.
