@@ -31,3 +31,12 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
             $<TARGET_OBJECTS:steradian_leaking_unit>)
   set_tests_properties(Packs.SymbolTestFindsALeak PROPERTIES PASS_REGULAR_EXPRESSION "W steradian::leaks.float.")
 endif()
+
+# dist/: what is checked in is what the script writes, and each file compiles alone.
+add_test(NAME Dist.RegeneratingGivesTheSameBytes
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/dist/make_dist.py --check)
+foreach(file steradian.glsl steradian.es.glsl steradian.hlsl steradian.wgsl)
+  add_test(NAME Dist.CompilesAlone_${file}
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dist_compiles.py ${file} ${PROJECT_BINARY_DIR}/npm)
+  set_tests_properties(Dist.CompilesAlone_${file} PROPERTIES SKIP_RETURN_CODE 77)
+endforeach()
