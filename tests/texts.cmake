@@ -40,3 +40,7 @@ foreach(file steradian.glsl steradian.es.glsl steradian.hlsl steradian.wgsl)
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dist_compiles.py ${file} ${PROJECT_BINARY_DIR}/npm)
   set_tests_properties(Dist.CompilesAlone_${file} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
+
+add_test(NAME Packaging.ExampleBuildsAgainstTheInstalledTree
+  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR} -DCOMPILER=${CMAKE_CXX_COMPILER}
+          -DSCRATCH=${PROJECT_BINARY_DIR}/installed_tree -P ${CMAKE_CURRENT_LIST_DIR}/installed_tree.cmake)
