@@ -183,12 +183,12 @@ float trig_angle_over_sine_acute(float t) {
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
 //
-//   c        cosine, in [-1, 1] (rounding may exceed it)
+//   c        cosine, in [-1, 1]; the polynomial goes on smoothly where rounding exceeds it
 //   s2       sine squared, computed on its own (a squared cross product), not as 1 - c*c, which cancels near pi
 //
 // Degenerate: towards pi the value grows like pi/sine; it stops at s2 = 1.0e-30, where products with the sine are 0.
 float trig_angle_over_sine(float c, float s2) {
-    float f = trig_angle_over_sine_acute(max(1.0 - abs(c), 0.0));
+    float f = trig_angle_over_sine_acute(1.0 - abs(c));
     bool obtuse = c < 0.0;
     if (obtuse) {
         f = steradian_select(obtuse, steradian_pi() * rsqrt(max(s2, 1.0e-30)) - f, f);
@@ -374,12 +374,11 @@ struct PolygonWalk {
 //
 //   v        vertex relative to the shading point, any unit of length
 //
-// Degenerate: lengths below 1.0e-18 and above 1.0e18 (the point lies on the vertex; squares leave the range of float)
-// give the zero vector, which adds nothing to any sum.
+// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
+// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
 float3 polygon_direction(float3 v) {
     float d2 = dot(v, v);
-    bool usable = d2 > 1.0e-36 && d2 < 1.0e36;
-    float scale = steradian_select(usable, rsqrt(clamp(d2, 1.0e-36, 1.0e36)), 0.0);
+    float scale = steradian_select(d2 < 1.0e36, rsqrt(max(d2, 1.0e-36)), 0.0);
     return v * scale;
 }
 
@@ -417,23 +416,25 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, float3 a, float3 b) {
     PolygonWalk next = walk;
     bool a_below = a.z < 0.0;
     bool b_below = b.z < 0.0;
-    float3 start = a;
-    float3 end = b;
-    if (a_below || b_below) {
-        // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
-        float wa = abs(b.z);
-        float wb = abs(a.z);
-        float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-        p = p * rsqrt(max(dot(p, p), 1.0e-36));
-        float3 crossing = float3(p.x, p.y, 0.0);
-        start = steradian_select(a_below, crossing, a);
-        end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
-        bool crosses = (a_below && !b_below) || (b_below && !a_below);
-        float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
-        float2 h = walk.horizon;
-        next.horizon = steradian_select(crosses, float2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
+    if (!a_below || !b_below) {
+        float3 start = a;
+        float3 end = b;
+        if (a_below || b_below) {
+            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            float wa = abs(b.z);
+            float wb = abs(a.z);
+            float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+            p = p * rsqrt(max(dot(p, p), 1.0e-36));
+            float3 crossing = float3(p.x, p.y, 0.0);
+            start = steradian_select(a_below, crossing, a);
+            end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
+            bool crosses = (a_below && !b_below) || (b_below && !a_below);
+            float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
+            float2 h = walk.horizon;
+            next.horizon = steradian_select(crosses, float2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
+        }
+        next.edges = walk.edges + polygon_edge(start, end);
     }
-    next.edges = walk.edges + polygon_edge(start, end);
     return next;
 }
 
@@ -445,7 +446,10 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, float3 a, float3 b) {
 // Degenerate: a point in the light's plane gives 0 up to rounding.
 float3 polygon_irradiance_vector(PolygonWalk walk, bool reversed) {
     float facing = steradian_select(reversed, -1.0, 1.0);
-    float arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    float arc = 0.0;
+    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
+        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    }
     float3 e = walk.edges * facing;
     return float3(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
 }

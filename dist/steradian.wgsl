@@ -179,12 +179,12 @@ fn trig_angle_over_sine_acute(t: f32) -> f32 {
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
 //
-//   c        cosine, in [-1, 1] (rounding may exceed it)
+//   c        cosine, in [-1, 1]; the polynomial goes on smoothly where rounding exceeds it
 //   s2       sine squared, computed on its own (a squared cross product), not as 1 - c*c, which cancels near pi
 //
 // Degenerate: towards pi the value grows like pi/sine; it stops at s2 = 1.0e-30, where products with the sine are 0.
 fn trig_angle_over_sine(c: f32, s2: f32) -> f32 {
-    var f = trig_angle_over_sine_acute(max(1.0 - abs(c), 0.0));
+    var f = trig_angle_over_sine_acute(1.0 - abs(c));
     let obtuse = c < 0.0;
     if (obtuse) {
         f = select(f, steradian_pi() * inverseSqrt(max(s2, 1.0e-30)) - f, obtuse);
@@ -370,12 +370,11 @@ struct PolygonWalk {
 //
 //   v        vertex relative to the shading point, any unit of length
 //
-// Degenerate: lengths below 1.0e-18 and above 1.0e18 (the point lies on the vertex; squares leave the range of float)
-// give the zero vector, which adds nothing to any sum.
+// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
+// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
 fn polygon_direction(v: vec3f) -> vec3f {
     let d2 = dot(v, v);
-    let usable = d2 > 1.0e-36 && d2 < 1.0e36;
-    let scale = select(0.0, inverseSqrt(clamp(d2, 1.0e-36, 1.0e36)), usable);
+    let scale = select(0.0, inverseSqrt(max(d2, 1.0e-36)), d2 < 1.0e36);
     return v * scale;
 }
 
@@ -413,23 +412,25 @@ fn polygon_add_edge(walk: PolygonWalk, a: vec3f, b: vec3f) -> PolygonWalk {
     var next = walk;
     let a_below = a.z < 0.0;
     let b_below = b.z < 0.0;
-    var start = a;
-    var end = b;
-    if (a_below || b_below) {
-        // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
-        let wa = abs(b.z);
-        let wb = abs(a.z);
-        var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-        p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
-        let crossing = vec3f(p.x, p.y, 0.0);
-        start = select(a, crossing, a_below);
-        end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
-        let crosses = (a_below && !b_below) || (b_below && !a_below);
-        let y = select(-p.y, p.y, a_below);  // coming up: the azimuth; going down: its conjugate
-        let h = walk.horizon;
-        next.horizon = select(h, vec2f(h.x * p.x - h.y * y, h.x * y + h.y * p.x), crosses);
+    if (!a_below || !b_below) {
+        var start = a;
+        var end = b;
+        if (a_below || b_below) {
+            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            let wa = abs(b.z);
+            let wb = abs(a.z);
+            var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+            p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
+            let crossing = vec3f(p.x, p.y, 0.0);
+            start = select(a, crossing, a_below);
+            end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
+            let crosses = (a_below && !b_below) || (b_below && !a_below);
+            let y = select(-p.y, p.y, a_below);  // coming up: the azimuth; going down: its conjugate
+            let h = walk.horizon;
+            next.horizon = select(h, vec2f(h.x * p.x - h.y * y, h.x * y + h.y * p.x), crosses);
+        }
+        next.edges = walk.edges + polygon_edge(start, end);
     }
-    next.edges = walk.edges + polygon_edge(start, end);
     return next;
 }
 
@@ -441,7 +442,10 @@ fn polygon_add_edge(walk: PolygonWalk, a: vec3f, b: vec3f) -> PolygonWalk {
 // Degenerate: a point in the light's plane gives 0 up to rounding.
 fn polygon_irradiance_vector(walk: PolygonWalk, reversed: bool) -> vec3f {
     let facing = select(1.0, -1.0, reversed);
-    let arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    var arc = 0.0;
+    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
+        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    }
     let e = walk.edges * facing;
     return vec3f(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
 }
