@@ -37,6 +37,9 @@ std::vector<float> random_inputs(const Case& which, std::size_t count, std::uint
 
 // count times four results of case number `index`.
 std::vector<double> run_double(std::size_t index, const std::vector<float>& inputs);
+std::vector<double> run_double_at(std::size_t index, const std::vector<double>& input);  // sixteen numbers, four results
+// The four results' derivatives by each of the sixteen numbers.
+std::vector<std::vector<double>> run_dual(std::size_t index, const std::vector<double>& input);
 std::vector<float> run_float(std::size_t index, const std::vector<float>& inputs);
 
 enum class PackKind { fast, strict };  // strict: no contraction, square roots and divisions as IEEE has them

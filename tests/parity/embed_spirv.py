@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""embed_spirv.py SPIRV OUTPUT: writes a shader as a C++ list of words, with contraction forbidden everywhere.
+"""embed_spirv.py SPIRV OUTPUT: writes a shader with contraction forbidden everywhere, as a C++ list of words; where OUTPUT
+ends in .spv, as SPIR-V again.
 
 Every float operation is decorated NoContraction, as `precise` on every variable would do: a driver must then neither
 fuse nor reorder, and results can be compared with the CPU's bit by bit.
@@ -30,6 +31,9 @@ def without_contraction(words):
 def main():
     data = Path(sys.argv[1]).read_bytes()
     words = without_contraction(list(struct.unpack(f"<{len(data) // 4}I", data)))
+    if sys.argv[2].endswith(".spv"):
+        Path(sys.argv[2]).write_bytes(struct.pack(f"<{len(words)}I", *words))
+        return
     lines = [", ".join(f"0x{w:08x}" for w in words[i:i + 10]) for i in range(0, len(words), 10)]
     Path(sys.argv[2]).write_text(",\n".join(lines) + "\n")
 

@@ -3,6 +3,7 @@
 
     make_cases.py table CASES                 the C++ table: name, title, domains, measure
     make_cases.py shader glsl|hlsl CASES      a compute shader that runs the case its specialisation constant names
+    make_cases.py shader wgsl CASES           the same, with the case's number behind the inputs instead of a constant
     make_cases.py broken-shader glsl CASES    the same with a mistake in the prelude, which the parity test must find
     make_cases.py reached CASES               exit 1 when a kernel function is called by no case, even indirectly
 """
@@ -10,7 +11,9 @@ import re
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "tools"))
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "dist")]
+import make_dist  # noqa: E402
 from kernel_text import KERNELS, calls, functions, kernel_files, with_needs  # noqa: E402
 
 MEMBERS = {f"{v}.{c}": 4 * "abcd".index(v) + "xyzw".index(c) for v in "abcd" for c in "xyzw"}
@@ -117,7 +120,38 @@ void main(uint3 id : SV_DispatchThreadID) {
 """
 
 
+WGSL = """
+@group(0) @binding(0) var<storage, read> inputs: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> outputs: array<vec4f>;
+
+fn run(which: u32, i: CaseInput) -> vec4f {
+CHOICES    return vec4f();
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    let n = id.x;
+    let count = arrayLength(&outputs);
+    if (n < count) {
+        let i = CaseInput(inputs[4u * n], inputs[4u * n + 1u], inputs[4u * n + 2u], inputs[4u * n + 3u]);
+        outputs[n] = run(u32(inputs[4u * count].x), i);
+    }
+}
+"""
+
+
+def wgsl_shader(path):
+    printer = make_dist.Wgsl()
+    print(make_dist.WGSL_HELPERS)
+    for part in with_needs(path):
+        print(printer(make_dist.without_double(part.read_text())))
+    print(WGSL.replace("CHOICES", "".join(f"    if (which == {n}u) {{ return case_{case['name']}(i); }}\n"
+                                          for n, case in enumerate(cases(path)))))
+
+
 def shader(language, path, broken=False):
+    if language == "wgsl":
+        return wgsl_shader(path)
     prelude = (KERNELS / "prelude" / f"prelude.{language}").read_text()
     if broken:  # a select that mixes up its sides
         right = "float select(bool m, float a, float b) { return m ? a : b; }"

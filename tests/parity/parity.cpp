@@ -1,4 +1,5 @@
-// parity [COUNT]: every kernel on every target this machine has, one row a kernel, on COUNT random inputs (10000).
+// parity [COUNT [NAME SPIRV]]: every kernel on every target this machine has, one row a kernel, on COUNT random inputs
+// (10000); and on a shader in a file, which is then shown under NAME.
 //
 // float is compared with double (largest and rms error), everything else with scalar float. "equal" means the same bits
 // for all inputs; a number is the largest difference, and what follows the colon its share of the bound that
@@ -7,8 +8,22 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 
 #include "gpu.h"
+
+namespace {
+
+std::vector<std::uint32_t> read_words(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  std::memcpy(words.data(), bytes.data(), words.size() * 4);
+  return words;
+}
+
+}  // namespace
 
 using namespace steradian;
 using namespace steradian::parity;
@@ -20,6 +35,7 @@ int main(int argc, char** argv) {
     const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{info.name, false});
     targets.push_back(gpu_target(device, ShaderText::glsl));
     targets.push_back(gpu_target(device, ShaderText::hlsl));
+    if (argc > 3) targets.push_back(gpu_target(device, argv[2], read_words(argv[3])));
     fmt::print("{}: {}\n", targets.back().name, info.name);
   }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "gpu.h"
 
@@ -46,6 +47,41 @@ TEST(Parity, ShadersAgreeWithScalarFloatAndTheValidationLayerIsSilent) {
     EXPECT_TRUE(device->validation_messages().empty())
         << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
   }
+}
+
+// Exact derivatives against central differences at two steps. Their distance bounds the truncation of the finer one; the
+// rounding of the values it is made of is the float bound of the same input, scaled from 24 bits to 53.
+TEST(Parity, DerivativesOfEveryKernelAgreeWithCentralDifferences) {
+  std::size_t checked = 0;
+  for (std::size_t index = 0; index < cases().size(); ++index) {
+    const Case& which = cases()[index];
+    const std::vector<float> inputs = random_inputs(which, 100, 2);
+    const BoundedResults bounded = run_bounded(index, inputs, Rounding::cpu);
+    for (std::size_t n = 0; n < 100; ++n) {
+      const std::vector<double> x(inputs.begin() + static_cast<std::ptrdiff_t>(n * kInputs),
+                                  inputs.begin() + static_cast<std::ptrdiff_t>((n + 1) * kInputs));
+      const auto derivatives = run_dual(index, x);
+      for (std::size_t m = 0; m < kInputs; ++m) {
+        if (!(std::fabs(x[m]) > 0)) continue;
+        const double h = std::ldexp(1.0, std::ilogb(x[m]) - 17);  // so that x + h has no rounding: x is a float
+        const auto at = [&](double step) {
+          std::vector<double> moved = x;
+          moved[m] += step;
+          return run_double_at(index, moved);
+        };
+        const auto near_up = at(h), near_down = at(-h), far_up = at(2 * h), far_down = at(-2 * h);
+        for (std::size_t v = 0; v < kResults; ++v) {
+          const double fine = (near_up[v] - near_down[v]) / (2 * h), coarse = (far_up[v] - far_down[v]) / (4 * h);
+          const double rounding = 2 * bounded.bound[n * kResults + v] * 0x1p-29 / h;
+          if (!std::isfinite(rounding)) continue;
+          EXPECT_NEAR(derivatives[v][m], fine, std::fabs(fine - coarse) + rounding)
+              << which.name << ", result " << v << " by input " << m << " = " << x[m] << ", sample " << n;
+          ++checked;
+        }
+      }
+    }
+  }
+  EXPECT_GE(checked, cases().size() * 100);
 }
 
 TEST(Parity, AMistakeInOnePreludeIsFound) {

@@ -84,7 +84,8 @@ struct RealTraits<Rounded<Model>> {
     const double across = std::fabs(a.v - b.v) + other.e;
     return R::of(chosen.v, across > chosen.e || std::isnan(across) ? across : chosen.e);
   }
-  static bool any(Bool m) { return m.value || m.uncertain; }
+  // In a pack a neighbour may be the one who wants the branch, so its roundings count for everybody.
+  static bool any(Bool) { return true; }
   static bool all(Bool m) { return m.value && !m.uncertain; }
   static R abs(R x) { return {std::fabs(x.v), x.e}; }
   // Where the errors cannot change the order, the other side's error does not count.

@@ -1,25 +1,9 @@
 #include "cases.h"
 #include "rounded.h"
-#include "steradian/kernels.h"
+#include "run_case.h"
 
 namespace steradian::parity {
 namespace {
-
-template <class S, class Make>
-auto run_case(std::size_t index, const float* in, Make make) {
-  Kernels<S> k;
-  typename Kernels<S>::CaseInput i;
-  for (auto* member : {&i.a, &i.b, &i.c, &i.d}) {
-    *member = {make(in[0]), make(in[1]), make(in[2]), make(in[3])};
-    in += 4;
-  }
-  std::size_t n = 0;
-#define PARITY_CASE(name, title, measure, values, arithmetic, inputs) \
-  if (index == n++) return k.case_##name(i);
-#include "parity_cases.inc"
-#undef PARITY_CASE
-  return typename Kernels<S>::vec4(make(0.0f), make(0.0f), make(0.0f), make(0.0f));
-}
 
 template <class S>
 std::vector<S> run_scalar(std::size_t index, const std::vector<float>& inputs) {
@@ -50,6 +34,11 @@ BoundedResults run_rounded(std::size_t index, const std::vector<float>& inputs) 
 
 std::vector<double> run_double(std::size_t index, const std::vector<float>& inputs) {
   return run_scalar<double>(index, inputs);
+}
+
+std::vector<double> run_double_at(std::size_t index, const std::vector<double>& input) {
+  const auto r = run_case<double>(index, input.data(), [](double x) { return Real<double>(x); });
+  return {r.x.v, r.y.v, r.z.v, r.w.v};
 }
 
 std::vector<float> run_float(std::size_t index, const std::vector<float>& inputs) {
