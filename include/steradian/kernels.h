@@ -39,6 +39,11 @@ struct Kernels {
 #include "phong.glsl"
 
 #include "microfacet.glsl"
+
+// Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
+#ifdef STERADIAN_KERNEL_EXTENSION
+#include STERADIAN_KERNEL_EXTENSION
+#endif
 };
 
 STERADIAN_END_ISA

@@ -31,6 +31,7 @@ struct Query {
   Precision precision = Precision::double_;
   int spp = 256;
   std::uint64_t seed = 1;
+  bool derivatives = false;  // of the radiance by the light's vertices
 };
 
 struct QueryDefaults {
