@@ -1,13 +1,20 @@
 #include "eval/methods.h"
 
+#include <cmath>
+
 #include "steradian/error.h"
 #include "steradian/kernels.h"
+#include "steradian/phong.h"
 
 namespace steradian::eval {
 namespace {
 
 bool every_lobe(const Material&) { return true; }
-bool lambert_only(const Material& m) { return m.brdf == Brdf::lambert; }
+bool phong_only(const Material& m) { return m.brdf == Brdf::phong; }
+bool lambert_and_phong(const Material& m) { return m.brdf == Brdf::lambert || m.brdf == Brdf::phong; }
+bool phong_of_integer_exponent(const Material& m) {
+  return m.brdf == Brdf::phong && m.exponent == std::floor(m.exponent) && m.exponent < 1e9;
+}
 
 template <class S>
 Vec3d lambert(S irradiance, Vec3d radiance, Vec3d albedo) {
@@ -15,8 +22,19 @@ Vec3d lambert(S irradiance, Vec3d radiance, Vec3d albedo) {
   return Vec3d(Vector3<S>(radiance) * Vector3<S>(albedo) * factor);
 }
 
+template <PhongMethod method>
+LobeAnswer phong(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                 const MethodOptions& options) {
+  const PhongOptions o{method, options.quality == Quality::high ? PhongQuality::high : PhongQuality::normal};
+  LobeAnswer answer;
+  answer.radiance = options.precision == Precision::float_ ? Vec3d(phong_radiance_float(light, at, m, o))
+                                                           : phong_radiance(light, at, m, o);
+  return answer;
+}
+
 LobeAnswer exact(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
                  const MethodOptions& options) {
+  if (m.brdf == Brdf::phong) return phong<PhongMethod::exact>(light, at, m, options);
   LobeAnswer answer;
   if (options.precision == Precision::float_)
     answer.radiance =
@@ -43,7 +61,12 @@ LobeAnswer sampled(const PreparedPolygon& light, const ShadingPoint& at, const M
 
 // A new method is an entry here and a name in Method.
 constexpr MethodEntry kMethods[] = {
-    {Method::exact, "exact", lambert_only, true, exact},
+    {Method::series, "series", phong_only, true, phong<PhongMethod::series>},
+    {Method::exact, "exact", lambert_and_phong, true, exact},
+    {Method::arvo, "arvo", phong_of_integer_exponent, true, phong<PhongMethod::arvo>},
+    {Method::lorentzian, "lorentzian", phong_only, true, phong<PhongMethod::lorentzian>},
+    {Method::pearson, "pearson", phong_only, true, phong<PhongMethod::pearson>},
+    {Method::ellipsoid, "ellipsoid", phong_only, true, phong<PhongMethod::ellipsoid>},
     {Method::reference, "reference", every_lobe, false, reference},
     {Method::sampled, "sampled", every_lobe, false, sampled},
 };
