@@ -11,12 +11,13 @@
 #include <numbers>
 #include <optional>
 
-#include "steradian/kernels.h"
+#include "ltc/test_lights.h"
 
 namespace steradian {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr std::uint64_t kLightSeed = 1;
 
 // Fixed directions with the lobe's values: structure of arrays, so that the objective's loop becomes vectors.
 struct Nodes {
@@ -71,8 +72,6 @@ Magnitudes integrate_magnitudes(const Lobe& lobe, int n) {
   return sum;
 }
 
-double energy_above_horizon(const LtcInverse& m) { return 0.5 + 0.5 * m.xx / std::hypot(m.xx, m.zx); }
-
 struct Objective {
   const Nodes& nodes;
   LobeFrame frame;
@@ -80,18 +79,22 @@ struct Objective {
   Vec3d view;
   double albedo;
   FitNorm norm;
+  std::vector<TestRectangle> lights;
+  std::vector<double> truth;
 
-  // The optimiser's variables: e00 through the determinant, so that every point is an orientation-preserving map.
+  // The optimiser's variables, all of the order of 1: e00 through the determinant, so that every point is an
+  // orientation-preserving map; e20, which grows like the tangent of the view, times the view's cosine.
   LtcShape shape(const double* p) const {
-    const double tilt = (frame == LobeFrame::mirror ? alpha : 1.0) * p[2];
-    return {std::exp(p[0]) + tilt * p[3], std::exp(p[1]), p[2], p[3]};
+    const double e20 = p[3] / view.z;
+    return {std::exp(p[0]) + scale() * p[2] * e20, std::exp(p[1]), p[2], e20};
   }
-  static std::array<double, 4> variables(const LtcShape& s, double scale) {
-    return {std::log(s.e00 - scale * s.e02 * s.e20), std::log(s.e11), s.e02, s.e20};
+  std::vector<double> variables(const LtcShape& s) const {
+    return {std::log(s.e00 - scale() * s.e02 * s.e20), std::log(s.e11), s.e02, s.e20 * view.z};
   }
+  double scale() const { return frame == LobeFrame::mirror ? alpha : 1.0; }
 
   double distance(const LtcInverse& m, FitNorm power) const {
-    const double magnitude = albedo / energy_above_horizon(m);
+    const double magnitude = albedo / ltc_above_horizon(m);
     const double determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
     const double k = magnitude * determinant / kPi;
     const double yy2 = m.yy * m.yy;
@@ -109,7 +112,19 @@ struct Objective {
     }
     return sum;
   }
-  double operator()(const double* p) const { return distance(ltc_inverse(shape(p), frame, alpha, view), norm); }
+  LtcInverse inverse(const double* p) const { return ltc_inverse(shape(p), frame, alpha, view); }
+
+  // Root mean square over the lights, relative to their radiance.
+  double shading_error(const LtcInverse& m) const {
+    const double magnitude = albedo / ltc_above_horizon(m);
+    double error = 0, signal = 0;
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      const double difference = magnitude * integrate_rectangle(m, lights[k]) - truth[k];
+      error += difference * difference;
+      signal += truth[k] * truth[k];
+    }
+    return std::sqrt(error / signal);
+  }
 };
 
 }  // namespace
@@ -118,22 +133,7 @@ double ltc_roughness_at(int i, int n) { return static_cast<double>(i) / (n - 1);
 
 double ltc_cosine_at(int j, int n) {
   const double t = static_cast<double>(j) / (n - 1);
-  return std::max(1 - t * t, 1e-3);
-}
-
-LtcInverse ltc_inverse(const LtcShape& s, LobeFrame frame, double alpha, Vec3d view) {
-  const bool mirror = frame == LobeFrame::mirror;
-  Kernels<double>::vec4 e;
-  e.x = s.e00, e.y = s.e11, e.z = s.e02, e.w = s.e20;
-  const Vec3d v = mirror ? view : Vec3d{0, 0, 1};
-  const auto m = Kernels<double>{}.ltc_from_compact(e, mirror ? alpha : 1.0, {v.x, v.y, v.z});
-  return {m.xx.v, m.xz.v, m.yy.v, m.zx.v, m.zz.v};
-}
-
-double ltc_evaluate(const LtcInverse& m, Vec3d l) {
-  Kernels<double>::LtcMatrix k;
-  k.xx = m.xx, k.xz = m.xz, k.yy = m.yy, k.zx = m.zx, k.zz = m.zz;
-  return Kernels<double>{}.ltc_lobe(k, {l.x, l.y, l.z}).v;
+  return std::max(1 - t * t, kSmallestCosine);
 }
 
 LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start,
@@ -142,18 +142,17 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   const double alpha = alpha_from_roughness(roughness);
   const Nodes nodes = place_nodes(lobe, options.nodes);
   const Magnitudes magnitudes = integrate_magnitudes(lobe, options.magnitude_nodes);
-  const Objective objective{nodes, family.frame, alpha, lobe.view, magnitudes.albedo, options.norm};
-  const double scale = family.frame == LobeFrame::mirror ? alpha : 1.0;
-
-  auto p = Objective::variables(start, scale);
-  std::vector<double> x(p.begin(), p.end());
-  const auto run = [&](nlopt::algorithm algorithm, double step, double tolerance, int evaluations) {
-    nlopt::opt opt(algorithm, 4);
+  const std::vector<TestRectangle> lights = test_rectangles_near(lobe, options.lights, kLightSeed);
+  const Objective objective{nodes, family.frame, alpha, lobe.view, magnitudes.albedo, options.norm, lights,
+                            true_radiance(lobe, lights, options.light_directions)};
+  std::vector<double> x = objective.variables(start);
+  const auto minimise = [&](auto function, double step, int evaluations) {
+    nlopt::opt opt(nlopt::LN_BOBYQA, 4);
     opt.set_min_objective(
-        [](unsigned, const double* v, double*, void* data) { return (*static_cast<const Objective*>(data))(v); },
-        const_cast<Objective*>(&objective));
+        [](unsigned, const double* v, double*, void* data) { return (*static_cast<decltype(function)*>(data))(v); },
+        &function);
     opt.set_initial_step(step);
-    opt.set_xtol_abs(tolerance);
+    opt.set_xtol_abs(1e-5);
     opt.set_maxeval(evaluations);
     double value = 0;
     try {
@@ -161,15 +160,21 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
     } catch (const nlopt::roundoff_limited&) {  // x is then the best point found
     }
   };
-  run(nlopt::LN_BOBYQA, 0.1, 1e-5, 300);
-  run(nlopt::LN_SBPLX, 0.02, 1e-5, 400);
+  minimise([&](const double* v) { return objective.distance(objective.inverse(v), options.norm); }, 0.1, 300);
+  if (options.lights > 0)
+    minimise(
+        [&](const double* v) {
+          const LtcInverse m = objective.inverse(v);
+          return objective.shading_error(m) + options.lobe_share * objective.distance(m, FitNorm::l1) / objective.albedo;
+        },
+        0.05, 300);
 
   LtcCell cell;
   cell.shape = objective.shape(x.data());
   cell.inverse = ltc_inverse(cell.shape, family.frame, alpha, lobe.view);
   cell.albedo = magnitudes.albedo;
   cell.grazing = magnitudes.grazing;
-  cell.above_horizon = energy_above_horizon(cell.inverse);
+  cell.above_horizon = ltc_above_horizon(cell.inverse);
   cell.error = objective.distance(cell.inverse, FitNorm::l1) / magnitudes.albedo;
   return cell;
 }
@@ -188,8 +193,10 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
     LtcShape start;
     for (int j = 0; j < n; ++j) {
       LtcCell& cell = table.cells[static_cast<std::size_t>(j * n + i)];
-      cell = fit_cell(family, ltc_roughness_at(i, n), ltc_cosine_at(j, n), start, options);
+      const double cosine = ltc_cosine_at(j, n);
+      cell = fit_cell(family, ltc_roughness_at(i, n), cosine, start, options);
       start = cell.shape;
+      start.e20 *= cosine / ltc_cosine_at(std::min(j + 1, n - 1), n);
       if (options.progress) options.progress(static_cast<double>(++done) / (n * n));
     }
   });

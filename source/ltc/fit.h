@@ -5,19 +5,9 @@
 #include <vector>
 
 #include "ltc/lobe.h"
+#include "ltc/ltc_shape.h"
 
 namespace steradian {
-
-// Four degrees of freedom: entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, entry (2,2) being 1.
-// About the mirror direction: R turns z into it. About the normal: R and alpha are 1. See ltc_from_compact.
-struct LtcShape {
-  double e00 = 1, e11 = 1, e02 = 0, e20 = 0;
-};
-
-// M^-1 up to a factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz).
-struct LtcInverse {
-  double xx = 1, xz = 0, yy = 1, zx = 0, zz = 1;
-};
 
 struct LtcCell {
   LtcShape shape;
@@ -40,16 +30,18 @@ struct FitOptions {
   FitNorm norm = FitNorm::l1;
   int nodes = 32;               // quadrature nodes: nodes^2 on half of the hemisphere, in the lobe's own coordinates
   int magnitude_nodes = 128;    // the same for albedo and grazing
+  int lights = 64;              // random rectangles of the second pass; 0: none
+  int light_directions = 4096;  // quadrature points for their true radiance
+  double lobe_share = 0.1;      // weight of the lobe's L1 beside the relative error on the lights
   int threads = 0;              // 0: all
   std::function<void(double)> progress;  // share done, called from any thread
 };
 
-// Node i of n along an axis: roughness, and the view's cosine (at least 1e-3: at 0 the lobe has no limit).
+// Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit: the last node stands
+// at the smallest, about where it makes interpolation of 1 / cosine best in the last row of 64.
+inline constexpr double kSmallestCosine = 0.01;
 double ltc_roughness_at(int i, int n);
 double ltc_cosine_at(int j, int n);
-
-LtcInverse ltc_inverse(const LtcShape& shape, LobeFrame frame, double alpha, Vec3d view);
-double ltc_evaluate(const LtcInverse& inverse, Vec3d l);
 
 // The fit of one view, from a starting shape. Deterministic: same input, same bits.
 LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start,

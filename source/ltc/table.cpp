@@ -7,6 +7,7 @@
 #include "ltc/half.h"
 
 namespace steradian {
+bool table_times_cosine = true;
 namespace {
 
 // Four nodes and their bilinear weights.
@@ -33,27 +34,37 @@ std::array<double, N> interpolate(const std::vector<std::array<float, N>>& table
   return sum;
 }
 
-// Values on a coarse grid whose bilinear interpolation is nearest to the fine values: normal equations, solved by
-// Gauss-Seidel, which converges since they are diagonally dominant in blocks (a few dozen sweeps to 1e-12).
-std::vector<double> fit_coarse(const std::vector<double>& fine, int n, int coarse) {
+// Values on a coarse grid whose bilinear interpolation is nearest to the fine values, in the sense of weighted least
+// squares: normal equations by Cholesky's decomposition.
+std::vector<double> fit_coarse(const std::vector<double>& fine, const std::vector<double>& importance, int n,
+                               int coarse) {
   const auto count = static_cast<std::size_t>(coarse * coarse);
-  std::vector<double> matrix(count * count), right(count), result(count);
+  std::vector<double> matrix(count * count), x(count);
+  const auto at = [&](std::size_t row, std::size_t column) -> double& { return matrix[row * count + column]; };
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const Stencil s = stencil(static_cast<double>(i) / (n - 1), static_cast<double>(j) / (n - 1), coarse);
+      const auto k = static_cast<std::size_t>(j * n + i);
       for (int a = 0; a < 4; ++a) {
-        right[s.index[a]] += s.weight[a] * fine[static_cast<std::size_t>(j * n + i)];
-        for (int b = 0; b < 4; ++b) matrix[s.index[a] * count + s.index[b]] += s.weight[a] * s.weight[b];
+        x[s.index[a]] += importance[k] * s.weight[a] * fine[k];
+        for (int b = 0; b < 4; ++b) at(s.index[a], s.index[b]) += importance[k] * s.weight[a] * s.weight[b];
       }
     }
-  for (int sweep = 0; sweep < 200; ++sweep)
-    for (std::size_t a = 0; a < count; ++a) {
-      double rest = right[a];
-      for (std::size_t b = 0; b < count; ++b)
-        if (b != a) rest -= matrix[a * count + b] * result[b];
-      result[a] = rest / matrix[a * count + a];
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = at(i, j);
+      for (std::size_t k = 0; k < j; ++k) sum -= at(i, k) * at(j, k);
+      at(i, j) = i == j ? std::sqrt(sum) : sum / at(j, j);
     }
-  return result;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < i; ++k) x[i] -= at(i, k) * x[k];
+    x[i] /= at(i, i);
+  }
+  for (std::size_t i = count; i-- > 0;) {
+    for (std::size_t k = i + 1; k < count; ++k) x[i] -= at(k, i) * x[k];
+    x[i] /= at(i, i);
+  }
+  return x;
 }
 
 }  // namespace
@@ -86,7 +97,7 @@ LtcValue CompactTable::look_up(double roughness, double cos_theta) const {
   const double v = view_coordinate(cos_theta);
   const auto e = interpolate(shapes, stencil(roughness, v, shape_size));
   const auto f = interpolate(magnitudes, stencil(roughness, v, magnitude_size));
-  return {ltc_inverse({e[0], e[1], e[2], e[3]}, frame, alpha_from_roughness(roughness), view_from_cosine(cos_theta)),
+  return {ltc_inverse({e[0], e[1], e[2], table_times_cosine ? e[3] / cos_theta : e[3]}, frame, alpha_from_roughness(roughness), view_from_cosine(cos_theta)),
           f[0], f[1]};
 }
 
@@ -97,20 +108,32 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
   table.magnitude_size = sizes.magnitude;
   table.shapes.resize(static_cast<std::size_t>(sizes.shape * sizes.shape));
   table.magnitudes.resize(static_cast<std::size_t>(sizes.magnitude * sizes.magnitude));
-  const auto resample = [&](auto value, int coarse, auto put) {
-    std::vector<double> fine;
-    for (const LtcCell& cell : fit.cells) fine.push_back(value(cell));
-    const std::vector<double> result = fit.size == coarse ? fine : fit_coarse(fine, fit.size, coarse);
+  const auto resample = [&](auto value, auto importance, int coarse, auto put) {
+    std::vector<double> fine, weights;
+    for (int j = 0; j < fit.size; ++j)
+      for (int i = 0; i < fit.size; ++i) {
+        const double scale = fit.family.frame == LobeFrame::mirror ? alpha_from_roughness(ltc_roughness_at(i, fit.size)) : 1;
+        fine.push_back(value(fit.at(i, j), ltc_cosine_at(j, fit.size)));
+        weights.push_back(importance(fit.at(i, j), scale));
+      }
+    const std::vector<double> result = fit.size == coarse ? fine : fit_coarse(fine, weights, fit.size, coarse);
     for (std::size_t k = 0; k < result.size(); ++k) put(k) = round_to_half(static_cast<float>(result[k]));
   };
-  double LtcShape::*const entries[4] = {&LtcShape::e00, &LtcShape::e11, &LtcShape::e02, &LtcShape::e20};
-  for (std::size_t c = 0; c < 4; ++c)
-    resample([&](const LtcCell& cell) { return cell.shape.*entries[c]; }, sizes.shape,
-             [&](std::size_t k) -> float& { return table.shapes[k][c]; });
-  resample([](const LtcCell& cell) { return cell.n_a(); }, sizes.magnitude,
-           [&](std::size_t k) -> float& { return table.magnitudes[k][0]; });
-  resample([](const LtcCell& cell) { return cell.f_a(); }, sizes.magnitude,
-           [&](std::size_t k) -> float& { return table.magnitudes[k][1]; });
+  const auto even = [](const LtcCell&, double) { return 1.0; };
+  // What a change of an entry does to the lobe, in units of the lobe's own width.
+  const auto width_x = [](const LtcCell& c, double) { return 1 / (c.shape.e00 * c.shape.e00); };
+  const auto width_y = [](const LtcCell& c, double) { return 1 / (c.shape.e11 * c.shape.e11); };
+  const auto shear = [](const LtcCell&, double alpha) { return std::max(alpha * alpha, 1e-4); };
+  const auto shape = [&](std::size_t c) { return [&table, c](std::size_t k) -> float& { return table.shapes[k][c]; }; };
+  const auto magnitude = [&](std::size_t c) {
+    return [&table, c](std::size_t k) -> float& { return table.magnitudes[k][c]; };
+  };
+  resample([](const LtcCell& c, double) { return c.shape.e00; }, width_x, sizes.shape, shape(0));
+  resample([](const LtcCell& c, double) { return c.shape.e11; }, width_y, sizes.shape, shape(1));
+  resample([](const LtcCell& c, double) { return c.shape.e02; }, width_x, sizes.shape, shape(2));
+  resample([](const LtcCell& c, double cosine) { return c.shape.e20 * (table_times_cosine ? cosine : 1.0); }, shear, sizes.shape, shape(3));
+  resample([](const LtcCell& c, double) { return c.n_a(); }, even, sizes.magnitude, magnitude(0));
+  resample([](const LtcCell& c, double) { return c.f_a(); }, even, sizes.magnitude, magnitude(1));
   return table;
 }
 
