@@ -7,7 +7,6 @@
 #include "ltc/half.h"
 
 namespace steradian {
-bool table_times_cosine = true;
 namespace {
 
 // Four nodes and their bilinear weights.
@@ -97,7 +96,7 @@ LtcValue CompactTable::look_up(double roughness, double cos_theta) const {
   const double v = view_coordinate(cos_theta);
   const auto e = interpolate(shapes, stencil(roughness, v, shape_size));
   const auto f = interpolate(magnitudes, stencil(roughness, v, magnitude_size));
-  return {ltc_inverse({e[0], e[1], e[2], table_times_cosine ? e[3] / cos_theta : e[3]}, frame, alpha_from_roughness(roughness), view_from_cosine(cos_theta)),
+  return {ltc_inverse({e[0], e[1], e[2], e[3]}, frame, alpha_from_roughness(roughness), view_from_cosine(cos_theta)),
           f[0], f[1]};
 }
 
@@ -113,7 +112,7 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
     for (int j = 0; j < fit.size; ++j)
       for (int i = 0; i < fit.size; ++i) {
         const double scale = fit.family.frame == LobeFrame::mirror ? alpha_from_roughness(ltc_roughness_at(i, fit.size)) : 1;
-        fine.push_back(value(fit.at(i, j), ltc_cosine_at(j, fit.size)));
+        fine.push_back(value(fit.at(i, j)));
         weights.push_back(importance(fit.at(i, j), scale));
       }
     const std::vector<double> result = fit.size == coarse ? fine : fit_coarse(fine, weights, fit.size, coarse);
@@ -128,12 +127,12 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
   const auto magnitude = [&](std::size_t c) {
     return [&table, c](std::size_t k) -> float& { return table.magnitudes[k][c]; };
   };
-  resample([](const LtcCell& c, double) { return c.shape.e00; }, width_x, sizes.shape, shape(0));
-  resample([](const LtcCell& c, double) { return c.shape.e11; }, width_y, sizes.shape, shape(1));
-  resample([](const LtcCell& c, double) { return c.shape.e02; }, width_x, sizes.shape, shape(2));
-  resample([](const LtcCell& c, double cosine) { return c.shape.e20 * (table_times_cosine ? cosine : 1.0); }, shear, sizes.shape, shape(3));
-  resample([](const LtcCell& c, double) { return c.n_a(); }, even, sizes.magnitude, magnitude(0));
-  resample([](const LtcCell& c, double) { return c.f_a(); }, even, sizes.magnitude, magnitude(1));
+  resample([](const LtcCell& c) { return c.shape.e00; }, width_x, sizes.shape, shape(0));
+  resample([](const LtcCell& c) { return c.shape.e11; }, width_y, sizes.shape, shape(1));
+  resample([](const LtcCell& c) { return c.shape.e02; }, width_x, sizes.shape, shape(2));
+  resample([](const LtcCell& c) { return c.shape.e20; }, shear, sizes.shape, shape(3));
+  resample([](const LtcCell& c) { return c.n_a(); }, even, sizes.magnitude, magnitude(0));
+  resample([](const LtcCell& c) { return c.f_a(); }, even, sizes.magnitude, magnitude(1));
   return table;
 }
 

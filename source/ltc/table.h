@@ -44,8 +44,8 @@ struct CompactTable {
 };
 
 struct CompactSizes {
-  int shape = 12;
-  int magnitude = 24;
+  int shape = 16;
+  int magnitude = 22;  // together 3984 bytes
 };
 
 // The coarse values are those whose interpolation is nearest to the fine ones, in the sense of least squares.
