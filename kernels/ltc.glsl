@@ -3,6 +3,7 @@
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
 // is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
+// Needs: inverse_trig.glsl polygon.glsl microfacet.glsl
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -58,6 +59,7 @@ LtcMatrix ltc_from_compact(vec4 e, real alpha, vec3 view) {
     return m;
 }
 
+// M^-1 v, up to the matrix' factor. Any vector of the shading frame.
 vec3 ltc_transform(LtcMatrix m, vec3 v) {
     return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
@@ -87,6 +89,7 @@ struct LtcWalk {
     mask anchored;
 };
 
+// A walk with no edge yet.
 LtcWalk ltc_begin() {
     LtcWalk walk;
     walk.lobe = polygon_begin();
@@ -129,9 +132,9 @@ LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb
         end = select(b_below, crossing, tb);
         if (any_lane(crosses)) {
             vec3 anchor = select(walk.anchored, walk.anchor, crossing);
-            vec3 from = select(a_below, anchor, crossing);
-            vec3 to = select(a_below, crossing, anchor);
-            next.lobe = polygon_add_edge(next.lobe, select(crosses, from, none), select(crosses, to, none));
+            vec3 departure = select(a_below, anchor, crossing);
+            vec3 arrival = select(a_below, crossing, anchor);
+            next.lobe = polygon_add_edge(next.lobe, select(crosses, departure, none), select(crosses, arrival, none));
             next.anchor = select(crosses, anchor, walk.anchor);
             next.anchored = walk.anchored || crosses;
         }
@@ -192,31 +195,4 @@ real ltc_clear_coat(real base, real coat, real clearcoat, real n_dot_v) {
 //   albedo    of the sheen lobe at this view: n_a times ltc_energy_above_horizon
 real ltc_sheen(real base, real sheen, real strongest, real albedo) {
     return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
-}
-
-// For comparison, without clipping: the light is replaced by the sphere of the same vector irradiance.
-
-// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
-//
-//   cosine   of the sphere's centre to z, in [-1, 1]
-//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
-//
-// Degenerate: f = 0 gives max(cosine, 0).
-// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
-real ltc_clipped_sphere(real cosine, real f) {
-    real z = clamp(cosine, -1.0, 1.0);
-    real s2 = clamp(f, 1.0e-12, 1.0);
-    real sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
-    real cos_s2 = 1.0 - s2;
-    // The sphere touches the horizon where the sine of its elevation is the sine of its radius.
-    mask crossed = z * z < s2;
-    real x = clamp(sqrt(cos_s2) / sin_w, 0.0, 1.0);       // sin g
-    real y = sqrt(max(1.0 - x * x, 0.0));                 // cos g
-    real root = sqrt(max(s2 - y * y, 0.0));
-    // The part of the disk's rim and of the horizon's arc; what the rim's tilt adds.
-    real arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * sqrt(cos_s2) * y;
-    real tilt = abs(z) * (y * root + s2 * trig_atan2(y, root));
-    real whole = pi() * s2 * max(z, 0.0);
-    real cut = select(crossed, whole + arc - tilt, whole);
-    return clamp(cut / (pi() * s2), 0.0, 1.0);
 }

@@ -41,6 +41,10 @@ struct Kernels {
 #include "microfacet.glsl"
 
 #include "ltc.glsl"
+
+#include "ltc_clipless.glsl"
+
+#include "representative_point.glsl"
 };
 
 STERADIAN_END_ISA

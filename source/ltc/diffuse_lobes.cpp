@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ltc/lobe.h"
+#include "reference/cosine_sampler.h"
 
 namespace steradian {
 namespace {
@@ -11,11 +12,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 void sample_by_cosine(Lobe& lobe) {
-  lobe.sample = [](double a, double b) {
-    const double s = std::sqrt(a), phi = 2 * kPi * b;
-    return Vec3d{s * std::cos(phi), s * std::sin(phi), std::sqrt(std::max(1 - a, 0.0))};
-  };
-  lobe.pdf = [](Vec3d l) { return std::max(l.z, 0.0) / kPi; };
+  lobe.sample = [](double a, double b) { return reference::sample_cosine_hemisphere(b, a); };
+  lobe.pdf = reference::pdf_cosine_hemisphere;
 }
 
 // Charlie's Lambda: a curve fitted by its authors, for the roughest and the smoothest cloth, blended.
@@ -46,8 +44,7 @@ Lobe charlie_lobe(double alpha, Vec3d v) {
   };
   // Even over the hemisphere: the lobe is strongest along the horizon, where a cosine has no samples.
   lobe.sample = [](double a, double b) {
-    const double s = std::sqrt(std::max(1 - (1 - a) * (1 - a), 0.0)), phi = 2 * kPi * b;
-    return Vec3d{s * std::cos(phi), s * std::sin(phi), 1 - a};
+    return reference::direction_at(1 - a, std::sqrt(std::max(1 - (1 - a) * (1 - a), 0.0)), b);
   };
   lobe.pdf = [](Vec3d l) { return l.z >= 0 ? 0.5 / kPi : 0.0; };
   return lobe;

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <nlopt.hpp>
 #include <numbers>
 #include <optional>
 
 #include "ltc/test_lights.h"
+#include "reference/cosine_sampler.h"
 
 namespace steradian {
 namespace {
@@ -24,31 +24,26 @@ struct Nodes {
   std::vector<double> x, y2, z, weight, value;
 };
 
-// Midpoints of the lobe's own coordinates, azimuth in the half y > 0, and as many by the cosine, since a lobe's
-// coordinates need not reach where the fit puts its tails. The weights are those of the mixture of both.
+// Midpoints of the lobe's own coordinates, azimuth in the half y > 0, and a third as many by the cosine, since a
+// lobe's coordinates need not reach where the fit puts its tails. The weights are those of the mixture of both.
 Nodes place_nodes(const Lobe& lobe, int n) {
   Nodes nodes;
+  const int m = std::max(n / 3, 1);  // rings by the cosine
+  const double share = static_cast<double>(n) / (n + m);
+  const double scale = 1.0 / (n * (n + m));
   const auto add = [&](Vec3d l) {
     if (!(l.z > 0)) return;
-    const double density = 0.75 * lobe.pdf(l) + 0.25 * l.z / kPi;
     nodes.x.push_back(l.x);
     nodes.y2.push_back(l.y * l.y);
     nodes.z.push_back(l.z);
-    nodes.weight.push_back(1 / density);
+    nodes.weight.push_back(scale / (share * lobe.pdf(l) + (1 - share) * l.z / kPi));
     nodes.value.push_back(lobe.evaluate(l));
   };
   const auto midpoint = [](int i, int count) { return (i + 0.5) / count; };
-  // Shares of 3 to 1, as in the density: n x n for the lobe, n x n/3 for the cosine.
-  const int m = std::max(n / 3, 1);
-  const double scale = 1.0 / (n * n + n * m);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) add(lobe.sample(midpoint(i, n), 0.5 * midpoint(j, n)));
   for (int i = 0; i < m; ++i)
-    for (int j = 0; j < n; ++j) {
-      const double s = std::sqrt(midpoint(i, m)), phi = kPi * midpoint(j, n);
-      add({s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - s * s)});
-    }
-  for (double& w : nodes.weight) w *= scale;
+    for (int j = 0; j < n; ++j) add(reference::sample_cosine_hemisphere(0.5 * midpoint(j, n), midpoint(i, m)));
   return nodes;
 }
 
@@ -188,7 +183,6 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  std::atomic<int> done{0};
   tbb::parallel_for(0, n, [&](int i) {
     LtcShape start;
     for (int j = 0; j < n; ++j) {
@@ -197,7 +191,7 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
       cell = fit_cell(family, ltc_roughness_at(i, n), cosine, start, options);
       start = cell.shape;
       start.e20 *= cosine / ltc_cosine_at(std::min(j + 1, n - 1), n);
-      if (options.progress) options.progress(static_cast<double>(++done) / (n * n));
+      if (options.cell_done) options.cell_done();
     }
   });
   return table;

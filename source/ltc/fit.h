@@ -34,7 +34,7 @@ struct FitOptions {
   int light_directions = 4096;  // quadrature points for their true radiance
   double lobe_share = 0.1;      // weight of the lobe's L1 beside the relative error on the lights
   int threads = 0;              // 0: all
-  std::function<void(double)> progress;  // share done, called from any thread
+  std::function<void()> cell_done;  // called after every cell, from any thread
 };
 
 // Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit: the last node stands

@@ -9,6 +9,7 @@
 
 #include "ltc/table.h"
 #include "ltc/test_lights.h"
+#include "steradian/picture.h"
 
 namespace steradian {
 
@@ -42,6 +43,20 @@ struct Report {
   double rmse = 0;
   double relative = 0;  // over the root mean square of the signal
 };
+
+// The lobe's L1 at the fits' own nodes and half way between four of them, averaged over the views.
+struct BetweenNodes {
+  double roughness = 0;  // half way between two columns
+  double at_nodes = 0;
+  double between = 0;
+};
+std::vector<BetweenNodes> measure_between_nodes(const LtcTable& fit, const LookUp& table);
+
+// Everything above as text, with the worst cells.
+std::string describe(const Report& whole, const Report& nodes, const std::vector<BetweenNodes>& between);
+
+// RMSE over roughness (to the right) and view (downwards): black 0, white 0.03 and more, 32 pixels a cell.
+Picture draw(const Report& report, const ReportOptions& options);
 
 Report measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options);
 

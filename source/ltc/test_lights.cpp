@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference/cosine_sampler.h"
+#include "reference/random.h"
 #include "steradian/kernels.h"
 
 namespace steradian {
@@ -11,20 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// SplitMix64 (Steele, Lea, Flood 2014): small, and the same on every machine.
-struct Random {
-  std::uint64_t state;
-  double operator()() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-};
-
-Vec3d on_sphere(double z, double phi) {
-  const double s = std::sqrt(std::max(1 - z * z, 0.0));
-  return {s * std::cos(phi), s * std::sin(phi), z};
+Vec3d on_sphere(double z, double turn) {
+  return reference::direction_at(z, std::sqrt(std::max(1 - z * z, 0.0)), turn);
 }
 
 // The four planes of origin and edge: inside is the positive side of each.
@@ -38,34 +28,34 @@ bool inside(const std::array<Vec3d, 4>& planes, Vec3d l) {
   return dot(planes[0], l) > 0 && dot(planes[1], l) > 0 && dot(planes[2], l) > 0 && dot(planes[3], l) > 0;
 }
 
-TestRectangle rectangle_about(Vec3d centre, Random& random) {
+TestRectangle rectangle_about(Vec3d centre, reference::Random& random) {
   const Frame about = Frame::from_normal(-centre);
-  const double tilt = 1 - 0.5 * random();
-  const Frame frame = Frame::from_normal(normalized(about.to_world(on_sphere(tilt, 2 * kPi * random()))));
-  const double turn = 2 * kPi * random();
-  const Vec3d u = (frame.x * std::cos(turn) + frame.y * std::sin(turn)) * (0.2 + 0.8 * random());
-  const Vec3d v = (frame.y * std::cos(turn) - frame.x * std::sin(turn)) * (0.2 + 0.8 * random());
+  const double tilt = 1 - 0.5 * random.uniform();
+  const Frame frame = Frame::from_normal(normalized(about.to_world(on_sphere(tilt, random.uniform()))));
+  const double turn = 2 * kPi * random.uniform();
+  const Vec3d u = (frame.x * std::cos(turn) + frame.y * std::sin(turn)) * (0.2 + 0.8 * random.uniform());
+  const Vec3d v = (frame.y * std::cos(turn) - frame.x * std::sin(turn)) * (0.2 + 0.8 * random.uniform());
   return {centre - u - v, centre + u - v, centre + u + v, centre - u + v};
 }
 
 }  // namespace
 
 std::vector<TestRectangle> test_rectangles(int count, std::uint64_t seed) {
-  Random random{seed};
+  reference::Random random{seed};
   std::vector<TestRectangle> result;
   for (int i = 0; i < count; ++i) {
-    const double z = -0.1 + 1.1 * random();
-    result.push_back(rectangle_about(on_sphere(z, 2 * kPi * random()), random));
+    const double z = -0.1 + 1.1 * random.uniform();
+    result.push_back(rectangle_about(on_sphere(z, random.uniform()), random));
   }
   return result;
 }
 
 std::vector<TestRectangle> test_rectangles_near(const Lobe& lobe, int count, std::uint64_t seed) {
-  Random random{seed};
+  reference::Random random{seed};
   std::vector<TestRectangle> result;
   for (int i = 0; i < count; ++i) {
-    const double a = random(), b = random();
-    const Vec3d centre = i % 2 ? lobe.sample(a, b) : on_sphere(-0.1 + 1.1 * a, 2 * kPi * b);
+    const double a = random.uniform(), b = random.uniform();
+    const Vec3d centre = i % 2 ? lobe.sample(a, b) : on_sphere(-0.1 + 1.1 * a, b);
     result.push_back(rectangle_about(centre, random));
   }
   return result;
