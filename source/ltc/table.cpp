@@ -92,12 +92,17 @@ ClassicTable classic_table(const LtcTable& fit, ClassicNormalisation normalisati
   return table;
 }
 
-LtcValue CompactTable::look_up(double roughness, double cos_theta) const {
+CompactTable::Entry CompactTable::entry(double roughness, double cos_theta) const {
   const double v = view_coordinate(cos_theta);
   const auto e = interpolate(shapes, stencil(roughness, v, shape_size));
   const auto f = interpolate(magnitudes, stencil(roughness, v, magnitude_size));
-  return {ltc_inverse({e[0], e[1], e[2], e[3]}, frame, alpha_from_roughness(roughness), view_from_cosine(cos_theta)),
-          f[0], f[1]};
+  return {{e[0], e[1], e[2], e[3]}, f[0], f[1]};
+}
+
+LtcValue CompactTable::look_up(double roughness, double cos_theta) const {
+  const Entry e = entry(roughness, cos_theta);
+  const Vec3d view = view_from_cosine(cos_theta);
+  return {ltc_inverse(e.shape, frame, alpha_from_roughness(roughness), view), e.n_a, e.f_a};
 }
 
 CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {

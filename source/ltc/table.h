@@ -39,6 +39,12 @@ struct CompactTable {
   std::vector<std::array<float, 4>> shapes;
   std::vector<std::array<float, 2>> magnitudes;
 
+  struct Entry {
+    LtcShape shape;
+    double n_a = 0;
+    double f_a = 0;
+  };
+  Entry entry(double roughness, double cos_theta) const;
   LtcValue look_up(double roughness, double cos_theta) const;
   std::size_t bytes() const { return shapes.size() * 8 + magnitudes.size() * 4; }
 };
