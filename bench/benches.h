@@ -6,11 +6,13 @@
 namespace steradian::bench {
 
 void add_lambert(BenchList& list);
+void add_ltc(BenchList& list);
 void add_eval(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
   add_lambert(list);
+  add_ltc(list);
   add_eval(list);
   return list;
 }

@@ -119,27 +119,30 @@ LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb
     LtcWalk next = walk;
     mask a_below = a.z < 0.0;
     mask b_below = b.z < 0.0;
-    vec3 start = ta;
-    vec3 end = tb;
-    if (any_lane(a_below || b_below)) {
-        vec3 none = vec3(0.0, 0.0, 0.0);
-        mask crosses = (a_below && !b_below) || (b_below && !a_below);
-        real wa = abs(b.z);
-        real wb = abs(a.z);
-        vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-        vec3 crossing = select(crosses, ltc_direction(m, horizon), none);
-        start = select(a_below, crossing, ta);
-        end = select(b_below, crossing, tb);
-        if (any_lane(crosses)) {
-            vec3 anchor = select(walk.anchored, walk.anchor, crossing);
-            vec3 departure = select(a_below, anchor, crossing);
-            vec3 arrival = select(a_below, crossing, anchor);
-            next.lobe = polygon_add_edge(next.lobe, select(crosses, departure, none), select(crosses, arrival, none));
-            next.anchor = select(crosses, anchor, walk.anchor);
+    if (any_lane(!a_below || !b_below)) {
+        vec3 start = ta;
+        vec3 end = tb;
+        if (any_lane(a_below || b_below)) {
+            vec3 none = vec3(0.0, 0.0, 0.0);
+            mask crosses = (a_below && !b_below) || (b_below && !a_below);
+            real wa = abs(b.z);
+            real wb = abs(a.z);
+            vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+            vec3 crossing = select(crosses, ltc_direction(m, horizon), none);
+            start = select(a_below, crossing, ta);
+            end = select(b_below, crossing, tb);
+            // The first crossing is its own anchor: an edge of no length.
+            if (any_lane(crosses && walk.anchored)) {
+                mask closes = crosses && walk.anchored;
+                vec3 departure = select(a_below, walk.anchor, crossing);
+                vec3 arrival = select(a_below, crossing, walk.anchor);
+                next.lobe = polygon_add_edge(next.lobe, select(closes, departure, none), select(closes, arrival, none));
+            }
+            next.anchor = select(crosses && !walk.anchored, crossing, walk.anchor);
             next.anchored = walk.anchored || crosses;
         }
+        next.lobe = polygon_add_edge(next.lobe, start, end);
     }
-    next.lobe = polygon_add_edge(next.lobe, start, end);
     return next;
 }
 

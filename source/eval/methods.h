@@ -15,7 +15,7 @@ namespace steradian::eval {
 enum class Precision { double_, float_ };
 
 // `automatic` stands for the first method of the table that serves the lobe.
-enum class Method { automatic, exact, reference, sampled };
+enum class Method { automatic, exact, ltc, ltc_compact, ltc_clipless, representative_point, reference, sampled };
 
 // What the methods need to know of a query.
 struct MethodOptions {

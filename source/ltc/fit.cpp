@@ -174,6 +174,20 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   return cell;
 }
 
+std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, const FitOptions& options) {
+  const int n = options.size;
+  std::vector<LtcCell> column;
+  LtcShape start;
+  for (int j = 0; j < views; ++j) {
+    const double cosine = ltc_cosine_at(j, n);
+    column.push_back(fit_cell(family, ltc_roughness_at(i, n), cosine, start, options));
+    start = column.back().shape;
+    start.e20 *= cosine / ltc_cosine_at(std::min(j + 1, n - 1), n);
+    if (options.cell_done) options.cell_done();
+  }
+  return column;
+}
+
 LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   LtcTable table;
   table.family = family;
@@ -184,15 +198,8 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   tbb::parallel_for(0, n, [&](int i) {
-    LtcShape start;
-    for (int j = 0; j < n; ++j) {
-      LtcCell& cell = table.cells[static_cast<std::size_t>(j * n + i)];
-      const double cosine = ltc_cosine_at(j, n);
-      cell = fit_cell(family, ltc_roughness_at(i, n), cosine, start, options);
-      start = cell.shape;
-      start.e20 *= cosine / ltc_cosine_at(std::min(j + 1, n - 1), n);
-      if (options.cell_done) options.cell_done();
-    }
+    const std::vector<LtcCell> column = fit_column(family, i, n, options);
+    for (int j = 0; j < n; ++j) table.cells[static_cast<std::size_t>(j * n + i)] = column[static_cast<std::size_t>(j)];
   });
   return table;
 }

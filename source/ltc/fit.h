@@ -56,6 +56,9 @@ struct LtcTable {
   const LtcCell& at(int i, int j) const { return cells[static_cast<std::size_t>(j * size + i)]; }
 };
 
+// The first `views` cells of the column of one roughness of a table of options.size.
+std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, const FitOptions& options);
+
 LtcTable fit_table(const LobeFamily& family, const FitOptions& options = {});
 
 }  // namespace steradian

@@ -46,16 +46,17 @@ TEST(Lobes, SamplesHaveTheirDensity) {
   }
 }
 
-TEST(Lobes, ReflectNoMoreThanArrives) {
-  for (const LobeFamily& family : lobe_families())
+// Of the microfacet lobes only: the authors of the others let them exceed 1 at grazing views.
+TEST(Lobes, OfMicrofacetsReflectNoMoreThanArrives) {
+  for (const LobeFamily& family : lobe_families()) {
+    if (family.frame == LobeFrame::normal) continue;
     for (double roughness : {0.2, 0.5, 1.0})
       for (double cosine : {1.0, 0.7, 0.3, 0.1}) {
         const double a = albedo(family.at(roughness, cosine), 128);
-        // Charlie's shadowing is a curve fitted by eye, and Disney's diffuse gains at grazing: both exceed 1 slightly.
-        const double most = family.name == "charlie" ? 1.1 : family.name == "disney-diffuse" ? 1.35 : 1.002;
-        EXPECT_LE(a, most) << family.name << " " << roughness << " " << cosine;
-        EXPECT_GT(a, 0.01) << family.name << " " << roughness << " " << cosine;
+        EXPECT_LE(a, 1.002) << family.name << " " << roughness << " " << cosine;  // the midpoint rule's error
+        EXPECT_GT(a, 0.2) << family.name << " " << roughness << " " << cosine;
       }
+  }
 }
 
 TEST(Lobes, AreReciprocal) {

@@ -64,20 +64,20 @@ double walk(const PreparedPolygon& light, const LtcInverse& inverse, bool revers
   return static_cast<double>(k.ltc_integral(state, Mask<S>(reversed)).v);
 }
 
-// Signed fan about z over arcs that are cut into short ones. The density is homogeneous of degree -3, so that the
+// Signed fan about a direction above both horizons, over arcs that are cut into short ones. The density is homogeneous of degree -3, so that the
 // chords' triangles serve as well as the sphere's, and it is smooth on all of the upper half space.
 double quadrature(const PreparedPolygon& light, const LtcInverse& m) {
-  static const Rule rule(32);
+  static const Rule rule(40);
   const Vec3d planes[] = {{0, 0, 1}, normalized(Vec3d{m.zx, 0, m.zz})};
   reference::SphericalRegion region;
   region.assign(light, {}, Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, planes, 2);
   const double determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
-  const Vec3d apex = {0, 0, 1};
+  const Vec3d apex = normalized(planes[0] + planes[1]);
   double sum = 0;
   for (const reference::Arc& arc : region.arcs) {
     const Vec3d across = cross(arc.normal, arc.a);
     const auto at = [&](double t) { return arc.a * std::cos(t * arc.angle) + across * std::sin(t * arc.angle); };
-    constexpr int kParts = 6;
+    constexpr int kParts = 8;
     for (int part = 0; part < kParts; ++part) {
       const Vec3d a = at(part / double(kParts)), b = at((part + 1) / double(kParts));
       const double volume = dot(cross(a, b), apex);
