@@ -9,8 +9,9 @@ struct Both {
 };
 
 // One walk for both lobes: a vertex is brought into the shading frame once, and under M^-1 once.
-STERADIAN_INLINE Both integrate(const PackLight& light, const PackKernels::mat3& frame, const PackVec3& p,
-                                const PackKernels::LtcMatrix& m, PackKernels::mask behind) {
+__attribute__((flatten, noinline)) Both integrate(const PackLight& light, const PackKernels::mat3& frame,
+                                                  const PackVec3& p, const PackKernels::LtcMatrix& m,
+                                                  const PackKernels::mask& behind) {
   PackKernels k;
   auto diffuse = k.polygon_begin();
   auto glossy = k.ltc_begin();
