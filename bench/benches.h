@@ -6,6 +6,7 @@
 namespace steradian::bench {
 
 void add_lambert(BenchList& list);
+void add_ltc(BenchList& list);
 void add_eval(BenchList& list);
 void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
@@ -13,6 +14,7 @@ void add_phong(BenchList& list);
 inline BenchList all_benches() {
   BenchList list;
   add_lambert(list);
+  add_ltc(list);
   add_eval(list);
   add_derivatives(list);
   add_phong(list);

@@ -56,6 +56,12 @@ struct Kernels {
 
 #include "microfacet.glsl"
 
+#include "ltc.glsl"
+
+#include "ltc_clipless.glsl"
+
+#include "representative_point.glsl"
+
 // Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
 #ifdef STERADIAN_KERNEL_EXTENSION
 #include STERADIAN_KERNEL_EXTENSION

@@ -16,7 +16,10 @@ enum class Precision { double_, float_ };
 enum class Quality { normal, high };
 
 // `automatic` stands for the first method of the table that serves the lobe.
-enum class Method { automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, reference, sampled };
+enum class Method {
+  automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, ltc, ltc_compact, ltc_clipless, representative_point,
+  reference, sampled
+};
 
 // What the methods need to know of a query.
 struct MethodOptions {
