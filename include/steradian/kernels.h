@@ -34,6 +34,8 @@ struct Kernels {
 
 #include "ellipsoid.glsl"
 
+#include "horizon_clip.glsl"
+
 #include "lambert.glsl"
 
 #include "phong.glsl"
