@@ -40,6 +40,20 @@ struct Kernels {
 
 #include "phong.glsl"
 
+#include "moment.glsl"
+
+#include "moment_quadrature.glsl"
+
+#include "moment_series.glsl"
+
+#include "moment_cosine.glsl"
+
+#include "moment_arvo.glsl"
+
+#include "moment_peak_fits.glsl"
+
+#include "lobe_product.glsl"
+
 #include "microfacet.glsl"
 };
 
