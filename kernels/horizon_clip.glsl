@@ -16,6 +16,7 @@
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
+// Topics: horizon
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The state of a clip and what it last handed out.
@@ -34,6 +35,7 @@ struct HorizonClip {
     vec3 entry;
 };
 
+// The state before the first edge.
 HorizonClip horizon_clip_begin() {
     vec3 nowhere = vec3(0.0, 0.0, 0.0);
     real zero = 0.0;

@@ -12,6 +12,8 @@
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
 // Source: this project (docs/moments.md).
+// Needs: frame.glsl
+// Topics: lobe_product, cosine_lobe, stretched_lobe
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // scale (u.axis)^exponent
@@ -45,6 +47,7 @@ struct LobeProduct {
     real lowest;
 };
 
+// The state before the first lobe.
 LobeProduct lobe_product_begin(vec3 direction) {
     LobeProduct p;
     p.about = frame_from_normal(direction);

@@ -15,6 +15,8 @@
 // Source: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena", 1995; Lecocq,
 // Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017. The form without
 // parity is this project's own.
+// Needs: inverse_trig.glsl
+// Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // One edge, seen from the lobe's axis.

@@ -4,6 +4,8 @@
 // factor x is taken out first, (x - x^m)/(1 - x^2) = x + x^3 + ..., and the rest, 1/(1 + x), integrates to half the
 // angle of a spherical triangle. Each power integrates by parts from the last but one.
 // Source: Arvo 1995, sec. 5; Lecocq et al. 2017, eq. 1 to 3, with N = n - 1.
+// Needs: moment.glsl
+// Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // |s| times the integral of 1/(1 + x) over the part in front: summed over a polygon, its solid angle.

@@ -4,6 +4,8 @@
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
 // Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+// Needs: moment_series.glsl, phong.glsl
+// Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The integral of cos^n phi from the foot to the end (x, y) = (c cos phi, c sin phi), |phi| <= pi/2, n >= 4.

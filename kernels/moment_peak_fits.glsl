@@ -6,6 +6,8 @@
 // faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
+// Needs: moment_arvo.glsl, phong.glsl
+// Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // What the fits share for one edge.
@@ -58,13 +60,14 @@ real moment_peak_height(real s2, real c2, real n, int even_n, real cosine, real 
 // Source: eq. 7, with pi/4 outside the power.
 real moment_peak_half_width_ratio(real c, real n, int even_n) {
     if (even_n == 1) {
-        real k = c - c / max(n - 1.0, 1.0);
-        return sqrt(max(1.0 - k * k, 1.0e-8));
+        real reduced = c - c / max(n - 1.0, 1.0);
+        return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
     }
     real k = max(c - c / max(n - 2.0, 1.0), 1.0e-6);
     return phong_power(max(1.0 - phong_power(k, 2.5), 1.0e-8), 0.45);
 }
 
+// What the fits share for one edge and a lobe of exponent n.
 MomentPeak moment_peak_prepare(MomentEdge edge, real n, int even_n) {
     real s2 = edge.s * edge.s;
     real c2 = edge.c * edge.c;
@@ -192,18 +195,20 @@ real moment_fit_front(MomentEdge edge, MomentPeak p, MomentFit fit, int even_n) 
     return max(front, 0.0);
 }
 
-// The three methods for one edge. Error: see docs/accuracy.md, "phong peak fits".
+// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
 real moment_lorentzian_front(MomentEdge edge, real n, int even_n) {
     MomentPeak p = moment_peak_prepare(edge, n, even_n);
     return moment_fit_front(edge, p, moment_fit_lorentzian(p), even_n);
 }
 
+// The blend of Lorentzian and Pearson VII for one edge.
 real moment_pearson_front(MomentEdge edge, real n, int even_n) {
     MomentPeak p = moment_peak_prepare(edge, n, even_n);
     MomentFit fit = moment_fit_blended(p, moment_fit_lorentzian(p), moment_fit_pearson(p));
     return moment_fit_front(edge, p, fit, even_n);
 }
 
+// The blend of ellipsoid and squared ellipsoid for one edge.
 real moment_ellipsoid_front(MomentEdge edge, real n, int even_n) {
     MomentPeak p = moment_peak_prepare(edge, n, even_n);
     MomentFit fit = moment_fit_blended(p, moment_fit_ellipsoid(edge, p), moment_fit_ellipsoid_squared(edge, p));

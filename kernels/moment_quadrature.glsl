@@ -5,6 +5,8 @@
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+// Needs: moment.glsl
+// Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // What the integrand needs of an edge and a lobe.
@@ -25,6 +27,7 @@ real moment_quadrature_parameter(real w, real x, real y) {
     return clamp(y / max(wx + sqrt(wx * wx + y * y), 1.0e-18), -1.0, 1.0);
 }
 
+// Prepares the integrand of one edge for a lobe of exponent n.
 MomentQuadrature moment_quadrature_prepare(MomentEdge edge, real n) {
     MomentQuadrature q;
     q.m = n + 1.0;
@@ -45,6 +48,7 @@ struct MomentIntegrands {
     real power;
 };
 
+// The integrands at one t.
 MomentIntegrands moment_quadrature_integrands(MomentQuadrature q, real t) {
     real t2 = t * t;
     real d = 1.0 / (1.0 + t2);

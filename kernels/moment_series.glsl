@@ -8,6 +8,8 @@
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
 // Source: this project (docs/moments.md).
+// Needs: moment.glsl
+// Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
@@ -37,94 +39,96 @@ struct MomentSeriesHigh {
 };
 
 // The series of the lobe of exponent n. Prepare once per lobe.
-// Largest error 2.1e-04 of the full lobe for a piece of an edge that begins at the foot.
+// Largest error 2.2e-04 of the full lobe for a piece of an edge that begins at the foot.
 MomentSeries moment_series_prepare(real n) {
     real g = 1.0 / (n + 1.0);
     MomentSeries series;
     series.m = n + 1.0;
     series.b0 = vec4(
-        0.12664 + g * (-0.27884 + g * 0.05067),
-        0.06216 + g * (-0.15549 + g * 0.05883),
-        -0.08614 + g * (0.26499 - g * 0.17662),
-        0.12450 + g * (-0.35388 + g * 0.19859));
+        0.12557 + g * (-0.27563 + g * 0.04870),
+        0.07372 + g * (-0.19343 + g * 0.08837),
+        -0.11704 + g * (0.36657 - g * 0.25594),
+        0.14769 + g * (-0.43202 + g * 0.26283));
     series.b1 = vec4(
-        -0.03496 + g * (0.03643 + g * 0.07005),
-        0.05028 + g * (-0.26898 + g * 0.34776),
-        -0.10106 + g * (0.52762 - g * 0.67573),
-        0.13428 + g * (-0.69464 + g * 0.88252));
+        -0.03624 + g * (0.04407 + g * 0.05910),
+        0.06330 + g * (-0.33447 + g * 0.42828),
+        -0.13595 + g * (0.70502 - g * 0.89613),
+        0.16026 + g * (-0.82384 + g * 1.03934));
     series.b2 = vec4(
-        -0.13584 + g * (0.38390 - g * 0.22874),
-        -0.06308 + g * (0.10921 + g * 0.05324),
-        0.04086 + g * (0.10980 - g * 0.44533),
-        -0.08175 + g * (-0.03621 + g * 0.47176));
+        -0.13522 + g * (0.38321 - g * 0.22983),
+        -0.06937 + g * (0.10996 + g * 0.07945),
+        0.05773 + g * (0.10382 - g * 0.50598),
+        -0.09477 + g * (-0.01994 + g * 0.49008));
     series.b3 = vec4(
-        0.04578 + g * (-0.10843 + g * 0.02987),
-        -0.05618 + g * (0.32100 - g * 0.43483),
-        0.11286 + g * (-0.58345 + g * 0.73743),
-        -0.15784 + g * (0.84344 - g * 1.09508));
+        0.04719 + g * (-0.11741 + g * 0.04327),
+        -0.07026 + g * (0.38975 - g * 0.51644),
+        0.15093 + g * (-0.77915 + g * 0.98284),
+        -0.18602 + g * (0.98226 - g * 1.26158));
     return series;
 }
 
-// Largest error 5.9e-05 of the full lobe for a piece of an edge that begins at the foot.
+// Largest error 5.2e-05 of the full lobe for a piece of an edge that begins at the foot.
 MomentSeriesHigh moment_series_high_prepare(real n) {
     real g = 1.0 / (n + 1.0);
     MomentSeriesHigh series;
     series.m = n + 1.0;
     series.low0 = vec3(
-        0.12765 + g * (-0.28157 + g * 0.05202),
-        0.05820 + g * (-0.15265 + g * 0.06950),
-        -0.18571 + g * (0.63688 - g * 0.51376));
+        0.12703 + g * (-0.27960 + g * 0.05068),
+        0.07290 + g * (-0.20575 + g * 0.11681),
+        -0.28538 + g * (0.99711 - g * 0.83461));
     series.high0 = vec3(
-        0.70175 + g * (-2.31306 + g * 1.75683),
-        -0.99827 + g * (3.29119 - g * 2.49952),
-        0.54206 + g * (-1.76220 + g * 1.30706));
+        0.97855 + g * (-3.32180 + g * 2.66803),
+        -1.33217 + g * (4.51682 - g * 3.62002),
+        0.68719 + g * (-2.30012 + g * 1.80682));
     series.low1 = vec3(
-        -0.03389 + g * (0.03102 + g * 0.07682),
-        0.04779 + g * (-0.26197 + g * 0.34458),
-        -0.22906 + g * (1.24690 - g * 1.64554));
+        -0.03470 + g * (0.03639 + g * 0.06855),
+        0.06539 + g * (-0.35485 + g * 0.46335),
+        -0.34870 + g * (1.88329 - g * 2.46506));
     series.high1 = vec3(
-        0.83356 + g * (-4.50918 + g * 5.92237),
-        -1.18822 + g * (6.42166 - g * 8.42880),
-        0.63979 + g * (-3.44198 + g * 4.50310));
+        1.16512 + g * (-6.26216 + g * 8.16649),
+        -1.58746 + g * (8.52191 - g * 11.10423),
+        0.81281 + g * (-4.34534 + g * 5.64527));
     series.low2 = vec3(
-        -0.13654 + g * (0.38380 - g * 0.22520),
-        -0.05641 + g * (0.08939 + g * 0.06743),
-        0.06001 + g * (0.37821 - g * 1.15616));
+        -0.13626 + g * (0.38351 - g * 0.22562),
+        -0.06203 + g * (0.07759 + g * 0.11914),
+        0.09818 + g * (0.45104 - g * 1.48943));
     series.high2 = vec3(
-        -0.29005 + g * (-1.09053 + g * 3.89390),
-        0.40816 + g * (1.57607 - g * 5.57382),
-        -0.23395 + g * (-0.79226 + g * 2.93810));
+        -0.39741 + g * (-1.24245 + g * 4.70244),
+        0.53926 + g * (1.70258 - g * 6.41759),
+        -0.29200 + g * (-0.81231 + g * 3.22433));
     series.low3 = vec3(
-        0.04446 + g * (-0.10136 + g * 0.02064),
-        -0.04980 + g * (0.28145 - g * 0.37720),
-        0.22723 + g * (-1.13211 + g * 1.37913));
+        0.04529 + g * (-0.10725 + g * 0.03012),
+        -0.06702 + g * (0.36617 - g * 0.47877),
+        0.34517 + g * (-1.73875 + g * 2.14127));
     series.high3 = vec3(
-        -0.85099 + g * (4.31591 - g * 5.34370),
-        1.21358 + g * (-6.14901 + g * 7.60796),
-        -0.66280 + g * (3.37589 - g * 4.19809));
+        -1.17770 + g * (5.99047 - g * 7.44009),
+        1.60733 + g * (-8.17260 + g * 10.14812),
+        -0.83356 + g * (4.25230 - g * 5.29673));
     series.low4 = vec3(
-        0.00506 + g * (-0.08685 + g * 0.16309),
-        0.00073 + g * (0.04780 - g * 0.11587),
-        0.15668 + g * (-1.30346 + g * 2.17438));
+        0.00539 + g * (-0.08666 + g * 0.16020),
+        -0.01016 + g * (0.12811 - g * 0.24066),
+        0.22959 + g * (-1.81825 + g * 2.95180));
     series.high4 = vec3(
-        -0.50590 + g * (4.31400 - g * 7.26613),
-        0.72886 + g * (-6.20386 + g * 10.44214),
-        -0.38198 + g * (3.27380 - g * 5.52514));
+        -0.70628 + g * (5.68321 - g * 9.28700),
+        0.96798 + g * (-7.78243 + g * 12.71316),
+        -0.48419 + g * (3.91370 - g * 6.40728));
     series.low5 = vec3(
-        -0.01082 + g * (0.08145 - g * 0.12466),
-        -0.00133 + g * (0.00550 - g * 0.00686),
-        0.00144 + g * (-0.14055 + g * 0.33187));
+        -0.01074 + g * (0.07935 - g * 0.11996),
+        -0.00179 + g * (0.01480 - g * 0.02609),
+        0.00371 + g * (-0.17613 + g * 0.39859));
     series.high5 = vec3(
-        0.02264 + g * (0.22873 - g * 0.69895),
-        -0.03337 + g * (-0.32085 + g * 0.99036),
-        0.03129 + g * (0.05213 - g * 0.32435));
+        0.01604 + g * (0.32547 - g * 0.87674),
+        -0.02595 + g * (-0.41291 + g * 1.14610),
+        0.02814 + g * (0.08612 - g * 0.37731));
     return series;
 }
 
+// A harmonic's amplitude over 1 - kap2, at t = kap2.
 real moment_series_cubic(vec4 b, real t) {
     return ((b.w * t + b.z) * t + b.y) * t + b.x;
 }
 
+// The same in high quality.
 real moment_series_quintic(vec3 low, vec3 high, real t) {
     return ((((high.z * t + high.y) * t + high.x) * t + low.z) * t + low.y) * t + low.x;
 }
@@ -142,6 +146,7 @@ struct MomentWarp {
     vec2 sine;
 };
 
+// Finds the ellipsoid of one edge for a lobe of exponent m - 1.
 MomentWarp moment_warp(MomentEdge edge, real m) {
     MomentWarp warp;
     warp.kap2 = moment_1_minus_exp(0.5 * m * edge.log_c);
@@ -177,7 +182,7 @@ real moment_series_front(MomentEdge edge, MomentSeries series) {
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// The same in high quality. Error: about 6e-5 of the full lobe for each side of the foot.
+// The same in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 real moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
     MomentWarp warp = moment_warp(edge, series.m);
     real t = warp.kap2;

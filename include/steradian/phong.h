@@ -1,0 +1,61 @@
+// Phong lobes under polygon lights: the axial moment by every method, in double and in float.
+//
+//   const PreparedPolygon light = prepare_polygon({vertices});
+//   Material material{.brdf = Brdf::phong, .exponent = 100};
+//   Vec3d radiance = phong_radiance(light, at, material, {.method = PhongMethod::series});
+//
+// Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, r the mirrored view; no foreshortening.
+// Derivation, errors and speed of the methods: docs/moments.md.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "steradian/material.h"
+#include "steradian/polygon_light.h"
+#include "steradian/reference.h"
+
+namespace steradian {
+
+enum class PhongMethod {
+  exact,       // boundary integral by quadrature: 1e-10 of the full lobe in double, any n >= 0
+  arvo,        // Arvo's recurrence, O(n): exact, integer n
+  lorentzian,  // the published peak fits, errors of 1e-2, for comparison
+  pearson,
+  ellipsoid,
+  series,      // the matched ellipsoid's cosine series, O(1): 1e-3 of the full lobe at worst, 2e-4 on the average
+};
+
+enum class PhongQuality { normal, high };  // of series: three harmonics, or five with a third of the error
+
+struct PhongOptions {
+  PhongMethod method = PhongMethod::series;
+  PhongQuality quality = PhongQuality::normal;
+  double relative_precision = 0;  // of arvo: an edge's sum stops when what is left is below; 0 sums everything
+};
+
+// "exact", "arvo", ...: the names of the command line. std::nullopt for others; "auto" is series.
+std::optional<PhongMethod> phong_method_of(std::string_view name);
+const char* name_of(PhongMethod method);
+
+// Radiance towards the view; 0 for a view below the surface, from behind a one-sided light, and in its plane.
+// Throws Error for a negative exponent, and for arvo with one that is not an integer.
+Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
+                     const PhongOptions& options = {});
+
+// The same in single precision. exact is the fixed quadrature of kernels/moment_quadrature.glsl, with 14 nodes.
+Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
+                           const PhongOptions& options = {});
+
+// Integral of max(u.axis, 0)^n over the part of a light above the horizon of `normal`, to 1e-10 of 2 pi/(n + 1).
+//
+//   axis     unit, not below the horizon
+//   n        real, at least 0
+double axial_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, double n);
+
+// Integral of max(u.axis, 0)^n (u.other) over the same part, exact as above: foreshortening (other = normal) without
+// approximation. `other` may have any length; n >= 1.
+double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other,
+                          double n);
+
+}  // namespace steradian
