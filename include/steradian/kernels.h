@@ -55,6 +55,18 @@ struct Kernels {
 #include "lobe_product.glsl"
 
 #include "microfacet.glsl"
+
+#include "complex.glsl"
+
+#include "gauss_legendre.glsl"
+
+#include "quartic.glsl"
+
+#include "ggx_edge.glsl"
+
+#include "ggx_closed_form.glsl"
+
+#include "ggx_cubature.glsl"
 };
 
 STERADIAN_END_ISA
