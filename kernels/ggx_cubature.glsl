@@ -9,7 +9,7 @@
 // In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
 // equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
 // The measure itself is exact; only the smooth factor G2 F is sampled.
-// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl ggx_edge.glsl ggx_closed_form.glsl
+// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl ggx_closed_form.glsl
 // Topics: ggx
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -112,7 +112,7 @@ vec2 ggx_rule(real n, int j) {
 //
 // Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
 // exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
-GgxCubature ggx_cubature_edge(GgxCubature c, GgxEdge edge, int extra) {
+GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
     GgxCubature next = c;
     real total = edge.sweep.x + edge.sweep.y;
     real n = 1.0 + select(total < 0.25, 0.0, 1.0) + select(total < 0.8, 0.0, 1.0) + select(total < 1.6, 0.0, 1.0) + real(extra);
@@ -124,7 +124,7 @@ GgxCubature ggx_cubature_edge(GgxCubature c, GgxEdge edge, int extra) {
         mask present = n > real(j) + 0.5 && total > 0.0;
         if (any_lane(present)) {
             vec2 rule = ggx_rule(n, j);
-            GgxNode node = ggx_edge_node(edge, rule.x);
+            ConicNode node = conic_node(edge, rule.x);
             vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
             vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
             real inverse2 = 1.0 / max(dot(u, u), 1.0e-30);

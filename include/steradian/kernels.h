@@ -62,11 +62,15 @@ struct Kernels {
 
 #include "quartic.glsl"
 
-#include "ggx_edge.glsl"
+#include "conic.glsl"
 
 #include "ggx_closed_form.glsl"
 
 #include "ggx_cubature.glsl"
+
+#include "half_vector.glsl"
+
+#include "ellipse.glsl"
 };
 
 STERADIAN_END_ISA

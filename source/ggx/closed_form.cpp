@@ -29,7 +29,7 @@ class Evaluation {
     smith_ = m.shadowing ? 1.0 : 0.0;
     walk_clipped_edges<S>(light, frame, at.position, [&](const auto& a, const auto& b) {
       edges_.push_back(k_.ggx_edge(view_, a, b));
-      e_ = e_ + k_.ggx_edge_vector(edges_.back());
+      e_ = e_ + k_.conic_vector(edges_.back());
     });
   }
 
@@ -50,7 +50,7 @@ class Evaluation {
   typename K::GgxView view_;
   typename K::vec3 e_{0.0, 0.0, 0.0};
   typename K::real facing_ = 0.0, smith_ = 1.0;
-  std::vector<typename K::GgxEdge> edges_;
+  std::vector<typename K::ConicArc> edges_;
 };
 
 template <class S>

@@ -24,7 +24,7 @@ struct GgxPackWalks {
     PackVec3 start, end;
   };
   std::vector<Arc> arcs;
-  std::vector<PackKernels::GgxEdge> edges;
+  std::vector<PackKernels::ConicArc> edges;
 };
 
 // Radiance for radiance 1 with F = 1, and with F = (1 - v.h)^5, for ggx_radiance. Vertices may be Vec3f or Vec3d.
@@ -52,7 +52,7 @@ STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const Vector3<T>* vertices, c
   for (const auto& arc : arcs) {
     const auto edge = k.ggx_edge(at.view, arc.start, arc.end);
     if (!any_lane(edge.end > edge.begin)) continue;
-    e = e + k.ggx_edge_vector(edge);
+    e = e + k.conic_vector(edge);
     if (quality != Quality::draft) edges.push_back(edge);
   }
   if (quality == Quality::draft) return select(at.lit, k.ggx_draft(at.view, e, at.smith, at.facing), {0.0, 0.0});
