@@ -7,11 +7,15 @@ namespace steradian::bench {
 
 void add_lambert(BenchList& list);
 void add_eval(BenchList& list);
+void add_phong(BenchList& list);
+void add_closed_form(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
   add_lambert(list);
   add_eval(list);
+  add_phong(list);
+  add_closed_form(list);
   return list;
 }
 

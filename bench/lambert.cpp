@@ -1,4 +1,4 @@
-// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, some of which see the quad only in part.
+// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part.
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -14,6 +14,7 @@ constexpr std::size_t kSide = 128;
 struct Floor {
   std::vector<float> x, y, z, nx, ny, nz, result;
   PreparedPolygon light;
+  PackLight pack_light;
 
   SurfacePoints points() const {
     return {x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()};
@@ -40,6 +41,7 @@ std::shared_ptr<Floor> make_floor() {
   quad.vertices = {{-1, -0.3, -0.5}, {1, -0.3, -0.5}, {1.2, 1.5, -0.7}, {-1.1, 1.4, -0.7}};
   quad.vertices[3] = quad.vertices[0] + (quad.vertices[2] - quad.vertices[1]);  // flat: a parallelogram
   floor->light = prepare_polygon(quad);
+  floor->pack_light = prepare_light(floor->light);
   return floor;
 }
 
@@ -47,7 +49,7 @@ Bench packs(const std::string& name, Simd simd) {
   auto floor = make_floor();
   const auto irradiance = irradiance_table_for(simd).irradiance;
   return {name, floor->x.size(), name_of(simd), [floor, irradiance] {
-            irradiance(floor->light, floor->points(), floor->result.data());
+            irradiance(floor->pack_light, floor->points(), floor->result.data());
             keep(floor->result.front());
           }};
 }

@@ -109,12 +109,12 @@ real trig_angle_over_sine_acute(real t) {
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
 //
-//   c        cosine, in [-1, 1] (rounding may exceed it)
+//   c        cosine, in [-1, 1]; the polynomial goes on smoothly where rounding exceeds it
 //   s2       sine squared, computed on its own (a squared cross product), not as 1 - c*c, which cancels near pi
 //
 // Degenerate: towards pi the value grows like pi/sine; it stops at s2 = 1.0e-30, where products with the sine are 0.
 real trig_angle_over_sine(real c, real s2) {
-    real f = trig_angle_over_sine_acute(max(1.0 - abs(c), 0.0));
+    real f = trig_angle_over_sine_acute(1.0 - abs(c));
     mask obtuse = c < 0.0;
     if (any_lane(obtuse)) {
         f = select(obtuse, pi() * inversesqrt(max(s2, 1.0e-30)) - f, f);

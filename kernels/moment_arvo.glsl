@@ -19,11 +19,11 @@ real moment_solid_angle_front(MomentEdge edge) {
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
 //
 //   n        integer exponent, at least 1
-//   relative_precision  stop when what is left cannot matter by more; 0: sum everything. Every lane waits for the
-//            slowest: at grazing views, where c is near 1, the stop comes late or never.
+//   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
+//            the slowest: at grazing views, where c is near 1, the stop comes late or never.
 //
 // Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
-real moment_arvo_front(MomentEdge edge, int n, real relative_precision) {
+real moment_arvo_front(MomentEdge edge, int n, int can_stop, real relative_precision) {
     int odd_m = 1 - (n - (n / 2) * 2);
     real c2 = edge.c * edge.c;
     real x02 = edge.x0 * edge.x0;
@@ -50,8 +50,10 @@ real moment_arvo_front(MomentEdge edge, int n, real relative_precision) {
         p = p + 2.0;
         sum = sum + power;
         // The terms fall by c^2 or more: those left sum to less than power c^2 / (1 - c^2).
-        if (all_lanes(power * c2 <= sum * left)) {
-            break;
+        if (can_stop == 1) {
+            if (all_lanes(power * c2 <= sum * left)) {
+                break;
+            }
         }
     }
     real front = edge.s * sum;

@@ -150,13 +150,18 @@ struct MomentWarp {
 MomentWarp moment_warp(MomentEdge edge, real m) {
     MomentWarp warp;
     warp.kap2 = moment_1_minus_exp(0.5 * m * edge.log_c);
-    warp.kap = sqrt(warp.kap2);
-    real w = edge.s / warp.kap;
-    warp.du = moment_angle(w, edge.x0, edge.y0, edge.x1, edge.y1);
+    real over_kap = inversesqrt(warp.kap2);
+    warp.kap = warp.kap2 * over_kap;
+    real w = edge.s * over_kap;
     real wx0 = w * edge.x0;
     real wx1 = w * edge.x1;
-    real scale0 = 2.0 / max(wx0 * wx0 + edge.y0 * edge.y0, 1.0e-36);
-    real scale1 = 2.0 / max(wx1 * wx1 + edge.y1 * edge.y1, 1.0e-36);
+    warp.du = trig_atan2_unwrapped(wx0 * edge.y1 - wx1 * edge.y0, wx0 * wx1 + edge.y0 * edge.y1);
+    // One division for both ends: they are at least c^2 w^2, 1e-10 where the pole begins.
+    real d0 = wx0 * wx0 + edge.y0 * edge.y0;
+    real d1 = wx1 * wx1 + edge.y1 * edge.y1;
+    real over_both = 2.0 / max(d0 * d1, 1.0e-30);
+    real scale0 = over_both * d1;
+    real scale1 = over_both * d0;
     warp.cosine = vec2(scale0 * (wx0 * wx0 - edge.y0 * edge.y0), scale1 * (wx1 * wx1 - edge.y1 * edge.y1));
     warp.sine = vec2(scale0 * wx0 * edge.y0, scale1 * wx1 * edge.y1);
     return warp;

@@ -19,12 +19,11 @@ struct PolygonWalk {
 //
 //   v        vertex relative to the shading point, any unit of length
 //
-// Degenerate: lengths below 1.0e-18 and above 1.0e18 (the point lies on the vertex; squares leave the range of float)
-// give the zero vector, which adds nothing to any sum.
+// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
+// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
 vec3 polygon_direction(vec3 v) {
     real d2 = dot(v, v);
-    mask usable = d2 > 1.0e-36 && d2 < 1.0e36;
-    real scale = select(usable, inversesqrt(clamp(d2, 1.0e-36, 1.0e36)), 0.0);
+    real scale = select(d2 < 1.0e36, inversesqrt(max(d2, 1.0e-36)), 0.0);
     return v * scale;
 }
 
@@ -62,23 +61,25 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
     PolygonWalk next = walk;
     mask a_below = a.z < 0.0;
     mask b_below = b.z < 0.0;
-    vec3 start = a;
-    vec3 end = b;
-    if (any_lane(a_below || b_below)) {
-        // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
-        real wa = abs(b.z);
-        real wb = abs(a.z);
-        vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-        p = p * inversesqrt(max(dot(p, p), 1.0e-36));
-        vec3 crossing = vec3(p.x, p.y, 0.0);
-        start = select(a_below, crossing, a);
-        end = select(b_below, crossing, b);  // both below: start = end, an edge of no length
-        mask crosses = (a_below && !b_below) || (b_below && !a_below);
-        real y = select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
-        vec2 h = walk.horizon;
-        next.horizon = select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
+    if (any_lane(!a_below || !b_below)) {
+        vec3 start = a;
+        vec3 end = b;
+        if (any_lane(a_below || b_below)) {
+            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            real wa = abs(b.z);
+            real wb = abs(a.z);
+            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+            p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+            vec3 crossing = vec3(p.x, p.y, 0.0);
+            start = select(a_below, crossing, a);
+            end = select(b_below, crossing, b);  // both below: start = end, an edge of no length
+            mask crosses = (a_below && !b_below) || (b_below && !a_below);
+            real y = select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
+            vec2 h = walk.horizon;
+            next.horizon = select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
+        }
+        next.edges = walk.edges + polygon_edge(start, end);
     }
-    next.edges = walk.edges + polygon_edge(start, end);
     return next;
 }
 
@@ -90,7 +91,10 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
 // Degenerate: a point in the light's plane gives 0 up to rounding.
 vec3 polygon_irradiance_vector(PolygonWalk walk, mask reversed) {
     real facing = select(reversed, -1.0, 1.0);
-    real arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    real arc = 0.0;
+    if (any_lane(abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0)) {
+        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    }
     vec3 e = walk.edges * facing;
     return vec3(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, pi()));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "steradian/scene.h"
@@ -23,5 +24,8 @@ struct LoadedScene {
 // in a warning. Throws Error with file, place in the file and what to do for everything that is broken or
 // required but unsupported.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
+
+// The same for the bytes of such a file. path: for messages, and the place that other files are relative to.
+LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path, const LoadOptions& options = {});
 
 }  // namespace steradian

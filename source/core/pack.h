@@ -8,6 +8,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "steradian/kernels.h"
+#include "steradian/vector.h"
 
 STERADIAN_BEGIN_ISA
 
@@ -68,5 +69,7 @@ using PackKernels = Kernels<Pack>;
 STERADIAN_INLINE PackReal load(const float* p) { return PackReal::of(Pack::load_unaligned(p)); }
 STERADIAN_INLINE void store(float* p, PackReal x) { x.v.store_unaligned(p); }
 STERADIAN_INLINE PackReal broadcast(float x) { return PackReal::of(Pack(x)); }
+
+STERADIAN_INLINE PackVec3 broadcast(const Vec3f& v) { return {broadcast(v.x), broadcast(v.y), broadcast(v.z)}; }
 
 STERADIAN_END_ISA

@@ -58,7 +58,7 @@ class Sum {
 Answer evaluate(const Query& query) {
   const ShadingPoint at = {query.position, query.normal, query.view.value_or(query.normal)};
   const bool seen = dot(at.normal, at.view) > 0.0;
-  MethodOptions options = {query.precision, query.spp, query.seed};
+  MethodOptions options = {query.precision, query.quality, query.spp, query.seed};
 
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};

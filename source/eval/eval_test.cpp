@@ -73,11 +73,32 @@ TEST(Eval, AnswersEveryMaterialMethodAndLight) {
                                        R"("method":")" + method + R"(","spp":16,"seed":3,"precision":"double")");
         const json a = answer(line);
         ASSERT_TRUE(a.contains("radiance")) << line << "\n" << a;
-        const bool lambert = material.find("lambert") != std::string::npos;
-        EXPECT_EQ(a["method"], method != "auto" ? method : lambert ? "exact" : "reference");
+        const auto is = [&](const char* brdf) { return material.find(brdf) != std::string::npos; };
+        const std::string resolved = is("lambert") ? "exact" : is("\"phong") ? "series" : "reference";
+        EXPECT_EQ(a["method"], method != "auto" ? method : resolved);
         EXPECT_EQ(a.contains("standard_error"), method == "sampled");
         EXPECT_EQ(a.contains("bound"), a["method"] == "reference");
       }
+}
+
+TEST(Eval, PhongMethodsAgreeWithTheReference) {
+  const std::string phong = R"("material":{"brdf":"phong","exponent":20,"albedo":0.5})";
+  const json reference = answer(query(kLight, kPlace, phong, R"("method":"reference")"));
+  const double truth = reference["radiance"][0];
+  struct Bound {
+    const char* method;
+    double of_full_lobe;  // docs/moments.md
+  };
+  for (const Bound& b : {Bound{"exact", 1e-10}, Bound{"arvo", 1e-10}, Bound{"series", 1.3e-3}, Bound{"lorentzian", 0.1},
+                         Bound{"pearson", 0.1}, Bound{"ellipsoid", 0.1}})
+    for (const char* precision : {"double", "float"}) {
+      const std::string rest = std::string(R"("method":")") + b.method + R"(","precision":")" + precision + '"';
+      const double in_float = *precision == 'f' ? 1e-6 : 0;  // a few roundings of directions and sums
+      EXPECT_NEAR(red(query(kLight, kPlace, phong, rest)), truth, 0.5 * b.of_full_lobe + in_float) << rest;
+    }
+  const double normal = red(query(kLight, kPlace, phong)), high = red(query(kLight, kPlace, phong, R"("quality":"high")"));
+  EXPECT_NE(normal, high);
+  EXPECT_NEAR(high, truth, 0.5 * 4.5e-4);
 }
 
 TEST(Eval, AgreesWithTheReferenceOnLambert) {
@@ -93,7 +114,7 @@ TEST(Eval, VectorsNeedNotBeUnit) {
 }
 
 TEST(Eval, MaterialsOfAListAdd) {
-  const std::string a = R"({"brdf":"lambert","albedo":0.3})", b = R"({"brdf":"phong","exponent":5})";
+  const std::string a = R"({"brdf":"lambert","albedo":0.3})", b = R"({"brdf":"beckmann","alpha":0.3})";
   const json both = answer(with_material("[" + a + "," + b + "]"));
   EXPECT_DOUBLE_EQ(both["radiance"][0].get<double>(), red(with_material(a)) + red(with_material(b)));
   EXPECT_EQ(both["method"], "exact+reference");
@@ -223,7 +244,10 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
       {with_material(R"({"brdf":"ggx","roughness":0.5,"alpha":0.5})"), {"material.alpha: ", "twice"}},
       {with_material(R"({"brdf":"ggx","alpha_x":0.5})"), {"material.alpha_y: missing"}},
       {with_material(R"({"brdf":"ggx","alpha":0.5,"shadowing":"some"})"), {"material.shadowing: 'some'"}},
-      {with_material(R"({"brdf":"phong","exponent":3})", R"("method":"exact")"), {"method: exact", "phong"}},
+      {with_material(R"({"brdf":"beckmann","alpha":0.3})", R"("method":"exact")"), {"method: exact", "beckmann"}},
+      {with_material(R"({"brdf":"phong","exponent":3.5})", R"("method":"arvo")"), {"method: arvo", "phong", "series"}},
+      {query(kLight, kPlace, kLambert, R"("method":"series")"), {"method: series", "lambert", "exact"}},
+      {query(kLight, kPlace, kLambert, R"("quality":"best")"), {"quality: 'best'", "normal or high"}},
   };
   for (const Wrong& wrong : all) {
     const json a = answer(wrong.line);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "steradian/closed_form.h"  // Quality
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
 #include "steradian/reference.h"
@@ -15,11 +16,12 @@ namespace steradian::eval {
 enum class Precision { double_, float_ };
 
 // `automatic` stands for the first method of the table that serves the lobe.
-enum class Method { automatic, exact, reference, sampled };
+enum class Method { automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, closed_form, half_vector, reference, sampled };
 
 // What the methods need to know of a query.
 struct MethodOptions {
   Precision precision = Precision::double_;
+  Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
 };
@@ -43,7 +45,7 @@ struct MethodEntry {
 std::span<const MethodEntry> methods();
 
 std::optional<Method> method_of(std::string_view name);
-std::string method_names();  // "auto, exact, reference, sampled"
+std::string method_names();  // "auto, series, exact, ..."
 
 // The method that a query's method comes down to for one lobe.
 // Throws Error where it does not serve the lobe or the precision.

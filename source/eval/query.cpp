@@ -197,6 +197,13 @@ void read_precision(Problems& problems, const Place& place, Json value, Query& q
   query.precision = name == "float" ? Precision::float_ : Precision::double_;
 }
 
+void read_quality(Problems& problems, const Place& place, Json value, Query& query) {
+  const std::string_view name = read_string(problems, place, value);
+  if (value.is_string() && name != "draft" && name != "normal" && name != "high")
+    problems.add(place, quoted(name) + " is not known", "draft, normal or high");
+  query.quality = name == "high" ? Quality::high : name == "draft" ? Quality::draft : Quality::normal;
+}
+
 constexpr Field<Query> kQueryFields[] = {
     {"light", read_light, true},
     {"position", [](Problems& p, const Place& at, Json v, Query& q) { q.position = read_vector(p, at, v); }, true},
@@ -205,6 +212,7 @@ constexpr Field<Query> kQueryFields[] = {
     {"material", read_materials, true},
     {"method", read_method},
     {"precision", read_precision},
+    {"quality", read_quality},
     {"spp",
      [](Problems& p, const Place& at, Json v, Query& q) {
        q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max()));

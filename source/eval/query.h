@@ -29,6 +29,7 @@ struct Query {
   std::vector<Material> materials;
   Method method = Method::automatic;
   Precision precision = Precision::double_;
+  Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
 };

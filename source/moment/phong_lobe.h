@@ -16,6 +16,7 @@ struct PhongLobe {
   int integer_n = 1;    // arvo's count of steps
   int even_n = 0;       // of an integer exponent: the peak fits' choice of f
   bool below_1 = false; // the series then goes through n + 2
+  int can_stop = 0;     // arvo's early exit
   Real<S> relative_precision{0.0};
   typename K::MomentSeries series;
   typename K::MomentSeriesHigh series_high;
@@ -24,6 +25,7 @@ struct PhongLobe {
     K k;
     integer_n = static_cast<int>(exponent);
     even_n = static_cast<double>(integer_n) == exponent && integer_n % 2 == 0;
+    can_stop = precision > 0;
     below_1 = exponent < 1;
     const Real<S> order(below_1 ? exponent + 2 : exponent);
     series = k.moment_series_prepare(order);
@@ -47,7 +49,7 @@ struct PhongLobe {
     } else if constexpr (method == PhongMethod::arvo) {
       // The sum of no power at all: 1/(1 + x) is what is left.
       if (integer_n == 0) return k.moment_solid_angle_front(edge);
-      return k.moment_arvo_front(edge, integer_n, relative_precision);
+      return k.moment_arvo_front(edge, integer_n, can_stop, relative_precision);
     } else if constexpr (method == PhongMethod::lorentzian) {
       return k.moment_lorentzian_front(edge, n, even_n);
     } else if constexpr (method == PhongMethod::pearson) {

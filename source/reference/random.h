@@ -12,7 +12,7 @@ class Random {
   // Different streams of one seed are independent.
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : increment_(2 * stream + 1) {
     bits();
-    state_ += seed;
+    state_ += mixed(seed);
     bits();
   }
 
@@ -32,6 +32,15 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
  private:
+  // Neighbouring seeds become far apart states. Source: Steele, Lea, Flood, "Fast splittable pseudorandom number
+  // generators", 2014 (the finaliser of SplitMix64).
+  static std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+  }
+
   std::uint64_t state_ = 0;
   std::uint64_t increment_;
 };

@@ -204,10 +204,12 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
     if (!(exact > 1e-3)) continue;
     ++tested;
     const SampledResult s = sampled_radiance(light, c.at, m, {2000, static_cast<std::uint64_t>(i)});
-    const double z = (largest(s.radiance) - exact) / (s.standard_error + 1e-7 * exact);
+    // A lobe sample that hits a small light adds at most about exact / spp. Of fewer than 20 hits the number is Poisson's,
+    // not normal, and may be 0, when the standard error knows nothing of them: count with that of 20.
+    const double least = std::sqrt(20.0) / 2000 * exact;
+    const double z = (largest(s.radiance) - exact) / std::max(s.standard_error, least);
     worst = std::max(worst, std::fabs(z));
-    // Light samples alone can be exact (Lambert, a light that no lobe sample hits): no statistics there.
-    if (s.standard_error > 1e-5 * exact) {
+    if (s.standard_error > least) {
       squares += z * z;
       ++random_ones;
     }
@@ -217,7 +219,7 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
   }
   // And the errors are not only small enough, they are as large as said: sum of squares of normals.
   const double p = reference::chi2_p_value(squares, random_ones);
-  EXPECT_GT(random_ones, 200);
+  EXPECT_GT(random_ones, 100);
   EXPECT_GT(p, 1e-4) << squares;
   EXPECT_LT(p, 1 - 1e-4) << squares;
   std::printf("largest |z| %.2f of %d, mean square %.3f\n", worst, tested, squares / random_ones);

@@ -173,8 +173,7 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
 Layout allowed_layout(const JsonCursor& accessor, std::string_view types) {
   const Layout layout = layout_of(accessor);
   const std::string type = accessor.at("type").as_text();
-  if ((" " + std::string(types) + " ").find(" " + type + " ") == std::string::npos)
-    accessor.at("type").fail("is " + type + ", must be " + std::string(types));
+  if (!has_word(types, type)) accessor.at("type").fail("is " + type + ", must be " + std::string(types));
   return layout;
 }
 

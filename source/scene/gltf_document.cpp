@@ -11,23 +11,6 @@ namespace {
 // Deeper nesting than any real file has; parsers and destructors of nested values may recurse.
 constexpr int kMaxDepth = 200;
 
-Bytes read_file(const std::filesystem::path& path, const std::string& place) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    throw Error(place, "cannot find the file " + path.string(), "check the path");
-  if (!std::filesystem::is_regular_file(status)) throw Error(place, path.string() + " is not a regular file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(place, "cannot read the file " + path.string(), "check its permissions");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw Error(place, "cannot read the file " + path.string());
-  Bytes bytes(static_cast<std::size_t>(size));
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (file.gcount() != static_cast<std::streamsize>(bytes.size()))
-    throw Error(place, "the file " + path.string() + " ended while it was read");
-  return bytes;
-}
-
 std::uint32_t little_endian_32(const std::uint8_t* p) {
   return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
          std::uint32_t{p[3]} << 24;
@@ -72,9 +55,11 @@ struct Container {
   std::optional<std::span<const std::uint8_t>> binary;
 };
 
-bool is_glb(const Bytes& file) { return file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0; }
+bool is_glb(std::span<const std::uint8_t> file) {
+  return file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0;
+}
 
-Container split_glb(const Bytes& file, const std::string& path) {
+Container split_glb(std::span<const std::uint8_t> file, const std::string& path) {
   const char* hint = "the file may be truncated; export it again";
   if (file.size() < 20)
     throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
@@ -202,6 +187,22 @@ JsonCursor GltfDocument::object(const char* array, int index) const {
           path + ": " + array + "[" + std::to_string(index) + "]"};
 }
 
+Bytes read_file(const std::string& path, const std::string& place) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw Error(place, "cannot find the file " + path, "check the path");
+  if (!std::filesystem::is_regular_file(status)) throw Error(place, path + " is not a regular file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(place, "cannot read the file " + path, "check its permissions");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw Error(place, "cannot read the file " + path);
+  Bytes bytes(static_cast<std::size_t>(size));
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (file.gcount() != static_cast<std::streamsize>(bytes.size()))
+    throw Error(place, "the file " + path + " ended while it was read");
+  return bytes;
+}
+
 Bytes read_uri(const GltfDocument& document, const JsonCursor& uri) {
   const std::string text = uri.as_text();
   if (text.starts_with("data:")) {
@@ -214,7 +215,7 @@ Bytes read_uri(const GltfDocument& document, const JsonCursor& uri) {
     uri.fail("files from the network are not read", "put the file beside the scene");
   const std::string name = percent_decoded(text);
   if (name.empty() || name.find('\0') != std::string::npos) uri.fail("is not a file name");
-  return read_file(std::filesystem::path(document.path).parent_path() / name, uri.place());
+  return read_file((std::filesystem::path(document.path).parent_path() / name).string(), uri.place());
 }
 
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffer_view) {
@@ -231,8 +232,7 @@ std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffe
   return std::span(bytes).subspan(offset, length);
 }
 
-GltfDocument read_gltf(const std::string& path) {
-  const Bytes file = read_file(path, path);
+GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path) {
   if (file.empty()) throw Error(path, "the file is empty");
   GltfDocument document;
   document.path = path;
@@ -244,11 +244,11 @@ GltfDocument read_gltf(const std::string& path) {
   document.json = parse_json(container.json, path);
   const JsonCursor root = document.root();
   if (!document.json.is_object()) root.fail("the document must be a JSON object");
+  check_version(root);
   for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
                             "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
     for (const JsonCursor& element : root.elements(array))
-      if (!element.value().is_object()) element.fail("must be an object");
-  check_version(root);
+      element.text("name", "");  // objects, names strings
   read_buffers(document, container.binary);
   return document;
 }

@@ -25,7 +25,11 @@ struct GltfDocument {
   JsonCursor object(const char* array, int index) const;
 };
 
-GltfDocument read_gltf(const std::string& path);
+// path: for messages, and the place that other files are relative to.
+GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path);
+
+// The bytes of a whole file; place: for the message where they cannot be had.
+Bytes read_file(const std::string& path, const std::string& place);
 
 // The bytes of a bufferView.
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffer_view);

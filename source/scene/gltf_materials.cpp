@@ -130,15 +130,15 @@ void read_widths(Material& m, const JsonCursor& lobe) {
 const char* keys_of(Brdf brdf) {
   switch (brdf) {
     case Brdf::lambert:
-      return " albedo ";
+      return "albedo";
     case Brdf::phong:
-      return " exponent albedo ";
+      return "exponent albedo";
     case Brdf::ggx:
-      return " roughness alpha alpha_x alpha_y tangent f0 f90 shadowing ";
+      return "roughness alpha alpha_x alpha_y tangent f0 f90 shadowing";
     case Brdf::blinn_phong:
-      return " exponent ";
+      return "exponent";
     case Brdf::beckmann:
-      return " roughness alpha alpha_x alpha_y tangent ";
+      return "roughness alpha alpha_x alpha_y tangent";
   }
   return "";
 }
@@ -150,9 +150,8 @@ Material read_lobe(const JsonCursor& lobe) {
   m.brdf = brdf_of(lobe.at("brdf"));
   const std::string allowed = keys_of(m.brdf);
   for (const auto& [key, value] : lobe.value().items())
-    if (key != "brdf" && allowed.find(" " + key + " ") == std::string::npos)
-      lobe.fail("\"" + key + "\" is not a key of " + name_of(m.brdf),
-                "known are" + allowed.substr(0, allowed.size() - 1));
+    if (key != "brdf" && !has_word(allowed, key))
+      lobe.fail("\"" + key + "\" is not a key of " + name_of(m.brdf), "known are " + allowed);
   m.albedo = grey_or_rgb(lobe, "albedo", m.albedo);
   if (m.brdf == Brdf::phong || m.brdf == Brdf::blinn_phong) {
     lobe.at("exponent");

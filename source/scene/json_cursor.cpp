@@ -126,6 +126,16 @@ int JsonCursor::index(std::string_view key, std::size_t count, std::string_view 
   return member ? member->as_index(count, what) : -1;
 }
 
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const auto end = words.find(' ');
+    if (words.substr(0, end) == word) return true;
+    if (end == std::string_view::npos) break;
+    words.remove_prefix(end + 1);
+  }
+  return false;
+}
+
 std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_view name) {
   const auto extensions = object.find("extensions");
   return extensions ? extensions->find(name) : std::nullopt;

@@ -66,6 +66,9 @@ private:
   std::string place_;
 };
 
+// Whether `words`, separated by spaces, hold `word`.
+bool has_word(std::string_view words, std::string_view word);
+
 // The extension `name` of an object that may carry it.
 std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_view name);
 

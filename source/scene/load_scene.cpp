@@ -85,12 +85,7 @@ void say_not_supported(Warnings& warnings) {
   warnings.say("the file uses what is not supported and left out: " + list);
 }
 
-}  // namespace
-
-LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
-  if (options.max_lights < 1)
-    throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
-  const GltfDocument document = read_gltf(path);
+LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options) {
   Warnings warnings;
   check_extensions(document.root(), warnings);
   const GltfNodes nodes = read_nodes(document);
@@ -119,6 +114,21 @@ LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
   }
   say_not_supported(warnings);
   return {std::move(scene), std::move(warnings.sentences)};
+}
+
+}  // namespace
+
+LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path,
+                                   const LoadOptions& options) {
+  if (options.max_lights < 1)
+    throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
+  return read_scene(read_gltf({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path),
+                    options);
+}
+
+LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
+  const Bytes file = read_file(path, path);
+  return load_scene_from_memory({reinterpret_cast<const char*>(file.data()), file.size()}, path, options);
 }
 
 }  // namespace steradian

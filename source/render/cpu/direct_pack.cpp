@@ -15,11 +15,10 @@ struct Receiver {
 STERADIAN_INLINE PackVec3 load_vector(const TileVector& v, std::size_t i) {
   return {load(v.x.data() + i), load(v.y.data() + i), load(v.z.data() + i)};
 }
-STERADIAN_INLINE PackVec3 broadcast_vector(const Vec3f& v) { return {broadcast(v.x), broadcast(v.y), broadcast(v.z)}; }
 
 STERADIAN_INLINE PackReal polygon_light(const PackLight& light, const Receiver& at) {
   K k;
-  const PackReal height = dot(at.position - broadcast_vector(light.plane_point), broadcast_vector(light.plane_normal));
+  const PackReal height = dot(at.position - broadcast(light.plane_point), broadcast(light.plane_normal));
   const PackMask behind = height < PackReal(0.0);
   const PackMask lit = light.two_sided ? behind || height > PackReal(0.0) : height > PackReal(0.0);
   if (!any_lane(lit)) return 0.0;
@@ -39,12 +38,12 @@ constexpr double kOutlineScale = 1.0008042;  // sqrt(2 pi / (64 sin(2 pi / 64)))
 
 STERADIAN_INLINE PackReal ellipsoid_light(const PackLight& light, const OutlineTable& table, const Receiver& at) {
   K k;
-  const K::mat3 s(broadcast_vector(light.axis_x), broadcast_vector(light.axis_y), broadcast_vector(light.axis_z));
+  const K::mat3 s(broadcast(light.axis_x), broadcast(light.axis_y), broadcast(light.axis_z));
   // Columns of the inverse, from its rows.
   const K::mat3 inverse(PackVec3(broadcast(light.unit_x.x), broadcast(light.unit_y.x), broadcast(light.unit_z.x)),
                         PackVec3(broadcast(light.unit_x.y), broadcast(light.unit_y.y), broadcast(light.unit_z.y)),
                         PackVec3(broadcast(light.unit_x.z), broadcast(light.unit_y.z), broadcast(light.unit_z.z)));
-  const auto outline = k.ellipsoid_outline(broadcast_vector(light.center) - at.position, s, inverse);
+  const auto outline = k.ellipsoid_outline(broadcast(light.center) - at.position, s, inverse);
   if (!any_lane(outline.outside)) return 0.0;
   const PackVec3 c = transform_transposed(at.frame, outline.center);
   const PackVec3 a = transform_transposed(at.frame, outline.axis_a) * PackReal(kOutlineScale);
@@ -66,8 +65,8 @@ STERADIAN_INLINE PackReal ellipsoid_light(const PackLight& light, const OutlineT
 // Point, spot and directional lights: intensity over distance squared times cosine (KHR_lights_punctual).
 STERADIAN_INLINE PackReal punctual_light(const PackLight& light, const Receiver& at) {
   if (light.kind == PackLight::Kind::directional)
-    return max(-dot(at.normal, broadcast_vector(light.direction)), PackReal(0.0));
-  const PackVec3 to = broadcast_vector(light.position) - at.position;
+    return max(-dot(at.normal, broadcast(light.direction)), PackReal(0.0));
+  const PackVec3 to = broadcast(light.position) - at.position;
   const PackReal d2 = max(dot(to, to), PackReal(1e-12));
   const PackReal inverse = inversesqrt(d2);
   PackReal e = max(dot(at.normal, to) * inverse, PackReal(0.0)) / d2;
@@ -76,7 +75,7 @@ STERADIAN_INLINE PackReal punctual_light(const PackLight& light, const Receiver&
     e = e * clamp(PackReal(1.0) - q * q, PackReal(0.0), PackReal(1.0));
   }
   if (light.kind == PackLight::Kind::spot) {
-    const PackReal cosine = -dot(broadcast_vector(light.direction), to) * inverse;
+    const PackReal cosine = -dot(broadcast(light.direction), to) * inverse;
     const PackReal f =
         clamp(cosine * broadcast(light.spot_scale) + broadcast(light.spot_offset), PackReal(0.0), PackReal(1.0));
     e = e * f * f;
@@ -110,7 +109,7 @@ __attribute__((flatten)) void add_diffuse(SurfaceTile& tile, const PackLight* co
       const PackReal e = light.kind == PackLight::Kind::polygon     ? polygon_light(light, at)
                          : light.kind == PackLight::Kind::ellipsoid ? ellipsoid_light(light, table, at)
                                                                     : punctual_light(light, at);
-      irradiance = irradiance + broadcast_vector(light.radiance) * e;
+      irradiance = irradiance + broadcast(light.radiance) * e;
     }
     const auto add = [&](TilePlane& plane, PackReal a, PackReal e) {
       store(plane.data() + i, load(plane.data() + i) + a * k.lambert_radiance(e));

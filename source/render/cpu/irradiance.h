@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "core/simd.h"
-#include "steradian/polygon_light.h"
+#include "render/cpu/light_list.h"
 
 namespace steradian {
 
@@ -20,8 +20,8 @@ struct SurfacePoints {
 };
 
 struct IrradianceTable {
-  // Irradiance of radiance 1 in [0, pi] at every point. Vertices are taken as floats.
-  void (*irradiance)(const PreparedPolygon& light, const SurfacePoints& points, float* result);
+  // Irradiance of radiance 1 in [0, pi] at every point, of a light of kind polygon.
+  void (*irradiance)(const PackLight& light, const SurfacePoints& points, float* result);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(IrradianceTable, irradiance_table)

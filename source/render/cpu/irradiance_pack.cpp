@@ -4,13 +4,12 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-__attribute__((flatten)) void irradiance(const PreparedPolygon& light, const SurfacePoints& points, float* result) {
+__attribute__((flatten)) void irradiance(const PackLight& light, const SurfacePoints& points, float* result) {
   PackKernels k;
-  const Vec3d* vertices = light.vertices.data();
+  const Vec3f* vertices = light.vertices.data();
   const std::size_t* contours = light.contours.data();
   const std::size_t contour_count = light.contours.size() - 1;
-  const PackVec3 plane_normal(light.normal.x, light.normal.y, light.normal.z);
-  const PackVec3 plane_point(light.centroid.x, light.centroid.y, light.centroid.z);
+  const PackVec3 plane_normal = broadcast(light.plane_normal), plane_point = broadcast(light.plane_point);
   const bool two_sided = light.two_sided;
 
   for (std::size_t i = 0; i < points.count; i += kLanes) {

@@ -10,18 +10,6 @@ namespace {
 
 Vec3f single(Vec3d v) { return static_cast<Vec3f>(v); }
 
-PackLight from_polygon(const PolygonLight& polygon) {
-  const PreparedPolygon prepared = prepare_polygon(polygon);
-  PackLight light;
-  light.radiance = single(prepared.radiance);
-  for (const Vec3d& v : prepared.vertices) light.vertices.push_back(single(v));
-  light.contours = prepared.contours;
-  light.plane_normal = single(prepared.normal);
-  light.plane_point = single(prepared.centroid);
-  light.two_sided = prepared.two_sided;
-  return light;
-}
-
 PackLight from_ellipsoid(const AreaLight& a) {
   PackLight light;
   light.kind = PackLight::Kind::ellipsoid;
@@ -121,11 +109,22 @@ bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
 
 }  // namespace
 
+PackLight prepare_light(const PreparedPolygon& polygon) {
+  PackLight light;
+  light.radiance = single(polygon.radiance);
+  for (const Vec3d& v : polygon.vertices) light.vertices.push_back(single(v));
+  light.contours = polygon.contours;
+  light.plane_normal = single(polygon.normal);
+  light.plane_point = single(polygon.centroid);
+  light.two_sided = polygon.two_sided;
+  return light;
+}
+
 std::vector<PackLight> prepare_lights(const Scene& scene) {
   std::vector<PackLight> lights;
   const auto shines = [](Vec3f r) { return r.x > 0 || r.y > 0 || r.z > 0; };
   for (const AreaLight& a : scene.area_lights) {
-    PackLight light = a.shape == LightShape::sphere ? from_ellipsoid(a) : from_polygon(a.polygon);
+    PackLight light = a.shape == LightShape::sphere ? from_ellipsoid(a) : prepare_light(prepare_polygon(a.polygon));
     if (light.kind == PackLight::Kind::polygon && light.vertices.empty()) continue;
     if (!is_finite(light.unit_x) || !shines(light.radiance)) continue;
     lights.push_back(std::move(light));

@@ -29,6 +29,8 @@ struct PackLight {
   float spot_scale = 0, spot_offset = 1;
 };
 
+PackLight prepare_light(const PreparedPolygon& polygon);
+
 // All lights of a scene. Lights without area, power or volume are left out.
 std::vector<PackLight> prepare_lights(const Scene& scene);
 

@@ -1,0 +1,66 @@
+// kernel/{arvo,lorentzian,pearson,ellipsoid,series}/quad/n=N: a Phong plane under one upright quad, 16,384 pixels of
+// the published comparison's scene (`steradian bench --table2` has the whole of it).
+#include <memory>
+
+#include "benches.h"
+#include "core/float_mode.h"
+#include "moment/phong_plane.h"
+
+namespace steradian::bench {
+namespace {
+
+struct Scene {
+  moment::PhongPlane plane = moment::make_phong_plane(160, 144);
+  PreparedPolygon light = moment::comparison_lights()[0].light;
+  std::vector<float> result;
+};
+
+Bench packs(const std::string& name, PhongOptions options, double n, Simd simd) {
+  auto scene = std::make_shared<Scene>();
+  scene->result.resize(scene->plane.x.size());
+  const auto radiance = phong_table_for(simd).radiance;
+  return {name, scene->result.size(), name_of(simd), [=] {
+            const FlushDenormals flush;
+            radiance(scene->light, scene->plane.points(), n, options, scene->result.data());
+            keep(scene->result.front());
+          }};
+}
+
+// The library's float function, one point after the other.
+Bench scalar(const std::string& name, PhongOptions options, double n) {
+  auto scene = std::make_shared<Scene>();
+  Material material;
+  material.brdf = Brdf::phong;
+  material.exponent = n;
+  const std::size_t count = scene->plane.count / 16;  // scalar is slow
+  return {name, count, "scalar", [=] {
+            const FlushDenormals flush;
+            float sum = 0;
+            for (std::size_t i = 0; i < count; ++i)
+              sum += phong_radiance_float(scene->light, scene->plane.at(i * 16), material, options).x;
+            keep(sum);
+          }};
+}
+
+}  // namespace
+
+void add_phong(BenchList& list) {
+  struct Variant {
+    std::string name;
+    PhongOptions options;
+  };
+  const std::vector<Variant> variants = {{"arvo", {PhongMethod::arvo}},
+                                         {"lorentzian", {PhongMethod::lorentzian}},
+                                         {"pearson", {PhongMethod::pearson}},
+                                         {"ellipsoid", {PhongMethod::ellipsoid}},
+                                         {"series", {PhongMethod::series}},
+                                         {"series-high", {PhongMethod::series, PhongQuality::high}}};
+  for (const Variant& v : variants)
+    for (const int n : {100, 500, 5000}) {
+      const std::string name = "kernel/" + v.name + "/quad/n=" + std::to_string(n);
+      list.add(name, [=](const BenchOptions& options) { return packs(name, v.options, n, options.simd); });
+      list.add(name + "/scalar", [=](const BenchOptions&) { return scalar(name + "/scalar", v.options, n); });
+    }
+}
+
+}  // namespace steradian::bench

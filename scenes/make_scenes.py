@@ -1,0 +1,397 @@
+#!/usr/bin/env python3
+"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|ring|arcade ...]
+
+Standard library only; the same bytes on every machine: coordinates are rounded before they become floats.
+"""
+
+import json
+import math
+import os
+import struct
+import sys
+
+COPYRIGHT = "CC0-1.0: the Steradian authors waive all rights to this scene"
+HALF = math.sqrt(0.5)
+DOWN = [-HALF, 0.0, 0.0, HALF]        # rotations that turn a light's -Z: down,
+TO_PLUS_X = [0.0, -HALF, 0.0, HALF]   # to +x,
+TO_PLUS_Z = [0.0, 1.0, 0.0, 0.0]      # to +z
+
+
+def rounded(x):
+    return round(x, 6) + 0.0  # no negative zero
+
+
+class Shape:
+    """Indexed triangles with normals."""
+
+    def __init__(self):
+        self.positions, self.normals, self.triangles = [], [], []
+
+    def vertex(self, p, n):
+        length = math.sqrt(sum(c * c for c in n)) or 1.0
+        self.positions.append([rounded(c) for c in p])
+        self.normals.append([rounded(c / length) for c in n])
+        return len(self.positions) - 1
+
+    def quad(self, a, b, c, d):
+        """A flat quadrilateral, counter-clockwise as seen from its front."""
+        u = [b[i] - a[i] for i in range(3)]
+        v = [d[i] - a[i] for i in range(3)]
+        n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        i = [self.vertex(p, n) for p in (a, b, c, d)]
+        self.triangles += [(i[0], i[1], i[2]), (i[0], i[2], i[3])]
+
+    def grid(self, columns, rows, point_and_normal):
+        """Quadrilaterals over (u, v) in [0, 1]^2; u runs to the right of v as seen from the front."""
+        first = len(self.positions)
+        for j in range(rows + 1):
+            for i in range(columns + 1):
+                self.vertex(*point_and_normal(i / columns, j / rows))
+        for j in range(rows):
+            for i in range(columns):
+                a = first + j * (columns + 1) + i
+                b, c, d = a + 1, a + columns + 2, a + columns + 1
+                for t in ((a, b, c), (a, c, d)):
+                    if len({tuple(self.positions[k]) for k in t}) == 3:  # poles of spheres
+                        self.triangles.append(t)
+
+
+class Gltf:
+    """A glTF file in the making."""
+
+    def __init__(self):
+        self.json = {"asset": {"version": "2.0", "generator": "scenes/make_scenes.py", "copyright": COPYRIGHT},
+                     "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [],
+                     "accessors": [], "bufferViews": []}
+        self.data = bytearray()
+
+    def use(self, extension):
+        used = self.json.setdefault("extensionsUsed", [])
+        if extension not in used:
+            used.append(extension)
+
+    def view(self, data):
+        self.data += bytes(-len(self.data) % 4)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
+        self.data += data
+        return len(self.json["bufferViews"]) - 1
+
+    def accessor(self, component, kind, count, data, **more):
+        self.json["accessors"].append(
+            {"bufferView": self.view(data), "componentType": component, "type": kind, "count": count, **more})
+        return len(self.json["accessors"]) - 1
+
+    def vectors(self, values, **more):
+        return self.accessor(5126, "VEC3", len(values), b"".join(struct.pack("<3f", *v) for v in values), **more)
+
+    def material(self, name, color, metallic=0.0, roughness=1.0, specular=None, emission=None):
+        m = {"name": name, "pbrMetallicRoughness": {"baseColorFactor": list(color) + [1.0], "metallicFactor": metallic,
+                                                    "roughnessFactor": roughness}}
+        if specular is not None:
+            self.use("KHR_materials_specular")
+            m.setdefault("extensions", {})["KHR_materials_specular"] = {"specularFactor": specular}
+        if emission is not None:
+            strength = max(emission)
+            self.use("KHR_materials_emissive_strength")
+            m["emissiveFactor"] = [rounded(c / strength) for c in emission]
+            m.setdefault("extensions", {})["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
+        self.json["materials"].append(m)
+        return len(self.json["materials"]) - 1
+
+    def diffuse(self, name, color):
+        return self.material(name, color, specular=0.0)
+
+    def mesh(self, name, shape, material):
+        p = shape.positions
+        low, high = ([f(v[i] for v in p) for i in range(3)] for f in (min, max))
+        flat = [i for t in shape.triangles for i in t]
+        wide = len(p) > 65535
+        primitive = {"attributes": {"POSITION": self.vectors(p, min=low, max=high), "NORMAL": self.vectors(shape.normals)},
+                     "indices": self.accessor(5125 if wide else 5123, "SCALAR", len(flat),
+                                              struct.pack("<%d%s" % (len(flat), "I" if wide else "H"), *flat)),
+                     "material": material}
+        self.json["meshes"].append({"name": name, "primitives": [primitive]})
+        return len(self.json["meshes"]) - 1
+
+    def with_material(self, name, mesh, material):
+        """The same geometry in another material."""
+        primitive = dict(self.json["meshes"][mesh]["primitives"][0], material=material)
+        self.json["meshes"].append({"name": name, "primitives": [primitive]})
+        return len(self.json["meshes"]) - 1
+
+    def node(self, name, **members):
+        self.json["nodes"].append({"name": name, **members})
+        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
+
+    def light(self, extension, name, light, **node):
+        self.use(extension)
+        lights = self.json.setdefault("extensions", {}).setdefault(extension, {"lights": []})["lights"]
+        lights.append({"name": name, **light})
+        self.node(name, extensions={extension: {"light": len(lights) - 1}}, **node)
+
+    def area_light(self, name, light, **node):
+        self.light("EXT_lights_area", name, light, **node)
+
+    def camera(self, name, position, target, yfov):
+        cameras = self.json.setdefault("cameras", [])
+        cameras.append({"name": name, "type": "perspective", "perspective": {"yfov": yfov, "znear": 0.01}})
+        self.node(name, camera=len(cameras) - 1, matrix=looking(position, target))
+
+    def write(self, path):
+        self.json["buffers"] = [{"byteLength": len(self.data)}]
+        text = json.dumps(self.json, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        data = bytes(self.data) + bytes(-len(self.data) % 4)
+        with open(path, "wb") as f:
+            f.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)))
+            f.write(struct.pack("<I4s", len(text), b"JSON") + text)
+            f.write(struct.pack("<I4s", len(data), b"BIN\0") + data)
+
+
+def looking(position, target):
+    """The matrix of a node at `position` whose -Z points to `target`, by columns."""
+    def unit(v):
+        length = math.sqrt(sum(c * c for c in v))
+        return [c / length for c in v]
+
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    z = unit([position[i] - target[i] for i in range(3)])
+    x = unit(cross([0, 1, 0], z))
+    y = cross(z, x)
+    return [round(c, 9) + 0.0 for c in x + [0] + y + [0] + z + [0] + list(position) + [1]]
+
+
+def sphere(columns=48, rows=24):
+    s = Shape()
+
+    def at(u, v):
+        theta, phi = math.pi * (1 - v), 2 * math.pi * u
+        p = (math.sin(theta) * math.sin(phi), math.cos(theta), math.sin(theta) * math.cos(phi))
+        return p, p
+    s.grid(columns, rows, at)
+    return s
+
+
+def lathe(profile, columns, rows, flutes=0, depth=0.0):
+    """Turns radius = profile(v)[0], height = profile(v)[1] about y; v from the bottom to the top."""
+    def at_point(u, v):
+        phi = 2 * math.pi * u
+        r, y = profile(v)
+        if flutes:
+            r *= 1 - depth * abs(math.sin(flutes * phi / 2)) * math.sin(math.pi * min(max((v - 0.08) / 0.84, 0), 1)) ** 0.25
+        return [r * math.sin(phi), y, r * math.cos(phi)]
+
+    def at(u, v):
+        h = 1e-4
+        du = [(b - a) for a, b in zip(at_point(u - h, v), at_point(u + h, v))]
+        dv = [(b - a) for a, b in zip(at_point(u, max(v - h, 0)), at_point(u, min(v + h, 1)))]
+        n = [du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2], du[0] * dv[1] - du[1] * dv[0]]
+        return at_point(u, v), n
+    s = Shape()
+    s.grid(columns, rows, at)
+    return s
+
+
+def tube(path, radius, columns, rows):
+    """A closed tube about path(t), t in [0, 1]."""
+    def at(u, v):
+        h = 1e-3
+        p, a, b = path(u), path(u - h), path(u + h)
+        t = [b[i] - a[i] for i in range(3)]
+        length = math.sqrt(sum(c * c for c in t))
+        t = [c / length for c in t]
+        # One frame for the whole path: away from the y axis or, where the path runs to the centre, from itself.
+        out = [a[i] + b[i] - 2 * p[i] for i in range(3)]
+        d = sum(out[i] * t[i] for i in range(3))
+        e = [out[i] - d * t[i] for i in range(3)]
+        length = math.sqrt(sum(c * c for c in e))
+        e = [c / length for c in e]
+        f = [t[1] * e[2] - t[2] * e[1], t[2] * e[0] - t[0] * e[2], t[0] * e[1] - t[1] * e[0]]
+        phi = -2 * math.pi * v
+        n = [math.cos(phi) * e[i] + math.sin(phi) * f[i] for i in range(3)]
+        return [p[i] + radius * n[i] for i in range(3)], n
+    s = Shape()
+    s.grid(columns, rows, at)
+    return s
+
+
+def box(x0, y0, z0, x1, y1, z1):
+    s = Shape()
+    s.quad((x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1))
+    s.quad((x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0))
+    s.quad((x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1))
+    s.quad((x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0))
+    s.quad((x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0))
+    s.quad((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1))
+    return s
+
+
+def plate(*corners):
+    s = Shape()
+    s.quad(*corners)
+    return s
+
+
+def star(points, outer, inner):
+    """A star in z = 0 that faces +z, ten triangles about its centre for five points."""
+    s = Shape()
+    center = s.vertex((0, 0, 0), (0, 0, 1))
+    rim = []
+    for k in range(2 * points):
+        r, a = (inner if k % 2 else outer), math.pi / 2 + math.pi * k / points
+        rim.append(s.vertex((r * math.cos(a), r * math.sin(a), 0), (0, 0, 1)))
+    s.triangles = [(center, rim[k], rim[(k + 1) % len(rim)]) for k in range(len(rim))]
+    return s
+
+
+def gallery():
+    g = Gltf()
+    wall, side = g.diffuse("wall", (0.72, 0.69, 0.64)), g.diffuse("side wall", (0.45, 0.52, 0.56))
+    floor = g.material("floor", (0.24, 0.17, 0.12), roughness=0.3)
+    w, h, d = 4.0, 3.6, 4.0
+    g.node("floor", mesh=g.mesh("floor", plate((-w, 0, 8), (w, 0, 8), (w, 0, -d), (-w, 0, -d)), floor))
+    g.node("back wall", mesh=g.mesh("back wall", plate((-w, 0, -d), (w, 0, -d), (w, h, -d), (-w, h, -d)), wall))
+    g.node("left wall", mesh=g.mesh("left wall", plate((-w, 0, 8), (-w, 0, -d), (-w, h, -d), (-w, h, 8)), side))
+    g.node("right wall", mesh=g.mesh("right wall", plate((w, 0, -d), (w, 0, 8), (w, h, 8), (w, h, -d)), side))
+    g.node("ceiling", mesh=g.mesh("ceiling", plate((-w, h, -d), (w, h, -d), (w, h, 8), (-w, h, 8)), wall))
+
+    chalk = g.diffuse("plinth", (0.8, 0.78, 0.74))
+    plinth = g.mesh("plinth", box(-0.35, 0, -0.35, 0.35, 0.8, 0.35), chalk)
+    low = g.mesh("low plinth", box(-0.6, 0, -0.6, 0.6, 0.45, 0.6), chalk)
+    for i, x in enumerate((-2.6, 2.6)):
+        g.node("plinth %d" % (i + 1), mesh=plinth, translation=[x, 0.0, -1.6])
+    g.node("low plinth", mesh=low, translation=[0.0, 0.0, -1.2])
+
+    ball = g.mesh("gold ball", sphere(), g.material("gold", (0.95, 0.68, 0.28), 1.0, 0.15))
+    copper = g.with_material("copper ball", ball, g.material("copper", (0.93, 0.55, 0.42), 1.0, 0.45))
+    lacquer = g.with_material("lacquer ball", ball, g.material("red lacquer", (0.55, 0.03, 0.03), 0.0, 0.2))
+    plaster = g.with_material("plaster ball", ball, g.diffuse("plaster", (0.75, 0.73, 0.7)))
+    for name, mesh, x, y, z, r in (("gold ball", ball, 2.6, 1.15, -1.6, 0.35), ("copper ball", copper, 1.45, 0.4, 0.7, 0.4),
+                                   ("lacquer ball", lacquer, -1.3, 0.3, 1.2, 0.3), ("plaster ball", plaster, -2.3, 0.45, 0.2, 0.45)):
+        g.node(name, mesh=mesh, translation=[x, y, z], scale=[r, r, r])
+
+    def vase(v):
+        return 0.17 + 0.13 * math.sin(2.6 * math.pi * v * (1 - 0.35 * v)) * (1 - 0.4 * v), 0.9 * v
+    g.node("vase", mesh=g.mesh("vase", lathe(vase, 56, 40), g.material("terracotta", (0.6, 0.27, 0.15), 0.0, 0.75)),
+           translation=[-2.6, 0.8, -1.6])
+
+    def knot(t):
+        a = 2 * math.pi * t
+        r = 0.36 + 0.15 * math.cos(3 * a)
+        return [r * math.cos(2 * a), 0.15 * math.sin(3 * a), r * math.sin(2 * a)]
+    g.node("knot", mesh=g.mesh("knot", tube(knot, 0.085, 288, 20), g.material("steel", (0.62, 0.64, 0.68), 1.0, 0.25)),
+           translation=[0.0, 1.05, -1.2], rotation=[HALF, 0.0, 0.0, HALF])
+
+    g.area_light("ceiling panel", {"type": "rect", "color": [1.0, 0.95, 0.88], "intensity": 6.0, "size": 0.8, "rect": {"aspect": 3.0}},
+                 translation=[0.0, h - 0.02, -2.2], rotation=DOWN)
+    g.node("star", translation=[0.0, 2.45, -d + 0.02],
+           mesh=g.mesh("star", star(5, 0.72, 0.3), g.material("star", (0.0, 0.0, 0.0), emission=(9.0, 6.2, 2.6), specular=0.0)))
+    g.area_light("disk", {"type": "disk", "color": [0.45, 0.68, 1.0], "intensity": 7.0, "size": 1.0},
+                 translation=[-w + 0.02, 2.1, -2.3], rotation=TO_PLUS_X)
+    g.area_light("lamp", {"type": "sphere", "color": [1.0, 0.55, 0.3], "intensity": 14.0, "size": 0.36},
+                 translation=[2.45, 0.4, 0.5])
+    g.camera("main", [0.35, 1.65, 6.6], [0.0, 1.25, -1.2], 0.62)
+    return g
+
+
+def plane():
+    g = Gltf()
+    g.node("plane", mesh=g.mesh("plane", plate((-50, 0, 50), (50, 0, 50), (50, 0, -50), (-50, 0, -50)), g.diffuse("white", (0.8, 0.8, 0.8))))
+    g.area_light("quad", {"type": "rect", "intensity": 1.0, "size": 1.5, "rect": {"aspect": 4.0 / 3.0}},
+                 translation=[0.0, 1.0, -1.5], rotation=TO_PLUS_Z)
+    g.camera("main", [0.0, 1.6, 6.0], [0.0, 0.7, 0.0], 0.785398163)
+    return g
+
+
+def ring():
+    g = Gltf()
+    g.node("floor", mesh=g.mesh("floor", plate((-9, 0, 6), (9, 0, 6), (9, 0, -9), (-9, 0, -9)), g.diffuse("floor", (0.7, 0.68, 0.65))))
+
+    def band(u, v):
+        # A ring of rounded rectangular section: what makes the heart-shaped light on the floor is its inner side.
+        a, b = 2 * math.pi * u, 2 * math.pi * v
+        c, s = math.cos(b), math.sin(b)
+        x, y = math.copysign(abs(c) ** 0.35, c), math.copysign(abs(s) ** 0.35, s)
+        n = (math.copysign(abs(c) ** 1.65, c) / 0.06, math.copysign(abs(s) ** 1.65, s) / 0.25)
+        r = 0.9 - 0.06 * x
+        return ((r * math.cos(a), 0.25 + 0.25 * y, r * math.sin(a)), (-n[0] * math.cos(a), n[1], -n[0] * math.sin(a)))
+    s = Shape()
+    s.grid(160, 48, band)
+    g.node("ring", mesh=g.mesh("ring", s, g.material("gold", (0.95, 0.7, 0.32), 1.0, 0.2)))
+    g.light("KHR_lights_punctual", "spot",
+            {"type": "spot", "color": [1.0, 0.96, 0.9], "intensity": 120.0, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.45}},
+            matrix=looking([2.6, 2.4, -1.2], [0.0, 0.1, 0.0]))
+    g.camera("main", [-0.3, 2.6, 3.4], [0.0, 0.1, 0.1], 0.7)
+    return g
+
+
+def arch(width, height, radius, depth, segments):
+    """A wall panel over a half-round opening; its opening's centre is the origin."""
+    s = Shape()
+    half = width / 2
+
+    def inner(k):
+        a = math.pi * k / segments
+        return radius * math.cos(a), radius * math.sin(a)
+
+    def outer(k):
+        return half - width * k / segments, height
+    for k in range(segments):
+        (ax, ay), (bx, by), (cx, cy), (dx, dy) = inner(k), inner(k + 1), outer(k + 1), outer(k)
+        z = depth / 2
+        s.quad((ax, ay, z), (dx, dy, z), (cx, cy, z), (bx, by, z))
+        s.quad((bx, by, -z), (cx, cy, -z), (dx, dy, -z), (ax, ay, -z))
+        s.quad((ax, ay, -z), (ax, ay, z), (bx, by, z), (bx, by, -z))
+        s.quad((cx, cy, -z), (cx, cy, z), (dx, dy, z), (dx, dy, -z))
+    z, right, left = depth / 2, (half, radius), (-half, -radius)
+    for (x0, y0), (x1, y1), (x2, y2) in (((right[1], 0), (right[0], 0), (half, height)), ((left[0], 0), (left[1], 0), (-half, height))):
+        s.quad((x0, y0, z), (x1, y1, z), (x2, y2, z), (x2, y2, z))  # the corner between the opening's foot and the panel's
+        s.quad((x1, y1, -z), (x0, y0, -z), (x2, y2, -z), (x2, y2, -z))
+    s.triangles = [t for t in s.triangles if len({tuple(s.positions[k]) for k in t}) == 3]
+    return s
+
+
+def arcade():
+    g = Gltf()
+    stone, step = g.diffuse("stone", (0.74, 0.66, 0.54)), 2.4
+
+    def profile(v):
+        base = 0.10 * math.exp(-(v / 0.03) ** 2) + 0.12 * math.exp(-((v - 1) / 0.035) ** 2)
+        return 0.3 - 0.05 * v + base, 3.2 * v
+    column = g.mesh("column", lathe(profile, 96, 48, flutes=16, depth=0.08), g.material("marble", (0.8, 0.77, 0.72), 0.0, 0.35))
+    cap = g.mesh("block", box(-0.45, -0.12, -0.45, 0.45, 0.0, 0.45), stone)
+    panel = g.mesh("arch", arch(step, 1.5, 0.85, 0.6, 48), stone)
+    for row, x in enumerate((-2.2, 2.2)):
+        for i in range(14):
+            z = 3.0 - step * i
+            g.node("column %d.%d" % (row, i), mesh=column, translation=[x, 0.12, rounded(z)])
+            g.node("foot %d.%d" % (row, i), mesh=cap, translation=[x, 0.12, rounded(z)])
+            g.node("head %d.%d" % (row, i), mesh=cap, translation=[x, 3.44, rounded(z)])
+            if i < 13:
+                g.node("arch %d.%d" % (row, i), mesh=panel, translation=[x, 3.44, rounded(z - step / 2)], rotation=[0.0, HALF, 0.0, HALF])
+    g.node("floor", mesh=g.mesh("floor", plate((-9, 0, 8), (9, 0, 8), (9, 0, -32), (-9, 0, -32)), g.material("floor", (0.4, 0.36, 0.32), 0.0, 0.4)))
+    g.node("ceiling", mesh=g.mesh("ceiling", plate((-2.5, 4.94, -30), (2.5, 4.94, -30), (2.5, 4.94, 5), (-2.5, 4.94, 5)), stone))
+    g.node("end wall", mesh=g.mesh("end wall", plate((-9, 0, -31), (9, 0, -31), (9, 6, -31), (-9, 6, -31)), stone))
+    g.area_light("evening sky", {"type": "rect", "color": [1.0, 0.62, 0.34], "intensity": 9.0, "size": 5.0, "rect": {"aspect": 6.0}},
+                 translation=[-9.0, 4.5, -12.0], rotation=TO_PLUS_X)
+    for i in range(4):
+        g.area_light("lantern %d" % (i + 1), {"type": "sphere", "color": [1.0, 0.8, 0.55], "intensity": 30.0, "size": 0.3},
+                     translation=[0.0, 3.6, rounded(-1.8 - 7.2 * i)])
+    g.camera("main", [0.9, 1.7, 6.5], [-0.2, 1.9, -6.0], 0.85)
+    return g
+
+
+SCENES = {"gallery": gallery, "plane": plane, "ring": ring, "arcade": arcade}
+
+
+def main():
+    if len(sys.argv) < 2 or any(name not in SCENES for name in sys.argv[2:]):
+        sys.exit(__doc__.splitlines()[0])
+    os.makedirs(sys.argv[1], exist_ok=True)
+    for name in sys.argv[2:] or SCENES:
+        SCENES[name]().write(os.path.join(sys.argv[1], name + ".glb"))
+
+
+if __name__ == "__main__":
+    main()

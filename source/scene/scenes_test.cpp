@@ -1,0 +1,86 @@
+// Our own scenes: the files in scenes/ are what their script makes, and they load without a complaint.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "scene/gltf_test_file.h"
+#include "steradian/load_scene.h"
+
+namespace steradian {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const std::string kScenes = STERADIAN_SOURCE_DIR "/scenes";
+
+class OwnScenes : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = test_path("scenes");
+    const std::string command = "python3 '" + kScenes + "/make_scenes.py' '" + folder_ + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  }
+  Scene made(const std::string& name) {
+    const LoadedScene loaded = load_scene(folder_ + "/" + name + ".glb");
+    for (const std::string& w : loaded.warnings) ADD_FAILURE() << name << ": " << w;
+    return loaded.scene;
+  }
+  std::string folder_;
+};
+
+TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
+  for (const std::string name : {"gallery", "plane", "ring"}) {
+    const std::string checked_in = bytes_of(kScenes + "/" + name + ".glb");
+    EXPECT_FALSE(checked_in.empty()) << name;
+    EXPECT_LT(checked_in.size(), 1'000'000u) << name;
+    EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb"))
+        << name << ": run scenes/make_scenes.py scenes gallery plane ring";
+  }
+}
+
+TEST_F(OwnScenes, HaveTheLightsAndSizesTheyAreMadeFor) {
+  const Scene gallery = made("gallery");
+  ASSERT_EQ(gallery.area_lights.size(), 4u);
+  std::map<LightShape, int> shapes;
+  for (const AreaLight& light : gallery.area_lights) ++shapes[light.shape];
+  EXPECT_EQ(shapes[LightShape::polygon], 2);  // the panel and the star
+  EXPECT_EQ(shapes[LightShape::disk], 1);
+  EXPECT_EQ(shapes[LightShape::sphere], 1);
+  const AreaLight& star = gallery.area_lights[3];
+  EXPECT_EQ(star.name, "star");
+  EXPECT_EQ(star.polygon.vertices.size(), 10u) << "ten triangles are merged into one polygon";
+
+  const Scene plane = made("plane");
+  ASSERT_EQ(plane.area_lights.size(), 1u);
+  const PreparedPolygon quad = prepare_polygon(plane.area_lights[0].polygon);
+  EXPECT_NEAR(quad.area, 3, 1e-6);
+  EXPECT_NEAR(quad.normal.z, 1, 1e-9);
+  EXPECT_NEAR(plane.cameras[0].position.z, 6, 1e-12);
+
+  EXPECT_EQ(made("ring").punctual_lights.size(), 1u);
+  EXPECT_GE(made("arcade").triangle_count(), 200'000u);
+}
+
+TEST_F(OwnScenes, HaveTrianglesThatFaceWhereTheirNormalsPoint) {
+  for (const char* name : {"gallery", "plane", "ring", "arcade"})
+    for (const Mesh& mesh : made(name).meshes) {
+      std::size_t against = 0;
+      for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const Vec3d a = static_cast<Vec3d>(mesh.positions[mesh.indices[i]]);
+        const Vec3d face = cross(static_cast<Vec3d>(mesh.positions[mesh.indices[i + 1]]) - a,
+                                 static_cast<Vec3d>(mesh.positions[mesh.indices[i + 2]]) - a);
+        const Vec3f n = mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] +
+                        mesh.normals[mesh.indices[i + 2]];
+        against += dot(face, static_cast<Vec3d>(n)) < 0;
+      }
+      EXPECT_EQ(against, 0u) << name << ", " << mesh.name << ": of " << mesh.triangle_count();
+    }
+}
+
+}  // namespace
+}  // namespace steradian
