@@ -10,6 +10,7 @@ void add_ltc(BenchList& list);
 void add_eval(BenchList& list);
 void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
+void add_closed_form(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
@@ -18,6 +19,7 @@ inline BenchList all_benches() {
   add_eval(list);
   add_derivatives(list);
   add_phong(list);
+  add_closed_form(list);
   return list;
 }
 

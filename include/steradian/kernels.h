@@ -62,6 +62,22 @@ struct Kernels {
 
 #include "representative_point.glsl"
 
+#include "complex.glsl"
+
+#include "gauss_legendre.glsl"
+
+#include "quartic.glsl"
+
+#include "conic.glsl"
+
+#include "ggx_closed_form.glsl"
+
+#include "ggx_cubature.glsl"
+
+#include "half_vector.glsl"
+
+#include "ellipse.glsl"
+
 // Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
 #ifdef STERADIAN_KERNEL_EXTENSION
 #include STERADIAN_KERNEL_EXTENSION

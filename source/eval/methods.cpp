@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "steradian/closed_form.h"
 #include "steradian/error.h"
+#include "steradian/half_vector.h"
 #include "steradian/kernels.h"
 #include "steradian/phong.h"
 #include "steradian/ltc.h"
@@ -12,7 +14,13 @@ namespace {
 
 bool every_lobe(const Material&) { return true; }
 bool phong_only(const Material& m) { return m.brdf == Brdf::phong; }
-bool lambert_and_phong(const Material& m) { return m.brdf == Brdf::lambert || m.brdf == Brdf::phong; }
+bool ggx_only(const Material& m) { return m.brdf == Brdf::ggx; }
+bool half_vector_lobes(const Material& m) {
+  return m.brdf == Brdf::blinn_phong || m.brdf == Brdf::beckmann || m.brdf == Brdf::ggx;
+}
+bool exact_lobes(const Material& m) {
+  return m.brdf == Brdf::lambert || m.brdf == Brdf::phong || (m.brdf == Brdf::ggx && !m.shadowing && m.f0 == m.f90);
+}
 bool phong_of_integer_exponent(const Material& m) {
   return m.brdf == Brdf::phong && m.exponent == std::floor(m.exponent) && m.exponent < 1e9;
 }
@@ -33,10 +41,32 @@ LobeAnswer phong(const PreparedPolygon& light, const ShadingPoint& at, const Mat
   return answer;
 }
 
+LobeAnswer closed_form(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                       const MethodOptions& options) {
+  LobeAnswer answer;
+  answer.radiance = options.precision == Precision::float_ ? closed_form_radiance_float(light, at, m, options.quality)
+                                                           : closed_form_radiance(light, at, m, options.quality);
+  return answer;
+}
+
+LobeAnswer half_vector(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                       const MethodOptions& options) {
+  const int arcs = options.quality == Quality::draft ? 3 : options.quality == Quality::normal ? 4 : 8;
+  LobeAnswer answer;
+  answer.radiance = options.precision == Precision::float_ ? half_vector_radiance_float(light, at, m, {.arcs = arcs})
+                                                           : half_vector_radiance(light, at, m, {.arcs = arcs});
+  return answer;
+}
+
 LobeAnswer exact(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
                  const MethodOptions& options) {
   if (m.brdf == Brdf::phong) return phong<PhongMethod::exact>(light, at, m, options);
   LobeAnswer answer;
+  if (m.brdf == Brdf::ggx) {
+    answer.radiance = options.precision == Precision::float_ ? exact_ggx_radiance_float(light, at, m)
+                                                             : exact_ggx_radiance(light, at, m);
+    return answer;
+  }
   if (options.precision == Precision::float_)
     answer.radiance =
         lambert(polygon_irradiance_float(light, at.position, at.normal), light.radiance, m.albedo);
@@ -73,15 +103,17 @@ LobeAnswer ltc(const PreparedPolygon& light, const ShadingPoint& at, const Mater
 // A new method is an entry here and a name in Method.
 constexpr MethodEntry kMethods[] = {
     {Method::series, "series", phong_only, true, phong<PhongMethod::series>},
-    {Method::exact, "exact", lambert_and_phong, true, exact},
+    {Method::exact, "exact", exact_lobes, true, exact},
     {Method::arvo, "arvo", phong_of_integer_exponent, true, phong<PhongMethod::arvo>},
     {Method::lorentzian, "lorentzian", phong_only, true, phong<PhongMethod::lorentzian>},
     {Method::pearson, "pearson", phong_only, true, phong<PhongMethod::pearson>},
     {Method::ellipsoid, "ellipsoid", phong_only, true, phong<PhongMethod::ellipsoid>},
+    {Method::closed_form, "closed-form", ggx_only, true, closed_form},
     {Method::ltc, "ltc", ltc_serves, true, ltc<LtcMethod::classic>},
     {Method::ltc_compact, "ltc-compact", ltc_serves, true, ltc<LtcMethod::compact>},
     {Method::ltc_clipless, "ltc-clipless", ltc_serves, true, ltc<LtcMethod::clipless>},
     {Method::representative_point, "representative-point", ltc_serves, true, ltc<LtcMethod::representative_point>},
+    {Method::half_vector, "half-vector", half_vector_lobes, true, half_vector},
     {Method::reference, "reference", every_lobe, false, reference},
     {Method::sampled, "sampled", every_lobe, false, sampled},
 };

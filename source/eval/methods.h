@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "steradian/closed_form.h"  // Quality
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
 #include "steradian/reference.h"
@@ -13,12 +14,11 @@
 namespace steradian::eval {
 
 enum class Precision { double_, float_ };
-enum class Quality { normal, high };
 
 // `automatic` stands for the first method of the table that serves the lobe.
 enum class Method {
-  automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, ltc, ltc_compact, ltc_clipless, representative_point,
-  reference, sampled
+  automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, closed_form, ltc, ltc_compact, ltc_clipless,
+  representative_point, half_vector, reference, sampled
 };
 
 // What the methods need to know of a query.

@@ -199,9 +199,9 @@ void read_precision(Problems& problems, const Place& place, Json value, Query& q
 
 void read_quality(Problems& problems, const Place& place, Json value, Query& query) {
   const std::string_view name = read_string(problems, place, value);
-  if (value.is_string() && name != "normal" && name != "high")
-    problems.add(place, quoted(name) + " is not known", "normal or high");
-  query.quality = name == "high" ? Quality::high : Quality::normal;
+  if (value.is_string() && name != "draft" && name != "normal" && name != "high")
+    problems.add(place, quoted(name) + " is not known", "draft, normal or high");
+  query.quality = name == "high" ? Quality::high : name == "draft" ? Quality::draft : Quality::normal;
 }
 
 constexpr Field<Query> kQueryFields[] = {

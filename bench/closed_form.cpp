@@ -1,0 +1,82 @@
+// kernel/closed-form/quad and its draft and high qualities: GGX of one quad on 16,384 pixels of a floor seen at a slant.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "benches.h"
+#include "render/cpu/closed_form.h"
+
+namespace steradian::bench {
+namespace {
+
+constexpr int kSide = 128;
+
+struct Floor {
+  std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, zero, alpha, plain, fresnel;
+  PreparedPolygon light;
+
+  GgxPoints points() const {
+    return {{x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()},
+            vx.data(), vy.data(), vz.data(), zero.data(), zero.data(), zero.data(), alpha.data(), alpha.data()};
+  }
+};
+
+// A floor of 8 by 8 m with gentle waves in its normals, an eye 2 m above its edge, an upright quad that dips below it, and
+// roughness from 0.1 to 0.85 from left to right. Pixels come in blocks of 4 by 4, as the renderer's tiles have them.
+std::shared_ptr<Floor> make_floor() {
+  auto floor = std::make_shared<Floor>();
+  for (int slot = 0; slot < kSide * kSide; ++slot) {
+    const int block = slot / 16, within = slot % 16;
+    const double i = block % (kSide / 4) * 4 + within % 4, j = block / (kSide / 4) * 4 + within / 4;
+    const Vec3d p{8 * (i + 0.5) / kSide - 4, 0, 8 * (j + 0.5) / kSide};
+    const Vec3d n = normalized(Vec3d{0.1 * std::sin(3 * p.x), 1.0, 0.1 * std::cos(2 * p.z)});
+    const Vec3d v = normalized(Vec3d{0, 2, 9} - p);
+    const double roughness = 0.1 + 0.75 * i / kSide;
+    const auto put = [](std::vector<float>& a, std::vector<float>& b, std::vector<float>& c, Vec3d w) {
+      a.push_back(static_cast<float>(w.x));
+      b.push_back(static_cast<float>(w.y));
+      c.push_back(static_cast<float>(w.z));
+    };
+    put(floor->x, floor->y, floor->z, p);
+    put(floor->nx, floor->ny, floor->nz, n);
+    put(floor->vx, floor->vy, floor->vz, v);
+    floor->alpha.push_back(static_cast<float>(roughness * roughness));
+  }
+  floor->zero.resize(floor->x.size());
+  floor->plain.resize(floor->x.size());
+  floor->fresnel.resize(floor->x.size());
+  PolygonLight quad;
+  quad.vertices = {{-1, -0.3, -0.5}, {1, -0.3, -0.5}, {1, 1.5, -0.7}, {-1, 1.5, -0.7}};
+  floor->light = prepare_polygon(quad);
+  return floor;
+}
+
+Bench packs(const std::string& name, Quality quality, Simd simd) {
+  auto floor = make_floor();
+  const auto ggx = closed_form_table_for(simd).ggx;
+  return {name, floor->x.size(), name_of(simd), [floor, ggx, quality] {
+            ggx(floor->light, floor->points(), quality, floor->plain.data(), floor->fresnel.data());
+            keep(floor->plain.front());
+          }};
+}
+
+}  // namespace
+
+void add_closed_form(BenchList& list) {
+  struct Named {
+    const char* name;
+    Quality quality;
+  };
+  for (const Named& n : {Named{"kernel/closed-form/quad", Quality::normal}, Named{"kernel/closed-form-draft/quad", Quality::draft},
+                         Named{"kernel/closed-form-high/quad", Quality::high}}) {
+    const std::string name = n.name;
+    const Quality quality = n.quality;
+    list.add(name, [name, quality](const BenchOptions& options) { return packs(name, quality, options.simd); });
+    for (const Simd simd : available_simd()) {
+      const std::string one = name + "/" + name_of(simd);
+      list.add(one, [one, quality, simd](const BenchOptions&) { return packs(one, quality, simd); });
+    }
+  }
+}
+
+}  // namespace steradian::bench

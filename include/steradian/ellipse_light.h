@@ -1,0 +1,31 @@
+// Disks, ellipses, spheres and ellipsoids as lights: their irradiance without approximation, and polygons in their place
+// for all other lobes. docs/ggx.md, "Round lights".
+#pragma once
+
+#include "steradian/area_light.h"  // Ellipse, silhouette
+
+namespace steradian {
+
+// Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, of the part above the horizon, in [0, pi].
+// Exact: arcs of the ellipse in closed form. 0 from behind (the side from which x cross y points away) and in its plane.
+// Error: docs/accuracy.md, "ellipse irradiance".
+double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal);
+float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d normal);
+
+// The same of an ellipsoid center + x u + y v + z w, |(u,v,w)| = 1; 0 from inside.
+double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position, Vec3d normal);
+
+// A lobe as far as a polygon in place of an ellipse needs to know it.
+struct LobeAxis {
+  Vec3d axis;        // unit, from the shading point: the mirrored view
+  double width = 1;  // [rad]: 1/sqrt(n + 1) of Phong
+};
+
+// The polygon with that many vertices (even, 6 to 64) that stands in for an ellipse seen from a point, its corners
+// gathered where the lobe is sharp. 8 serve a Phong lobe to 0.75 % of it, 12 to 0.1 %.
+PolygonLight polygon_for_lobe(const Ellipse& ellipse, Vec3d position, const LobeAxis& lobe, int vertices = 8);
+
+// The same with equal steps, for wide lobes: GGX and its kin, 12 vertices.
+PolygonLight polygon_of_equal_steps(const Ellipse& ellipse, Vec3d position, int vertices = 12);
+
+}  // namespace steradian

@@ -1,0 +1,160 @@
+// Disks and ellipses as lights, and the outlines of spheres and ellipsoids (ellipsoid.glsl), which are ellipses.
+//
+// An ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point, is a conic in tan(t/2): its irradiance
+// is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
+// lobe is sharp.
+// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
+// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// An ellipse, seen from the shading point.
+struct Ellipse {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+};
+
+// Turns the axes so that the walk with growing t is in walk order.
+//
+//   axis_a, axis_b  any two conjugate half axes; they need not be orthogonal
+Ellipse ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b) {
+    Ellipse e;
+    e.center = center;
+    e.axis_a = axis_a;
+    mask reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
+    e.axis_b = select(reversed, -axis_b, axis_b);
+    return e;
+}
+
+// An arc of the ellipse about t = 0 (begin and end are tan(t/2)).
+ConicArc ellipse_arc(Ellipse e, real begin, real end) {
+    return conic_prepare(e.center + e.axis_a, e.axis_b * 2.0, e.center - e.axis_a, begin, end);
+}
+
+// Irradiance vector of the part of the ellipse above the horizon [rad]; z is the irradiance for radiance 1, in [0, pi].
+//
+//   e        of ellipse_prepare; the shading point is not in its plane
+//
+// Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
+// Error: see docs/accuracy.md, "ellipse irradiance". Exact: 3 arcs of the ellipse and one of the horizon.
+vec3 ellipse_irradiance_vector(Ellipse e) {
+    // Axes from the highest place: axis_a up the ellipse, axis_b level.
+    vec2 up = vec2(e.axis_a.z, e.axis_b.z);
+    real rise = sqrt(dot(up, up));
+    vec2 turn = select(rise > 0.0, up * (1.0 / max(rise, 1.0e-30)), vec2(1.0, 0.0));
+    Ellipse level;
+    level.center = e.center;
+    level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
+    level.axis_b = e.axis_b * turn.x - e.axis_a * turn.y;
+
+    // Above the horizon: |tan(t/2)| <= limit.
+    real top = e.center.z + rise;
+    real bottom = rise - e.center.z;
+    mask shows = top > 0.0;
+    mask cut = bottom > 0.0 && shows;
+    real limit = sqrt(max(top, 0.0) / max(bottom, 1.0e-30));
+    limit = select(cut, limit, select(shows, 1.0e15, 0.0));
+    real upper = min(limit, 1.0);
+    vec3 sum = conic_vector(ellipse_arc(level, -upper, upper));
+    mask more = limit > 1.0;
+    if (any_lane(more)) {
+        Ellipse back;
+        back.center = level.center;
+        back.axis_a = -level.axis_a;
+        back.axis_b = -level.axis_b;
+        real lower = select(more, 1.0 / max(limit, 1.0), 1.0);
+        lower = select(limit > 1.0e14, 0.0, lower);
+        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+    }
+    if (any_lane(cut)) {
+        // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
+        real inverse = 1.0 / (1.0 + limit * limit);
+        vec3 middle = level.center + level.axis_a * ((1.0 - limit * limit) * inverse);
+        vec3 aside = level.axis_b * (2.0 * limit * inverse);
+        vec3 down = middle + aside;
+        vec3 back_up = middle - aside;
+        real angle = trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
+        sum = select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
+    }
+    return vec3(sum.x, sum.y, clamp(sum.z, 0.0, pi()));
+}
+
+// A polygon about an ellipse: where its corners gather.
+//   ellipse  prepared
+//   turn     (cos, sin) of the t of the corner nearest to the lobe
+//   beta     1: corners at equal steps of t; below, they gather about that corner
+struct EllipseFan {
+    Ellipse ellipse;
+    vec2 turn;
+    real beta;
+};
+
+// Equal steps of t.
+EllipseFan ellipse_fan(Ellipse e) {
+    EllipseFan fan;
+    fan.ellipse = e;
+    fan.turn = vec2(1.0, 0.0);
+    fan.beta = 1.0;
+    return fan;
+}
+
+// Corners that gather where the lobe's axis meets the ellipse's rim.
+//
+//   r        unit axis of the lobe
+//   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
+//
+// A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
+// the lobe's width over the rim's size say.
+// Source: this project; table of errors in docs/ggx.md.
+EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
+    vec3 normal = cross(e.axis_a, e.axis_b);
+    real n2 = max(dot(normal, normal), 1.0e-30);
+    real height = dot(e.center, normal);  // > 0 in walk order
+    real along = dot(r, normal);
+    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    vec3 across = r * height - e.center * along;
+    vec2 place = vec2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
+    real size2 = dot(place, place);
+    mask off_centre = size2 > 1.0e-20;
+    EllipseFan fan;
+    fan.ellipse = e;
+    fan.turn = select(off_centre, place * inversesqrt(max(size2, 1.0e-20)), vec2(1.0, 0.0));
+    vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
+    vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
+    real reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
+    real blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), 1.0e-30));
+    real beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
+    fan.beta = select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
+    return fan;
+}
+
+// (cos t, sin t) of corner k of count, counted from the middle one.
+vec2 ellipse_corner(EllipseFan fan, int k, int count) {
+    real half_angle = pi() * (real(k) / real(count) - 0.5);
+    vec2 u = complex_unit(half_angle);
+    vec2 w = complex_sign(vec2(u.x, fan.beta * u.y));
+    return complex_product(complex_product(w, w), fan.turn);
+}
+
+// The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
+real ellipse_gap(vec2 from_corner, vec2 to_corner) {
+    real c = dot(from_corner, to_corner);
+    real s = from_corner.x * to_corner.y - from_corner.y * to_corner.x;
+    real angle = trig_atan2_unwrapped(s, c);
+    angle = clamp(angle, 0.0, 2.6);
+    real sine = select(c > -0.856888753368947234 && s > 0.0, s, 0.515501371821464235);
+    return select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+// Error: see docs/accuracy.md, "ellipse polygons".
+vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
+    vec2 before = ellipse_corner(fan, k - 1, count);
+    vec2 here = ellipse_corner(fan, k, count);
+    vec2 after = ellipse_corner(fan, k + 1, count);
+    real radius = sqrt(0.5 * (ellipse_gap(before, here) + ellipse_gap(here, after)));
+    Ellipse e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}

@@ -1,0 +1,67 @@
+#include "steradian/ellipse_light.h"
+
+#include "steradian/error.h"
+#include "steradian/kernels.h"
+
+namespace steradian {
+namespace {
+
+template <class S>
+typename Kernels<S>::Ellipse seen_from(const Ellipse& ellipse, Vec3d position, const Frame& frame) {
+  const auto local = [&](Vec3d v) {
+    const Vec3d l = frame.to_local(v);
+    return typename Kernels<S>::vec3(l.x, l.y, l.z);
+  };
+  return Kernels<S>().ellipse_prepare(local(ellipse.center - position), local(ellipse.x), local(ellipse.y));
+}
+
+template <class S>
+S irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
+  const Vec3d lit = cross(ellipse.x, ellipse.y);
+  if (!(dot(position - ellipse.center, lit) > 0)) return S(0);
+  // In units of the distance: squares of squares of tiny and huge lights would leave the range of float.
+  const Vec3d to_center = ellipse.center - position;
+  const double unit = 1 / (length(to_center) + length(ellipse.x) + length(ellipse.y));
+  const Ellipse scaled{position + to_center * unit, ellipse.x * unit, ellipse.y * unit};
+  return Kernels<S>().ellipse_irradiance_vector(seen_from<S>(scaled, position, Frame::from_normal(normal))).z.v;
+}
+
+PolygonLight polygon_of(const Kernels<double>::EllipseFan& fan, Vec3d position, int vertices) {
+  if (vertices < 6 || vertices > 64 || vertices % 2 != 0)
+    throw Error("vertices", "must be even, from 6 to 64, here is " + std::to_string(vertices));
+  Kernels<double> k;
+  PolygonLight light;
+  for (int i = vertices; i-- > 0;) {  // stored order is the reverse of walk order
+    const auto v = k.ellipse_fan_corner(fan, i, vertices);
+    light.vertices.push_back(position + Vec3d{v.x.v, v.y.v, v.z.v});
+  }
+  return light;
+}
+
+const Frame kWorld{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+}  // namespace
+
+double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
+  return irradiance<double>(ellipse, position, normal);
+}
+float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
+  return irradiance<float>(ellipse, position, normal);
+}
+
+double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position, Vec3d normal) {
+  const auto outline = silhouette(center, x, y, z, position);
+  return outline ? ellipse_irradiance(*outline, position, normal) : 0.0;
+}
+
+PolygonLight polygon_for_lobe(const Ellipse& ellipse, Vec3d position, const LobeAxis& lobe, int vertices) {
+  Kernels<double> k;
+  const auto local = seen_from<double>(ellipse, position, kWorld);
+  return polygon_of(k.ellipse_fan_concentrated(local, {lobe.axis.x, lobe.axis.y, lobe.axis.z}, lobe.width), position, vertices);
+}
+
+PolygonLight polygon_of_equal_steps(const Ellipse& ellipse, Vec3d position, int vertices) {
+  return polygon_of(Kernels<double>().ellipse_fan(seen_from<double>(ellipse, position, kWorld)), position, vertices);
+}
+
+}  // namespace steradian
