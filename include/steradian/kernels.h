@@ -39,6 +39,8 @@ struct Kernels {
 #include "phong.glsl"
 
 #include "microfacet.glsl"
+
+#include "plane.glsl"
 };
 
 STERADIAN_END_ISA
