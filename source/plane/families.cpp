@@ -28,7 +28,7 @@ std::vector<Vec2d> star(SceneRandom& random, Vec2d center, int vertices, double 
   const double turn = random.uniform(0, 2 * pi);
   std::vector<Vec2d> result;
   for (int i = 0; i < vertices; ++i) {
-    const double a = turn + 2 * pi * i / vertices, r = i % 2 == 0 ? radius : 0.5 * radius;
+    const double a = turn + 2 * pi * i / vertices, r = i % 2 == 0 ? radius : 0.85 * radius;
     result.push_back(center + Vec2d{std::cos(a), std::sin(a)} * r);
   }
   return result;

@@ -79,26 +79,56 @@ Curve arc(const Ellipse& ellipse, double tau0, double span, int index) {
   return c;
 }
 
-// Cuts the segments where the gradient has a stop, so that radiance is linear on each.
+// Where on the curve, from 0 at its start to 1 at its end, the gradient has a stop.
+std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& c) {
+  std::vector<double> cuts{0};
+  const auto cut = [&](double t) {
+    if (t > 1e-9 && t < 1 - 1e-9) cuts.push_back(t);
+  };
+  for (const PlaneStop& stop : gradient.stops) {
+    if (c.kind == Curve::Kind::segment) {
+      const double from = gradient_offset(gradient, c.a), to = gradient_offset(gradient, c.b);
+      cut((stop.offset - from) / (to - from));
+      continue;
+    }
+    // On an ellipse the offset is a constant plus a cosine of tau.
+    const double middle = gradient_offset(gradient, c.ellipse.center);
+    const double x = gradient_offset(gradient, c.ellipse.center + c.ellipse.x) - middle;
+    const double y = gradient_offset(gradient, c.ellipse.center + c.ellipse.y) - middle;
+    const double cosine = (stop.offset - middle) / std::hypot(x, y);
+    if (!(std::fabs(cosine) < 1)) continue;
+    for (double sign : {-1.0, 1.0}) {
+      double along = std::atan2(y, x) + sign * std::acos(cosine) - c.tau0;
+      along -= 2 * pi * std::floor(along / (2 * pi));
+      cut(along / c.tau_span);
+    }
+  }
+  cuts.push_back(1);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+Curve part_of(const Curve& c, double from, double to) {
+  Curve piece = c;
+  if (c.kind == Curve::Kind::segment) {
+    piece.a = c.a + (c.b - c.a) * from;
+    piece.b = c.a + (c.b - c.a) * to;
+  } else {
+    piece.tau0 = c.tau0 + c.tau_span * from;
+    piece.tau_span = c.tau_span * (to - from);
+    piece.a = c.ellipse.at(piece.tau0);
+    piece.b = c.ellipse.at(piece.tau0 + piece.tau_span);
+  }
+  return piece;
+}
+
+// Cuts the curves where the gradient has a stop, so that radiance is linear on each.
 std::vector<Curve> with_radiance(const PlaneEmission& emission, const std::vector<Curve>& curves) {
   std::vector<Curve> result;
   for (const Curve& c : curves) {
-    std::vector<double> cuts{0};
-    if (emission.gradient && c.kind == Curve::Kind::segment) {
-      const double from = gradient_offset(*emission.gradient, c.a), to = gradient_offset(*emission.gradient, c.b);
-      for (const PlaneStop& stop : emission.gradient->stops) {
-        const double t = (stop.offset - from) / (to - from);
-        if (t > 1e-9 && t < 1 - 1e-9) cuts.push_back(t);
-      }
-    }
-    cuts.push_back(1);
-    std::sort(cuts.begin(), cuts.end());
+    const std::vector<double> cuts = emission.gradient ? gradient_cuts(*emission.gradient, c) : std::vector<double>{0, 1};
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-      Curve piece = c;
-      if (c.kind == Curve::Kind::segment && cuts.size() > 2) {
-        piece.a = c.a + (c.b - c.a) * cuts[i];
-        piece.b = c.a + (c.b - c.a) * cuts[i + 1];
-      }
+      Curve piece = cuts.size() > 2 ? part_of(c, cuts[i], cuts[i + 1]) : c;
       // Values just inside the piece: two stops may share an offset.
       const Vec2d inside = (piece.b - piece.a) * 1e-9;
       piece.radiance_a = radiance_at(emission, piece.a + inside);
