@@ -107,3 +107,32 @@ real plane_disk_window_integral(real d2, real rho2, real d, real c, real s, real
     real mixed = 2.0 * (d2 + rho2) * half_disk - x * (2.0 * x * x - rho2) * chord - rho2 * rho2 * beta;
     return psi - 2.0 * r2 + even - mixed;
 }
+
+// Whole disk window integral between two rays, from their slopes.
+//
+//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi; the caller has clipped the rays to the range
+//
+// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
+real plane_disk_window(real m0, real m1, real d2, real rho2) {
+    real d = sqrt(d2);
+    real c0 = inversesqrt(1.0 + m0 * m0);
+    real c1 = inversesqrt(1.0 + m1 * m1);
+    real s0 = m0 * c0;
+    real s1 = m1 * c1;
+    real chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
+    real chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
+    real psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
+    real beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
+    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
+         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+}
+
+// The slope of a point in a frame: tangent of the angle from the axis.
+//
+//   w, t     components of the point along the axis and across it (counter-clockwise positive), any common scale
+//   beyond   the slope where the point is not in front of the axis: +-1.0e9
+real plane_slope(real w, real t, real beyond) {
+    return select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
+}

@@ -38,19 +38,34 @@ PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
   return result;
 }
 
-PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                          int inside_light) {
+namespace {
+
+template <class Counts>
+PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from, int inside,
+                        Counts counts) {
   PlaneLight sum;
-  for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside_light})) {
+  for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside})) {
     const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
-    if (!light) continue;
-    if (v.curve->body == inside_light)
+    if (!light || !counts(v.curve->body)) continue;
+    if (v.curve->body == inside)
       add_interior(v, *light, from, sum);
     else
       add_emission(v, *light, from, sum);
   }
   const double scale = 1 / (2 * pi);
   return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
+}
+
+}  // namespace
+
+PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
+                          int inside_light) {
+  return envelope_sum(world, curves, from, inside_light, [](int) { return true; });
+}
+
+PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
+                             const std::vector<char>& only) {
+  return envelope_sum(world, curves, from, -1, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
 }
 
 namespace {
