@@ -131,8 +131,8 @@ class Worker {
       const Vec2d along = e.b - e.a, n{along.y, -along.x};
       if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return;
     }
-    // The hull of two circles: its radius across the axis, at the share t of the way, is (half + t growth) over the
-    // cosine of its sides' slope.
+    // The hull of two circles, seen across the axis at the share t of the way: its slanted sides are (half + t growth)
+    // over the cosine of their slope away, and a circle's distance to them shrinks by that cosine too.
     const double growth = bound - half;
     const double cosine2 = length2 > growth * growth ? 1 - growth * growth / length2 : 0;
     const double widen = cosine2 > 0.04 ? 1 / std::sqrt(cosine2) : 0, widest = std::max(half, bound);
@@ -143,7 +143,7 @@ class Worker {
       const Vec2d v = b.center - tile.center;
       const double t = std::clamp(dot(v, axis) * inverse, 0.0, 1.0);
       const Vec2d off = v - axis * t;
-      const double hull = widen > 0 ? (half + t * growth) * widen : widest, limit = hull + b.bound;
+      const double limit = widen > 0 ? (half + t * growth + b.bound) * widen : widest + b.bound;
       if (dot(off, off) > limit * limit) continue;
       if (b.kind == PlaneBlocker::Kind::convex && b.bound > 0.7 * (half + t * growth) &&
           hides(&frame_.vertices[b.first], b.count, e, tile)) {
