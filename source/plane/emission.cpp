@@ -187,7 +187,7 @@ double circle_window(const Curve& curve, double range, Vec2d from, double begin,
   return antiderivative(end) - antiderivative(begin);
 }
 
-void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, PlaneLight& sum) {
+void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, EmissionParts parts, PlaneLight& sum) {
   const Curve& curve = *v.curve;
   const bool plain = emission.profile == PlaneProfile::uniform && !emission.gradient;
   const bool in_range = !(emission.range < 1e300);
@@ -198,8 +198,10 @@ void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, Pl
     SegmentIntegral(curve, emission, from).add(v.begin, v.end, sum);
   } else {
     PlaneLight part;
-    ArcQuadrature(curve, emission, from).add(v.begin, v.end, v.back, part);
-    if (plain && !v.back && is_circle(curve.ellipse))
+    const bool closed = plain && !v.back && is_circle(curve.ellipse);
+    if (!closed || parts == EmissionParts::radiance_and_moments)
+      ArcQuadrature(curve, emission, from).add(v.begin, v.end, v.back, part);
+    if (closed)
       part.radiance = emission.radiance * circle_window(curve, emission.range, from, v.begin, v.end);
     sum.radiance += part.radiance;
     sum.moment_x += part.moment_x;
@@ -215,9 +217,10 @@ bool within_spot(const PlaneEmission& emission, Vec2d u) {
   return std::fabs(std::atan2(cross(axis, u), dot(axis, u))) <= emission.spot_half_angle;
 }
 
-void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d from, PlaneLight& sum) {
+void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d from, EmissionParts parts,
+                  PlaneLight& sum) {
   if (!is_spot(emission)) {
-    add_clipped(piece, emission, from, sum);
+    add_clipped(piece, emission, from, parts, sum);
     return;
   }
   // The spot's directions, seen from the point, about the reversed axis; once and a turn to either side.
@@ -226,7 +229,7 @@ void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d fro
     Visible clipped = piece;
     clipped.begin = std::max(piece.begin, middle - half + turn);
     clipped.end = std::min(piece.end, middle + half + turn);
-    if (clipped.end > clipped.begin) add_clipped(clipped, emission, from, sum);
+    if (clipped.end > clipped.begin) add_clipped(clipped, emission, from, parts, sum);
   }
 }
 

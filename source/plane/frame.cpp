@@ -39,7 +39,7 @@ Grid grid_of(const PlaneScene& scene, int width, int height) {
 // Does the convex blocker hide the emitter from all of the tile? Its chord between the vertices furthest to either side
 // must separate the two, and its ends lie beyond every line from the tile to the light.
 bool hides(const Vec2d* v, std::size_t count, const PlaneEmitter& e, const TileArea& tile) {
-  const Vec2d axis = e.center() - tile.center;
+  const Vec2d axis = e.center - tile.center;
   Vec2d left = v[0], right = v[0];
   for (std::size_t k = 1; k < count; ++k) {
     if (cross(axis, v[k]) > cross(axis, left)) left = v[k];
@@ -105,7 +105,7 @@ class Worker {
 
  private:
   TileArea area(int x, int y, int side) const {
-    return {grid_.at(x, y) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side)};
+    return {grid_.at(x, y) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
   }
 
   bool touches(const Box& box, const TileArea& t) const {
@@ -122,13 +122,12 @@ class Worker {
   // Appends the emitter with the blockers that touch the hull of it and the tile, unless it cannot be seen.
   void filter(int index, const int* blockers, std::size_t count, const TileArea& tile, Level& to) const {
     const PlaneEmitter& e = frame_.emitters[static_cast<std::size_t>(index)];
-    const double half = length(tile.half), bound = e.bound();
-    const double range = world_.scene.bodies[static_cast<std::size_t>(e.body)].light->range;
-    const Vec2d axis = e.center() - tile.center;
-    const double length2 = dot(axis, axis), reach = range + bound + half;
+    const double half = tile.radius, bound = e.bound;
+    const Vec2d axis = e.center - tile.center;
+    const double length2 = dot(axis, axis), reach = e.range + bound + half;
     if (length2 >= reach * reach) return;
     if (e.kind == PlaneEmitter::Kind::edge) {
-      const Vec2d along = e.b - e.a, n{along.y, -along.x};
+      const Vec2d n = e.normal;
       if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return;
     }
     // The hull of two circles, seen across the axis at the share t of the way: its slanted sides are (half + t growth)
@@ -139,20 +138,24 @@ class Worker {
     const double inverse = length2 > 0 ? 1 / length2 : 0;
     const std::size_t begin = to.blockers.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(blockers[i])];
-      const Vec2d v = b.center - tile.center;
+      const BlockerBound& b = frame_.bounds[static_cast<std::size_t>(blockers[i])];
+      const Vec2d v = Vec2d{b.x, b.y} - tile.center;
       const double t = std::clamp(dot(v, axis) * inverse, 0.0, 1.0);
       const Vec2d off = v - axis * t;
-      const double limit = widen > 0 ? (half + t * growth + b.bound) * widen : widest + b.bound;
+      const double limit = widen > 0 ? (half + t * growth + b.radius) * widen : widest + b.radius;
       if (dot(off, off) > limit * limit) continue;
-      if (b.kind == PlaneBlocker::Kind::convex && b.bound > 0.7 * (half + t * growth) &&
-          hides(&frame_.vertices[b.first], b.count, e, tile)) {
+      if (b.convex && b.radius > 0.7 * (half + t * growth) && hides(blockers[i], e, tile)) {
         to.blockers.resize(begin);
         return;
       }
       to.blockers.push_back(blockers[i]);
     }
     to.entries.push_back({index, begin, to.blockers.size()});
+  }
+
+  bool hides(int blocker, const PlaneEmitter& e, const TileArea& tile) const {
+    const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+    return steradian::hides(&frame_.vertices[b.first], b.count, e, tile);
   }
 
   void descend(int level, int x, int y) {
@@ -193,10 +196,11 @@ class Worker {
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
     for (const Entry& e : level.entries) {
-      const TileLight light = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.data() + e.begin, e.end - e.begin, tile);
+      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.data() + e.begin, e.end - e.begin, tile);
+      if (!visible) continue;
       table_.add_light(light, buffer_);
       ++tile_lights;
-      tile_blockers += static_cast<std::uint64_t>(light.ordered_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
+      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.ordered_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
     }
     mark_inside(level, x0, y0);
     if (!level.general.empty()) collect_general_curves(level, tile);
@@ -212,14 +216,14 @@ class Worker {
         } else {
           out = {buffer_.red[i], buffer_.green[i], buffer_.blue[i]};
           if (!level.general.empty())
-            out += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general).radiance);
+            out += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general, EmissionParts::radiance).radiance);
         }
       }
   }
 
   Vec3d interior(std::size_t body, Vec2d p) const {
     if (frame_.interior[body].empty()) return radiance_at(*world_.scene.bodies[body].light, p);
-    return envelope_light(world_, frame_.interior[body], p, static_cast<int>(body)).radiance;
+    return envelope_light(world_, frame_.interior[body], p, static_cast<int>(body), EmissionParts::radiance).radiance;
   }
 
   // Which body fills each pixel: in double and by the same test as a query.
@@ -244,8 +248,8 @@ class Worker {
     double reach = 0;
     for (int i : level.general) {
       const Box& b = world_.boxes[static_cast<std::size_t>(i)];
-      const double far = length((b.low + b.high) * 0.5 - tile.center) + 0.5 * length(b.high - b.low) + length(tile.half);
-      reach = std::max(reach, std::min(far, world_.scene.bodies[static_cast<std::size_t>(i)].light->range + length(tile.half)));
+      const double far = length((b.low + b.high) * 0.5 - tile.center) + 0.5 * length(b.high - b.low) + tile.radius;
+      reach = std::max(reach, std::min(far, world_.scene.bodies[static_cast<std::size_t>(i)].light->range + tile.radius));
     }
     general_curves_.clear();
     for (std::size_t i = 0; i < world_.boxes.size(); ++i) {

@@ -45,6 +45,8 @@ class Preparation {
     interior();
     frame_.nearby.resize(frame_.emitters.size());
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) find_nearby(e);
+    for (const PlaneBlocker& b : frame_.blockers)
+      frame_.bounds.push_back({b.center.x, b.center.y, b.bound, b.kind == PlaneBlocker::Kind::convex});
     for (char g : frame_.general) frame_.any_general = frame_.any_general || g != 0;
     return std::move(frame_);
   }
@@ -143,21 +145,31 @@ class Preparation {
         e.kind = PlaneEmitter::Kind::edge;
         e.a = curve.a;
         e.b = curve.b;
-        frame_.emitters.push_back(e);
+        add_emitter(e);
         if (curve.two_sided) {
           std::swap(e.a, e.b);
-          frame_.emitters.push_back(e);
+          add_emitter(e);
         }
       } else if (is_full_circle(curve) && plain && !spot) {
         e.a = e.b = curve.ellipse.center;
         e.radius = length(curve.ellipse.x);
-        frame_.emitters.push_back(e);
+        add_emitter(e);
       } else {
         frame_.emitters.resize(before);
         frame_.general[i] = 1;
         return;
       }
     }
+  }
+
+  void add_emitter(PlaneEmitter e) {
+    const Vec2d along = e.b - e.a;
+    const double size = length(along);
+    e.center = (e.a + e.b) * 0.5;
+    e.bound = e.radius + 0.5 * size;
+    if (size > 0) e.normal = Vec2d{along.y, -along.x} / size;
+    e.range = body(static_cast<std::size_t>(e.body)).light->range;
+    frame_.emitters.push_back(e);
   }
 
   // Bins of blockers by their centres, as wide as the picture's larger side over 32.
@@ -188,8 +200,6 @@ class Preparation {
 
   void interior() {
     frame_.interior.resize(world_.scene.bodies.size());
-    const std::size_t shared = frame_.blockers.size();
-    (void)shared;
     for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
       if (!body(i).light) continue;
       const Box& mine = world_.boxes[i];
@@ -212,10 +222,9 @@ class Preparation {
   void find_nearby(std::size_t index) {
     const PlaneEmitter e = frame_.emitters[index];
     std::vector<int>& list = frame_.nearby[index];
-    const double range = body(static_cast<std::size_t>(e.body)).light->range;
     std::vector<int> overlapping;
     // What is further from the light than its range stands behind the last lit point.
-    for_each_within(e.center(), std::min(range, 1e8) + e.bound(), [&](int k) {
+    for_each_within(e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
       const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       if (b.body == e.body) {
         // The rest of a concave light blocks its own edges; a convex one lies behind them.
@@ -235,7 +244,7 @@ class Preparation {
   }
 
   bool overlaps(const PlaneEmitter& e, const PlaneBlocker& b) const {
-    if (length(e.center() - b.center) >= e.bound() + b.bound) return false;
+    if (length(e.center - b.center) >= e.bound + b.bound) return false;
     if (b.kind != PlaneBlocker::Kind::convex) {
       // Round against what is round or thin: by distance; other ellipses by their bounding circle.
       return distance_to_segment(b.center, e.a, e.b) < e.radius + b.bound - kTouching;
@@ -272,7 +281,7 @@ class Preparation {
 
   // The part of p, q on the lit side of an edge.
   void add_in_front(const PlaneEmitter& e, Vec2d p, Vec2d q, int owner, std::vector<int>& list) {
-    const Vec2d along = (e.b - e.a) / length(e.b - e.a), n{along.y, -along.x};
+    const Vec2d n = e.normal;
     double hp = dot(p - e.a, n), hq = dot(q - e.a, n);
     if (hp < hq) std::swap(p, q), std::swap(hp, hq);
     if (hp <= kTouching) return;

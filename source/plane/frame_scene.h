@@ -19,8 +19,16 @@ struct PlaneEmitter {
   double radius = 0;       // disk
   const Curve* curve = nullptr;
 
-  Vec2d center() const { return (a + b) * 0.5; }
-  double bound() const { return radius + 0.5 * length(b - a); }  // radius about the centre
+  Vec2d center;            // of a bounding circle
+  double bound = 0;
+  Vec2d normal;            // edge: unit, to the lit side
+  double range = 0;
+};
+
+// What culling reads of a blocker, packed tight: most of a frame's list work is this.
+struct BlockerBound {
+  double x, y, radius;
+  bool convex;
 };
 
 struct PlaneBlocker {
@@ -43,6 +51,7 @@ struct FrameScene {
   std::vector<char> general;              // by body: lights that only the general method serves
   bool any_general = false;
   std::vector<PlaneBlocker> blockers;     // of all bodies, then those that stand in for overlapping ones
+  std::vector<BlockerBound> bounds;       // by blocker
   std::vector<Vec2d> vertices;
   std::vector<std::vector<int>> nearby;   // by emitter: blockers within its range, private ones too
   std::vector<std::vector<const Curve*>> interior;  // by body, for lights: their own curves and those that may be inside

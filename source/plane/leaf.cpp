@@ -15,11 +15,6 @@ Vec2d nearest_on(Vec2d a, Vec2d b, Vec2d p) {
   return l > 0 ? a + ab * std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : a;
 }
 
-Vec2d lit_normal(const PlaneEmitter& e) {
-  const Vec2d along = (e.b - e.a) / length(e.b - e.a);
-  return {along.y, -along.x};
-}
-
 double extent(Vec2d normal, const TileArea& tile) {
   return std::fabs(normal.x) * tile.half.x + std::fabs(normal.y) * tile.half.y;
 }
@@ -29,11 +24,11 @@ double extent(Vec2d normal, const TileArea& tile) {
 // Is the point in front of every pixel's axis? For a disk: outside the circle over the point and the centre (Thales).
 bool LeafBuilder::ahead(const PlaneEmitter& e, Vec2d v, const TileArea& tile) const {
   if (e.kind == PlaneEmitter::Kind::edge) {
-    const Vec2d n = lit_normal(e);
+    const Vec2d n = e.normal;
     return dot(n, tile.center - v) - extent(n, tile) > 1e-3;
   }
   const Vec2d away = tile.center - (v + e.a) * 0.5;
-  const double clear = 0.5 * length(v - e.a) + length(tile.half) + 1e-3;
+  const double clear = 0.5 * length(v - e.a) + tile.radius + 1e-3;
   return dot(away, away) > clear * clear;
 }
 
@@ -64,7 +59,7 @@ bool LeafBuilder::separate(const PlaneEmitter& e, const PlaneBlocker& b, Depth& 
     }
     return best_d2 > 0 && through((best - e.a) / std::sqrt(best_d2), best);
   }
-  const Vec2d n = lit_normal(e);
+  const Vec2d n = e.normal;
   const double slack = 1e-8;
   double low = 1e300, high = -1e300;
   for (std::size_t k = 0; k < b.count; ++k) low = std::min(low, dot(n, v[k] - e.a)), high = std::max(high, dot(n, v[k] - e.a));
@@ -91,6 +86,24 @@ LeafBuilder::Side LeafBuilder::side_of(const Depth& depth, const TileArea& tile)
   return at < -reach ? Side::behind : Side::mixed;
 }
 
+// The lines that touch the circles about tile and emitter, moved in to touch the rectangle and the emitter themselves.
+LeafBuilder::Hull LeafBuilder::hull_of(const PlaneEmitter& e, const TileArea& tile) {
+  const Vec2d axis = e.center - tile.center;
+  const double d2 = std::max(dot(axis, axis), 1e-300), d = std::sqrt(d2);
+  const double sine = std::clamp((tile.radius - e.bound) / d, -0.99, 0.99), cosine = std::sqrt(1 - sine * sine);
+  const Vec2d along = axis / d, left{-along.y, along.x};
+  const auto support = [&](Vec2d n) {
+    const double light = std::max(dot(n, e.a), dot(n, e.b)) + e.radius;
+    return std::max(light, dot(n, tile.center) + extent(n, tile)) + 1e-9 * d;
+  };
+  Hull hull;
+  hull.high_normal = left * cosine + along * sine;
+  hull.low_normal = along * sine - left * cosine;
+  hull.high_offset = support(hull.high_normal);
+  hull.low_offset = support(hull.low_normal);
+  return hull;
+}
+
 void LeafBuilder::add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile) {
   Depth depth;
   if (!separate(e, b, depth)) return;
@@ -98,7 +111,19 @@ void LeafBuilder::add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const
   if (side == Side::behind) return;
   const Vec2d* v = &frame_.vertices[b.first];
   const auto emit = [&](Vec2d p, Vec2d q, bool in_order) {
+    const bool p_low = hull_.beyond_low(p), q_low = hull_.beyond_low(q);
+    const bool p_high = hull_.beyond_high(p), q_high = hull_.beyond_high(q);
+    if ((p_low && q_low) || (p_high && q_high)) return;  // passes the hull by
     const Vec2d pl = p - tile.center, ql = q - tile.center;
+    if (in_order && side == Side::front) {
+      // In front of the light and seen in order: where its begin lies beyond the hull, only its end counts.
+      if (p_low && q_high) {
+        hidden_ = true;
+        return;
+      }
+      if (p_low && ahead(e, q, tile)) return lows_.push_back({f(ql.x), f(ql.y)});
+      if (q_high && ahead(e, p, tile)) return highs_.push_back({f(pl.x), f(pl.y)});
+    }
     TileItem item{f(pl.x), f(pl.y), f(ql.x), f(ql.y), f(depth.normal.x), f(depth.normal.y),
                   f(depth.offset + dot(depth.normal, tile.center))};
     if (side == Side::mixed)
@@ -174,7 +199,11 @@ void LeafBuilder::add_round(const PlaneEmitter& e, const PlaneBlocker& b, const 
   lenses_.push_back(l);
 }
 
-TileLight LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::size_t count, const TileArea& tile) {
+LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::size_t count, const TileArea& tile) {
+  hull_ = hull_of(e, tile);
+  hidden_ = false;
+  lows_.clear();
+  highs_.clear();
   ordered_.clear();
   chords_.clear();
   deep_.clear();
@@ -186,6 +215,7 @@ TileLight LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::si
       add_convex(e, b, tile);
     else
       add_round(e, b, tile);
+    if (hidden_) return {{}, false};
   }
   const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
   TileLight light{};
@@ -199,7 +229,7 @@ TileLight LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::si
     light.radius = f(e.radius);
   } else {
     light.edge = true;
-    const Vec2d n = lit_normal(e), t{n.y, -n.x}, a = e.a - tile.center, b = e.b - tile.center;
+    const Vec2d n = e.normal, t{n.y, -n.x}, a = e.a - tile.center, b = e.b - tile.center;
     light.nx = f(n.x);
     light.ny = f(n.y);
     light.x = f(a.x);
@@ -221,6 +251,10 @@ TileLight LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::si
   light.blue_slope = f(slope.z);
 
   const auto items = [](const auto& list) { return static_cast<int>(list.size()); };
+  light.lows = lows_.data();
+  light.low_count = items(lows_);
+  light.highs = highs_.data();
+  light.high_count = items(highs_);
   light.ordered = ordered_.data();
   light.ordered_count = items(ordered_);
   light.chords = chords_.data();
@@ -234,7 +268,7 @@ TileLight LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::si
   const std::size_t needed = 32 * (ordered_.size() + chords_.size() + deep_.size() + rounds_.size() + 2 * lenses_.size());
   if (scratch_.size() < needed) scratch_.resize(2 * needed);
   light.scratch = scratch_.data();
-  return light;
+  return {light, true};
 }
 
 }  // namespace steradian

@@ -12,6 +12,11 @@ struct TileItem {
   float depth_x, depth_y, depth_c; // the blocker is nearer where depth . (x, y, 1) > 0; only in deep items
 };
 
+// A blocker that reaches past the light on one side for all of the tile ends in one vertex.
+struct TileVertex {
+  float x, y;
+};
+
 struct TileRound {
   float cx, cy;                    // ellipse: centre,
   float xx, xy, yx, yy;            // half axes x and y,
@@ -35,6 +40,10 @@ struct TileLight {
   int profile;                     // PlaneProfile as int
   bool linear, edge;
 
+  const TileVertex* lows;          // ends of blockers that begin before the light
+  int low_count;
+  const TileVertex* highs;         // begins of blockers that end behind it
+  int high_count;
   const TileItem* ordered;         // p, q in order and in front of every pixel's axis
   int ordered_count;
   const TileItem* chords;          // any chord in front of the light

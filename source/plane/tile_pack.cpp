@@ -72,12 +72,15 @@ struct Axis {
   STERADIAN_INLINE PackReal t(PackReal vx, PackReal vy) const { return x * vy - y * vx; }
 };
 
-STERADIAN_INLINE PackReal quotient(PackReal a, PackReal b) { return a / b; }
+STERADIAN_INLINE PackReal slope_to(const TileVertex& v, const Axis& axis) {
+  const PackReal x = broadcast(v.x) - axis.px, y = broadcast(v.y) - axis.py;
+  return axis.t(x, y) / axis.w(x, y);
+}
 
 STERADIAN_INLINE void take_ordered(const TileItem& item, const Axis& axis, Cut& cut) {
   const PackReal px = broadcast(item.px) - axis.px, py = broadcast(item.py) - axis.py;
   const PackReal qx = broadcast(item.qx) - axis.px, qy = broadcast(item.qy) - axis.py;
-  const PackReal from = quotient(axis.t(px, py), axis.w(px, py)), to = quotient(axis.t(qx, qy), axis.w(qx, qy));
+  const PackReal from = axis.t(px, py) / axis.w(px, py), to = axis.t(qx, qy) / axis.w(qx, qy);
   cut.take(from, to, from < to);
 }
 
@@ -157,6 +160,9 @@ STERADIAN_INLINE void take_lens(const TileLens& lens, const Axis& axis, Cut& cut
 
 // False where nothing is left on any lane.
 STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut& cut) {
+  for (int i = 0; i < light.low_count; ++i) cut.low = max(cut.low, slope_to(light.lows[i], axis));
+  for (int i = 0; i < light.high_count; ++i) cut.high = min(cut.high, slope_to(light.highs[i], axis));
+  if (cut.dark()) return false;
   for (int i = 0; i < light.ordered_count; ++i) {
     take_ordered(light.ordered[i], axis, cut);
     if (cut.dark()) return false;

@@ -42,7 +42,7 @@ namespace {
 
 template <class Counts>
 PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from, int inside,
-                        Counts counts) {
+                        EmissionParts parts, Counts counts) {
   PlaneLight sum;
   for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside})) {
     const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
@@ -50,7 +50,7 @@ PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const C
     if (v.curve->body == inside)
       add_interior(v, *light, from, sum);
     else
-      add_emission(v, *light, from, sum);
+      add_emission(v, *light, from, parts, sum);
   }
   const double scale = 1 / (2 * pi);
   return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
@@ -59,13 +59,13 @@ PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const C
 }  // namespace
 
 PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                          int inside_light) {
-  return envelope_sum(world, curves, from, inside_light, [](int) { return true; });
+                          int inside_light, EmissionParts parts) {
+  return envelope_sum(world, curves, from, inside_light, parts, [](int) { return true; });
 }
 
 PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             const std::vector<char>& only) {
-  return envelope_sum(world, curves, from, -1, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
+                             const std::vector<char>& only, EmissionParts parts) {
+  return envelope_sum(world, curves, from, -1, parts, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
 }
 
 namespace {

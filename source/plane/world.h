@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "plane/emission.h"
 #include "plane/outline.h"
 #include "plane/ray_grid.h"
 
@@ -25,10 +26,10 @@ struct PlaneWorld::Impl {
 
 // The exact method over a chosen set of curves.
 PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                          int inside_light);
+                          int inside_light, EmissionParts parts = EmissionParts::radiance_and_moments);
 // The same, for the lights marked in `only` (by body); the others block.
 PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             const std::vector<char>& only);
+                             const std::vector<char>& only, EmissionParts parts);
 PlaneLight par_light(const PlaneWorld::Impl& world, Vec2d from);
 PlaneLight sampled_light(const PlaneWorld::Impl& world, Vec2d from, const PlaneSampling& sampling);
 PlaneLight marched_light(const PlaneWorld::Impl& world, Vec2d from, const PlaneSampling& sampling);
