@@ -80,7 +80,13 @@ struct Level {
 class Worker {
  public:
   Worker(const FrameScene& frame, const Grid& grid, const TileTable& table, Picture& picture)
-      : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame) {}
+      : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame) {
+    for (int y = 0; y < kTileSide; ++y)
+      for (int x = 0; x < kTileSide; ++x) {
+        buffer_.x[slot(x, y)] = static_cast<float>((x - 0.5 * (kTileSide - 1)) * grid_.step.x);
+        buffer_.y[slot(x, y)] = static_cast<float>((y - 0.5 * (kTileSide - 1)) * grid_.step.y);
+      }
+  }
 
   void run(int x, int y) {
     Level& top = levels_[0];
@@ -186,12 +192,6 @@ class Worker {
 
   void leaf(const Level& level, int x0, int y0) {
     const TileArea tile = area(x0, y0, kTileSide);
-    for (int y = 0; y < kTileSide; ++y)
-      for (int x = 0; x < kTileSide; ++x) {
-        const int i = slot(x, y);
-        buffer_.x[i] = static_cast<float>((x - 0.5 * (kTileSide - 1)) * grid_.step.x);
-        buffer_.y[i] = static_cast<float>((y - 0.5 * (kTileSide - 1)) * grid_.step.y);
-      }
     std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);

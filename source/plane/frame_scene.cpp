@@ -201,15 +201,16 @@ class Preparation {
   void interior() {
     frame_.interior.resize(world_.scene.bodies.size());
     for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
-      if (!body(i).light) continue;
+      if (!body(i).light || world_.first_curve[i] == world_.first_curve[i + 1]) continue;
       const Box& mine = world_.boxes[i];
       std::vector<std::size_t> others{i};
       const Vec2d middle = (mine.low + mine.high) * 0.5;
       for_each_within(middle, 0.5 * length(mine.high - mine.low), [&](int k) {
         const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
         const Box& box = world_.boxes[o];
-        if (box.low.x <= mine.high.x && box.high.x >= mine.low.x && box.low.y <= mine.high.y && box.high.y >= mine.low.y)
-          others.push_back(o);
+        if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
+        if (!may_be_inside(i, frame_.blockers[static_cast<std::size_t>(k)])) return;
+        others.push_back(o);
       });
       std::sort(others.begin(), others.end());
       others.erase(std::unique(others.begin(), others.end()), others.end());
@@ -217,6 +218,17 @@ class Preparation {
       for (std::size_t o : others)
         for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) frame_.interior[i].push_back(&world_.curves[c]);
     }
+  }
+
+  // Exact for round lights; others go by their boxes.
+  bool may_be_inside(std::size_t light, const PlaneBlocker& b) const {
+    if (b.body == static_cast<int>(light)) return true;
+    const Curve& curve = world_.curves[world_.first_curve[light]];
+    if (!is_full_circle(curve)) return true;
+    PlaneEmitter disk;
+    disk.a = disk.b = disk.center = curve.ellipse.center;
+    disk.radius = disk.bound = length(curve.ellipse.x);
+    return overlaps(disk, b);
   }
 
   void find_nearby(std::size_t index) {

@@ -45,6 +45,24 @@ Crossings segment_arc(const Curve& s, const Curve& arc) {
   return result;
 }
 
+bool is_circle(const Ellipse& e) {
+  const double xx = dot(e.x, e.x);
+  return std::fabs(xx - dot(e.y, e.y)) <= 1e-14 * xx && std::fabs(dot(e.x, e.y)) <= 1e-14 * xx;
+}
+
+Crossings circle_circle(const Ellipse& a, const Ellipse& b) {
+  const Vec2d to = b.center - a.center;
+  const double d2 = dot(to, to), r2 = dot(a.x, a.x), s2 = dot(b.x, b.x);
+  Crossings result;
+  if (!(d2 > 0)) return result;
+  const double along = 0.5 * (d2 + r2 - s2) / d2, across2 = r2 / d2 - along * along;
+  if (!(across2 >= 0)) return result;
+  const Vec2d middle = a.center + to * along, side = Vec2d{-to.y, to.x} * std::sqrt(across2);
+  result.at[result.count++] = middle + side;
+  result.at[result.count++] = middle - side;
+  return result;
+}
+
 // The first ellipse as the unit circle of t = tan(tau / 2): the second one's equation is a quartic. Each of two charts
 // covers half the circle, so that t stays within [-1, 1].
 Crossings arc_arc(const Curve& first, const Curve& second) {
@@ -92,6 +110,7 @@ Crossings intersect(const Curve& a, const Curve& b) {
   if (!a_arc && !b_arc) return segment_segment(a, b);
   if (!a_arc) return segment_arc(a, b);
   if (!b_arc) return segment_arc(b, a);
+  if (is_circle(a.ellipse) && is_circle(b.ellipse)) return circle_circle(a.ellipse, b.ellipse);
   return arc_arc(a, b);
 }
 

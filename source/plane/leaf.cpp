@@ -105,9 +105,22 @@ LeafBuilder::Hull LeafBuilder::hull_of(const PlaneEmitter& e, const TileArea& ti
 }
 
 void LeafBuilder::add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile) {
+  if (dot(hull_.low_normal, b.center) - b.bound > hull_.low_offset) return;
+  if (dot(hull_.high_normal, b.center) - b.bound > hull_.high_offset) return;
+  // First the line between the bounding circles, which settles most; then the exact one.
   Depth depth;
-  if (!separate(e, b, depth)) return;
-  const Side side = side_of(depth, tile);
+  Side side = Side::mixed;
+  const Vec2d to = b.center - e.center;
+  const double d = length(to), gap = d - e.bound - b.bound;
+  if (gap > 0) {
+    depth.normal = to / d;
+    depth.offset = -dot(depth.normal, e.center) - e.bound - 0.5 * gap;
+    side = side_of(depth, tile);
+  }
+  if (side == Side::mixed) {
+    if (!separate(e, b, depth)) return;
+    side = side_of(depth, tile);
+  }
   if (side == Side::behind) return;
   const Vec2d* v = &frame_.vertices[b.first];
   const auto emit = [&](Vec2d p, Vec2d q, bool in_order) {
