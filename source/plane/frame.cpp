@@ -1,4 +1,4 @@
-// A frame by tile recursion: 256, 64, 32, 16 pixels. At every level a light keeps only the blockers that touch the
+// A frame by tile recursion: 256, 128, 64, 32, 16 pixels. At every level a light keeps only the blockers that touch the
 // hull of tile and light, and is dropped where one of them hides it from all of the tile.
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-constexpr int kSides[] = {256, 64, 32, kTileSide};
-constexpr int kLevels = 4;
+constexpr int kSides[] = {256, 128, 64, 32, kTileSide};
+constexpr int kLevels = 5;
 
 struct Grid {
   Vec2d origin, step;  // of pixel centres
@@ -202,6 +202,10 @@ class Worker {
       ++tile_lights;
       tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.ordered_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
     }
+    if (level.bodies.empty() && level.general.empty()) {
+      copy_out(x0, y0);
+      return;
+    }
     mark_inside(level, x0, y0);
     if (!level.general.empty()) collect_general_curves(level, tile);
     for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
@@ -219,6 +223,17 @@ class Worker {
             out += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general, EmissionParts::radiance).radiance);
         }
       }
+  }
+
+  void copy_out(int x0, int y0) {
+    for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y) {
+      Vec3f* row = &picture_.at(x0, y0 + y);
+      const int width = std::min(kTileSide, grid_.width - x0), first = slot(0, y);
+      for (int x = 0; x < width; ++x) {
+        const int i = first + x / 4 * 16 + x % 4;
+        row[x] = {buffer_.red[i], buffer_.green[i], buffer_.blue[i]};
+      }
+    }
   }
 
   Vec3d interior(std::size_t body, Vec2d p) const {
