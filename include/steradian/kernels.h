@@ -78,6 +78,8 @@ struct Kernels {
 
 #include "ellipse.glsl"
 
+#include "plane.glsl"
+
 // Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
 #ifdef STERADIAN_KERNEL_EXTENSION
 #include STERADIAN_KERNEL_EXTENSION
