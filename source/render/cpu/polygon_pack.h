@@ -6,12 +6,12 @@
 STERADIAN_BEGIN_ISA
 
 // Calls add_edge(a, b) for every edge, with unit directions in the frame `frame` at the points p.
-template <class AddEdge>
-STERADIAN_INLINE void walk_contours(const Vec3f* vertices, const std::size_t* contours, std::size_t contour_count,
+template <class T, class AddEdge>
+STERADIAN_INLINE void walk_contours(const Vector3<T>* vertices, const std::size_t* contours, std::size_t contour_count,
                                     const PackKernels::mat3& frame, const PackVec3& p, AddEdge add_edge) {
   PackKernels k;
-  const auto direction = [&](const Vec3f& v) {
-    return k.polygon_direction(transform_transposed(frame, broadcast(v) - p));
+  const auto direction = [&](const Vector3<T>& v) {
+    return k.polygon_direction(transform_transposed(frame, broadcast(static_cast<Vec3f>(v)) - p));
   };
   for (std::size_t c = 0; c < contour_count; ++c) {
     const std::size_t begin = contours[c], end = contours[c + 1];
