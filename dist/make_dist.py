@@ -131,8 +131,10 @@ RENAMED = {name: "steradian_" + name for name in ("select", "transform", "transf
 
 
 def rename(pieces, table):
-    for p in pieces:
-        if p.kind == "name":
+    for i, p in enumerate(pieces):
+        after = solid(pieces, i + 1)
+        is_variable = p.text in RENAMED and (after >= len(pieces) or pieces[after].text != "(")
+        if p.kind == "name" and not is_variable:
             p.text = table.get(p.text, p.text)
     return pieces
 

@@ -59,75 +59,42 @@ vec2 steradian_xy(vec3 v) { return v.xy; }
 vec3 steradian_transform(mat3 m, vec3 v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
 vec3 steradian_transform_transposed(mat3 m, vec3 v) { return vec3(dot(m[0], v), dot(m[1], v), dot(m[2], v)); }
 
-// ==== frame ====
+// ==== complex ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
-// vector into it, transform(frame, l) back.
+// Complex numbers: vec2(real part, imaginary part).
 
-// Orthonormal right-handed frame with z along n and x, y in any direction.
-//
-//   n        unit normal
-//
-// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
-mat3 frame_from_normal(vec3 n) {
-    float s = steradian_select(n.z < 0.0, -1.0, 1.0);
-    float a = -1.0 / (s + n.z);
-    float b = n.x * n.y * a;
-    vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    vec3 y = vec3(b, s + n.y * n.y * a, -n.y);
-    return mat3(x, y, n);
+// a b.
+vec2 complex_product(vec2 a, vec2 b) {
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
-//
-//   n, v     unit normal and view
-//
-// Degenerate: a view along the normal (closer than 1e-6) gives any x.
-mat3 frame_from_normal_and_view(vec3 n, vec3 v) {
-    mat3 other = frame_from_normal(n);
-    vec3 t = v - n * dot(n, v);
-    float t2 = dot(t, t);
-    vec3 x = steradian_select(t2 > 1.0e-12, t * inversesqrt(max(t2, 1.0e-12)), steradian_transform(other, vec3(1.0, 0.0, 0.0)));
-    return mat3(x, cross(n, x), n);
+// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+vec2 complex_quotient(vec2 a, vec2 b) {
+    float scale = 1.0 / max(dot(b, b), 1.0e-36);
+    return vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
 }
 
-// ==== ellipsoid ====
+// a / |a|. Degenerate: the zero vector stays zero.
+vec2 complex_sign(vec2 a) {
+    return a * inversesqrt(max(dot(a, a), 1.0e-36));
+}
 
-// Spheres and ellipsoids as lights: their outline, seen from a point, is a planar ellipse.
-
-// The ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point [m], and whether it can be seen.
-struct EllipsoidOutline {
-    vec3 center;
-    vec3 axis_a;
-    vec3 axis_b;
-    bool outside;  // false: the point is inside, no light
-};
-
-// Outline of the ellipsoid c + S u, |u| = 1, whose cone of tangents meets the shading point.
+// exp(i x) for x in [-pi, pi].
 //
-//   to_center  c - p, from the shading point p to the centre
-//   s          S, half axes as columns
-//   inverse    S^-1, its columns
-//
-// Degenerate: a point inside or on the ellipsoid gives outside = false and a finite outline.
-// Source: the unit sphere's outline from distance d is the circle of radius sqrt(1 - 1/d^2) at height 1/d above the
-// centre; S maps it.
-EllipsoidOutline ellipsoid_outline(vec3 to_center, mat3 s, mat3 inverse) {
-    vec3 p = -steradian_transform(inverse, to_center);
-    float d2 = dot(p, p);
-    float safe = max(d2, 1.000001);
-    float inverse_d = inversesqrt(safe);
-    vec3 k = p * inversesqrt(max(d2, 1.0e-30));
-    float rho = sqrt(1.0 - 1.0 / safe);
-    mat3 frame = frame_from_normal(k);
-    vec3 a = steradian_transform(frame, vec3(rho, 0.0, 0.0));
-    vec3 b = steradian_transform(frame, vec3(0.0, rho, 0.0));
-    EllipsoidOutline outline;
-    outline.center = to_center + steradian_transform(s, k * inverse_d);
-    outline.axis_a = steradian_transform(s, a);
-    outline.axis_b = steradian_transform(s, b);
-    outline.outside = d2 > 1.000001;
-    return outline;
+// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
+// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
+vec2 complex_unit(float x) {
+    float y = 0.5 * x;
+    float t = y * y;
+    float c = 1.0;
+    float s = 1.0;
+    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
+    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
+    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
+    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
+    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
+    s = y * (1.0 - t * 0.166666666666666667 * s);
+    return vec2(c * c - s * s, 2.0 * c * s);
 }
 
 // ==== inverse_trig ====
@@ -218,20 +185,648 @@ float trig_atan2_unwrapped(float y, float x) {
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
 }
 
-// ==== lambert ====
+// ==== quartic ====
 
-// The diffuse surface: the same radiance to every side.
+// Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
 
-// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+// One root of each pair, with positive imaginary part.
+struct QuarticPoles {
+    vec2 z1;
+    vec2 z2;
+};
+
+// Largest root of 4 c^3 - 3 c = x: the cosine of a third of the angle whose cosine is x, in [1/2, 1].
 //
-//   irradiance  polygon_irradiance, in [0, pi]
-float lambert_radiance(float irradiance) {
-    return irradiance * 0.318309886183790672;
+//   x        in [-1, 1]
+//
+// The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
+// at x = -1, where the root has infinite slope in x; then two steps of Newton.
+// Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
+float quartic_third_cosine(float x) {
+    float t = sqrt(max(0.5 + 0.5 * x, 0.0));
+    float c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
+    for (int i = 0; i < 2; i++) {
+        float c2 = c * c;
+        c = c - (c * (4.0 * c2 - 3.0) - x) / max(12.0 * c2 - 3.0, 1.0e-6);
+    }
+    return c;
 }
 
-// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
-float lambert_lobe(vec3 l) {
-    return max(l.z, 0.0) * 0.318309886183790672;
+// Roots of t^4 + c3 t^3 + c2 t^2 + c1 t + c0, good enough to start an iteration from.
+//
+//   c0..c3   the roots should be of the order of 1: scale the variable so that c0 = 1
+//   returns  imaginary parts at least 1.0e-3: below, the square is the noise of 24 bits
+//
+// Ferrari: with y = t + c3/4 the quartic is (y^2 + s y + a)(y^2 - s y + b). s^2, the squared distance of the pairs along
+// the real axis, is the only root of the resolvent that is not negative; all three are real, so that it is a
+// cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
+// Error: a start; float loses half the digits where pairs are nearly equal.
+// Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
+QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
+    float shift = 0.25 * c3;
+    float shift2 = shift * shift;
+    float p = c2 - 6.0 * shift2;
+    float q = c1 - 2.0 * c2 * shift + 8.0 * shift2 * shift;
+    float r = c0 - c1 * shift + c2 * shift2 - 3.0 * shift2 * shift2;
+
+    // Largest root of the resolvent z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
+    float radius2 = max(p * p + 12.0 * r, 1.0e-12);
+    float radius = sqrt(radius2);
+    float cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
+    float z = max(0.666666666666666667 * (radius * quartic_third_cosine(cosine) - p), 0.0);
+    float s = sqrt(z);
+
+    float sum = p + z;
+    float root = sqrt(max(sum * sum - 4.0 * r, 0.0));
+    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, 1.0e-18), steradian_select(q < 0.0, -root, root));
+    QuarticPoles poles;
+    poles.z1 = vec2(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
+    poles.z2 = vec2(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
+    return poles;
+}
+
+// ==== gauss_legendre ====
+
+// Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
+//
+// The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
+
+// Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
+//
+// Degenerate: a rule or node that there is not gives (1/2, 0).
+vec2 gauss_legendre_node(int n, int j) {
+    vec2 r = vec2(0.5, 0.0);
+    if (n == 1) {
+        if (j == 0) { r = vec2(0.5, 1.0); }
+    }
+    if (n == 2) {
+        if (j == 0) { r = vec2(0.211324865405187118, 0.5); }
+        if (j == 1) { r = vec2(0.788675134594812882, 0.5); }
+    }
+    if (n == 3) {
+        if (j == 0) { r = vec2(0.112701665379258311, 0.277777777777777778); }
+        if (j == 1) { r = vec2(0.5, 0.444444444444444444); }
+        if (j == 2) { r = vec2(0.887298334620741689, 0.277777777777777778); }
+    }
+    if (n == 4) {
+        if (j == 0) { r = vec2(0.069431844202973712, 0.173927422568726929); }
+        if (j == 1) { r = vec2(0.330009478207571868, 0.326072577431273071); }
+        if (j == 2) { r = vec2(0.669990521792428132, 0.326072577431273071); }
+        if (j == 3) { r = vec2(0.930568155797026288, 0.173927422568726929); }
+    }
+    if (n == 5) {
+        if (j == 0) { r = vec2(0.046910077030668004, 0.118463442528094544); }
+        if (j == 1) { r = vec2(0.230765344947158454, 0.239314335249683234); }
+        if (j == 2) { r = vec2(0.5, 0.284444444444444444); }
+        if (j == 3) { r = vec2(0.769234655052841546, 0.239314335249683234); }
+        if (j == 4) { r = vec2(0.953089922969331996, 0.118463442528094544); }
+    }
+    if (n == 6) {
+        if (j == 0) { r = vec2(0.033765242898423986, 0.085662246189585173); }
+        if (j == 1) { r = vec2(0.169395306766867743, 0.180380786524069304); }
+        if (j == 2) { r = vec2(0.380690406958401546, 0.233956967286345524); }
+        if (j == 3) { r = vec2(0.619309593041598454, 0.233956967286345524); }
+        if (j == 4) { r = vec2(0.830604693233132257, 0.180380786524069304); }
+        if (j == 5) { r = vec2(0.966234757101576014, 0.085662246189585173); }
+    }
+    if (n == 8) {
+        if (j == 0) { r = vec2(0.019855071751231884, 0.05061426814518813); }
+        if (j == 1) { r = vec2(0.10166676129318663, 0.111190517226687235); }
+        if (j == 2) { r = vec2(0.237233795041835507, 0.156853322938943644); }
+        if (j == 3) { r = vec2(0.408282678752175098, 0.181341891689180991); }
+        if (j == 4) { r = vec2(0.591717321247824902, 0.181341891689180991); }
+        if (j == 5) { r = vec2(0.762766204958164493, 0.156853322938943644); }
+        if (j == 6) { r = vec2(0.89833323870681337, 0.111190517226687235); }
+        if (j == 7) { r = vec2(0.980144928248768116, 0.05061426814518813); }
+    }
+    return r;
+}
+
+// ==== conic ====
+
+// Arcs of conics in space: the boundary integral of irradiance along them, in closed form.
+//
+// A curve u(tau) = u0 + u1 tau + u2 tau^2, seen from the origin, bounds a region of directions; its share of the region's
+// irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
+// two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
+// sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+
+// A prepared arc. In units of tau in which the poles' distances from 0 have the product 1.
+//   u0..u2      the curve
+//   begin, end  its ends in tau; equal where the arc has no length
+//   scale       the unit: tau as the caller counted it is scale times tau here
+//   z1, z2      poles: roots of |u|^2 with positive imaginary part
+//   sweep       the angles under which the poles see the arc [rad], in [0, pi]
+struct ConicArc {
+    vec3 u0;
+    vec3 u1;
+    vec3 u2;
+    float begin;
+    float end;
+    float scale;
+    vec2 z1;
+    vec2 z2;
+    vec2 sweep;
+};
+
+// d4 (z - conj z)(z - o)(z - conj o): the derivative of the quartic at its root z, from the roots. From the coefficients
+// it would cost float 5 to 40 times the error.
+//
+//   z, o     a root and the root of the other pair
+vec2 conic_slope(vec2 z, vec2 o, float d4) {
+    float x = z.x - o.x;
+    float y2 = (z.y - o.y) * (z.y + o.y);
+    float s = 2.0 * d4 * z.y;
+    return vec2(-2.0 * x * z.y, x * x - y2) * s;
+}
+
+// One step of Durand and Kerner for the root z of u.u, evaluated from the vectors: the quartic's coefficients have lost
+// the digits that small imaginary parts need.
+//
+//   returns  the new root, with positive imaginary part
+//
+// The step is at most half the way to the other root plus the height above the axis, so that no start runs away.
+vec2 conic_pole_step(ConicArc arc, vec2 z, vec2 o, float d4) {
+    vec3 re = arc.u0 + arc.u1 * z.x + arc.u2 * (z.x * z.x - z.y * z.y);
+    vec3 im = (arc.u1 + arc.u2 * (2.0 * z.x)) * z.y;
+    vec2 value = vec2(dot(re - im, re + im), 2.0 * dot(re, im));
+    vec2 step = complex_quotient(value, conic_slope(z, o, d4));
+    vec2 apart = z - o;
+    float apart2 = dot(apart, apart);
+    float longest = 0.5 * sqrt(apart2) + z.y;
+    step = step * min(longest * inversesqrt(max(dot(step, step), 1.0e-30)), 1.0);
+    bool free = apart2 > 1.0e-12 * (1.0 + dot(z, z));
+    vec2 next = z - steradian_select(free, step, vec2(0.0, 0.0));
+    return vec2(next.x, max(abs(next.y), 1.0e-9));
+}
+
+// Gauss and Seidel's sweeps over the two poles until both stand still.
+//
+// Number of sweeps: 2 or 3 at ordinary widths and views; a pole much nearer to the axis than its start comes down by half a
+// sweep, which makes up to 16 at alpha = 1.0e-4 and grazing views.
+// Error: in float, poles to 1.0e-3 of their height at least, and since steps square, mostly to rounding.
+QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
+    QuarticPoles poles = start;
+    float d4 = dot(arc.u2, arc.u2);
+    int sweeps = 16;
+    float tolerance = 1.0e-6;
+    bool moving = arc.end > arc.begin;
+    for (int i = 0; i < sweeps; i++) {
+        if (moving) {
+            vec2 z1 = conic_pole_step(arc, poles.z1, poles.z2, d4);
+            vec2 z2 = conic_pole_step(arc, poles.z2, z1, d4);
+            vec2 step1 = z1 - poles.z1;
+            vec2 step2 = z2 - poles.z2;
+            poles.z1 = steradian_select(moving, z1, poles.z1);
+            poles.z2 = steradian_select(moving, z2, poles.z2);
+            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        }
+    }
+    return poles;
+}
+
+// The angle under which a pole sees the arc [rad], in [0, pi].
+float conic_sweep(vec2 z, float begin, float end) {
+    return trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
+}
+
+// Prepares an arc.
+//
+//   u0..u2      the curve; the origin must not lie on it
+//   begin, end  ends in tau, begin <= end
+//
+// Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
+// tau = 0 as it is.
+ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
+    float least = 1.0e-12;
+    float d0 = max(dot(u0, u0), 1.0e-30);
+    float d4 = dot(u2, u2);
+    float ratio = sqrt(d0 / max(d4, least * d0));
+    ConicArc arc;
+    arc.scale = sqrt(ratio);
+    arc.u0 = u0;
+    arc.u1 = u1 * arc.scale;
+    arc.u2 = steradian_select(d4 > least * d0, u2, u0 * sqrt(least)) * ratio;
+    arc.begin = begin / arc.scale;
+    arc.end = end / arc.scale;
+
+    float inverse = 1.0 / max(dot(arc.u2, arc.u2), 1.0e-30);
+    QuarticPoles poles = quartic_poles_approximate(
+        dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
+        (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
+    poles = conic_polish_poles(arc, poles);
+    arc.z1 = poles.z1;
+    arc.z2 = poles.z2;
+    arc.sweep = vec2(conic_sweep(arc.z1, arc.begin, arc.end), conic_sweep(arc.z2, arc.begin, arc.end));
+    return arc;
+}
+
+// A place on an arc by its share of the angle C under which both poles together see it: in C the integrand is smooth
+// wherever the arc passes.
+//   tau      between the arc's begin and end
+//   density  dC/dtau
+struct ConicNode {
+    float tau;
+    float density;
+};
+
+// The place where C is a given share of its way from the arc's begin to its end.
+//
+//   share    in [0, 1]
+//
+// C(tau) is the argument of (b1 + i (tau - p1))(b2 + i (tau - p2)) with poles p + i b, so that tau is the root of a quadratic.
+ConicNode conic_node(ConicArc arc, float share) {
+    float p1 = arc.z1.x;
+    float p2 = arc.z2.x;
+    float b1 = arc.z1.y;
+    float b2 = arc.z2.y;
+    vec2 start = complex_product(vec2(b1, arc.begin - p1), vec2(b2, arc.begin - p2));
+    float total = arc.sweep.x + arc.sweep.y;
+    // The angle is in [0, 2 pi]: half a turn less, and the sign.
+    vec2 turned = complex_product(complex_sign(start), -complex_unit(share * total - steradian_pi()));
+    float s = turned.y;
+    float c = turned.x;
+    float linear_term = c * (b1 + b2) - s * (p1 + p2);
+    float constant_term = s * p1 * p2 - c * (b1 * p2 + b2 * p1) - s * b1 * b2;
+    float root = sqrt(max(linear_term * linear_term - 4.0 * s * constant_term, 0.0));
+    bool positive = linear_term >= 0.0;
+    float top = steradian_select(positive, -2.0 * constant_term, root - linear_term);
+    float bottom = steradian_select(positive, linear_term + root, 2.0 * s);
+    bool usable = abs(bottom) > 1.0e-30;
+    float tau = steradian_select(usable, top / steradian_select(usable, bottom, 1.0), arc.begin);
+    ConicNode node;
+    node.tau = clamp(tau, arc.begin, arc.end);
+    float x1 = node.tau - p1;
+    float x2 = node.tau - p2;
+    node.density = b1 / (x1 * x1 + b1 * b1) + b2 / (x2 * x2 + b2 * b2);
+    return node;
+}
+
+// Half of INT u x u' / |u|^2 dtau as residues.
+//
+//   z, o     a pole and the other one
+//   sweep    the angle under which z sees the arc
+vec3 conic_residue(ConicArc arc, vec2 z, vec2 o, float sweep) {
+    vec3 n0 = cross(arc.u0, arc.u1);
+    vec3 n1 = cross(arc.u0, arc.u2) * 2.0;
+    vec3 n2 = cross(arc.u1, arc.u2);
+    vec3 re = n0 + n1 * z.x + n2 * (z.x * z.x - z.y * z.y);
+    vec3 im = (n1 + n2 * (2.0 * z.x)) * z.y;
+    float x0 = arc.begin - z.x;
+    float x1 = arc.end - z.x;
+    float y2 = z.y * z.y;
+    vec2 logarithm = vec2(0.5 * log((x1 * x1 + y2) / (x0 * x0 + y2)), sweep);
+    vec2 factor = complex_quotient(logarithm, conic_slope(z, o, dot(arc.u2, arc.u2)));
+    return re * factor.x - im * factor.y;
+}
+
+// The same by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+vec3 conic_vector_approximate(ConicArc arc) {
+    vec3 sum = vec3(0.0, 0.0, 0.0);
+    float total = arc.sweep.x + arc.sweep.y;
+    for (int i = 0; i < 16; i++) {
+        int part = i / 8;
+        vec2 rule = gauss_legendre_node(8, i - 8 * part);
+        ConicNode node = conic_node(arc, 0.5 * (rule.x + float(part)));
+        vec3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+        vec3 du = arc.u1 + arc.u2 * (2.0 * node.tau);
+        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), 1.0e-30)));
+    }
+    return sum;
+}
+
+// An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
+//
+// Error: see docs/accuracy.md, "conic arc".
+vec3 conic_vector(ConicArc arc) {
+    vec3 e = conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
+    // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
+    // quadrature, whose nearest singularity recedes as poles meet, is good to the digits that remain.
+    float close = 1.0e-2;
+    vec2 apart = arc.z1 - arc.z2;
+    bool meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
+    if (meet) {
+        e = steradian_select(meet, conic_vector_approximate(arc), e);
+    }
+    return e;
+}
+
+// ==== ellipse ====
+
+// Disks and ellipses as lights, and the outlines of spheres and ellipsoids (ellipsoid.glsl), which are ellipses.
+//
+// An ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point, is a conic in tan(t/2): its irradiance
+// is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
+// lobe is sharp.
+// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
+
+// An ellipse, seen from the shading point.
+struct Ellipse {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+};
+
+// Turns the axes so that the walk with growing t is in walk order.
+//
+//   axis_a, axis_b  any two conjugate half axes; they need not be orthogonal
+Ellipse ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b) {
+    Ellipse e;
+    e.center = center;
+    e.axis_a = axis_a;
+    bool reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
+    e.axis_b = steradian_select(reversed, -axis_b, axis_b);
+    return e;
+}
+
+// An arc of the ellipse about t = 0 (begin and end are tan(t/2)).
+ConicArc ellipse_arc(Ellipse e, float begin, float end) {
+    return conic_prepare(e.center + e.axis_a, e.axis_b * 2.0, e.center - e.axis_a, begin, end);
+}
+
+// Irradiance vector of the part of the ellipse above the horizon [rad]; z is the irradiance for radiance 1, in [0, pi].
+//
+//   e        of ellipse_prepare; the shading point is not in its plane
+//
+// Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
+// Error: see docs/accuracy.md, "ellipse irradiance". Exact: 3 arcs of the ellipse and one of the horizon.
+vec3 ellipse_irradiance_vector(Ellipse e) {
+    // Axes from the highest place: axis_a up the ellipse, axis_b level.
+    vec2 up = vec2(e.axis_a.z, e.axis_b.z);
+    float rise = sqrt(dot(up, up));
+    vec2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, 1.0e-30)), vec2(1.0, 0.0));
+    Ellipse level;
+    level.center = e.center;
+    level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
+    level.axis_b = e.axis_b * turn.x - e.axis_a * turn.y;
+
+    // Above the horizon: |tan(t/2)| <= limit.
+    float top = e.center.z + rise;
+    float bottom = rise - e.center.z;
+    bool shows = top > 0.0;
+    bool cut = bottom > 0.0 && shows;
+    float limit = sqrt(max(top, 0.0) / max(bottom, 1.0e-30));
+    limit = steradian_select(cut, limit, steradian_select(shows, 1.0e15, 0.0));
+    float upper = min(limit, 1.0);
+    vec3 sum = conic_vector(ellipse_arc(level, -upper, upper));
+    bool more = limit > 1.0;
+    if (more) {
+        Ellipse back;
+        back.center = level.center;
+        back.axis_a = -level.axis_a;
+        back.axis_b = -level.axis_b;
+        float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
+        lower = steradian_select(limit > 1.0e14, 0.0, lower);
+        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+    }
+    if (cut) {
+        // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
+        float inverse = 1.0 / (1.0 + limit * limit);
+        vec3 middle = level.center + level.axis_a * ((1.0 - limit * limit) * inverse);
+        vec3 aside = level.axis_b * (2.0 * limit * inverse);
+        vec3 down = middle + aside;
+        vec3 back_up = middle - aside;
+        float angle = trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
+        sum = steradian_select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
+    }
+    return vec3(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
+}
+
+// A polygon about an ellipse: where its corners gather.
+//   ellipse  prepared
+//   turn     (cos, sin) of the t of the corner nearest to the lobe
+//   beta     1: corners at equal steps of t; below, they gather about that corner
+struct EllipseFan {
+    Ellipse ellipse;
+    vec2 turn;
+    float beta;
+};
+
+// Equal steps of t.
+EllipseFan ellipse_fan(Ellipse e) {
+    EllipseFan fan;
+    fan.ellipse = e;
+    fan.turn = vec2(1.0, 0.0);
+    fan.beta = 1.0;
+    return fan;
+}
+
+// Corners that gather where the lobe's axis meets the ellipse's rim.
+//
+//   r        unit axis of the lobe
+//   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
+//
+// A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
+// the lobe's width over the rim's size say.
+// Source: this project; table of errors in docs/ggx.md.
+EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, float width) {
+    vec3 normal = cross(e.axis_a, e.axis_b);
+    float n2 = max(dot(normal, normal), 1.0e-30);
+    float height = dot(e.center, normal);  // > 0 in walk order
+    float along = dot(r, normal);
+    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    vec3 across = r * height - e.center * along;
+    vec2 place = vec2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
+    float size2 = dot(place, place);
+    bool off_centre = size2 > 1.0e-20;
+    EllipseFan fan;
+    fan.ellipse = e;
+    fan.turn = steradian_select(off_centre, place * inversesqrt(max(size2, 1.0e-20)), vec2(1.0, 0.0));
+    vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
+    vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
+    float reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
+    float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), 1.0e-30));
+    float beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
+    fan.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
+    return fan;
+}
+
+// (cos t, sin t) of corner k of count, counted from the middle one.
+vec2 ellipse_corner(EllipseFan fan, int k, int count) {
+    float half_angle = steradian_pi() * (float(k) / float(count) - 0.5);
+    vec2 u = complex_unit(half_angle);
+    vec2 w = complex_sign(vec2(u.x, fan.beta * u.y));
+    return complex_product(complex_product(w, w), fan.turn);
+}
+
+// The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
+float ellipse_gap(vec2 from_corner, vec2 to_corner) {
+    float c = dot(from_corner, to_corner);
+    float s = from_corner.x * to_corner.y - from_corner.y * to_corner.x;
+    float angle = trig_atan2_unwrapped(s, c);
+    angle = clamp(angle, 0.0, 2.6);
+    float sine = steradian_select(c > -0.856888753368947234 && s > 0.0, s, 0.515501371821464235);
+    return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+// Error: see docs/accuracy.md, "ellipse polygons".
+vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
+    vec2 before = ellipse_corner(fan, k - 1, count);
+    vec2 here = ellipse_corner(fan, k, count);
+    vec2 after = ellipse_corner(fan, k + 1, count);
+    float radius = sqrt(0.5 * (ellipse_gap(before, here) + ellipse_gap(here, after)));
+    Ellipse e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
+// ==== frame ====
+
+// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// vector into it, transform(frame, l) back.
+
+// Orthonormal right-handed frame with z along n and x, y in any direction.
+//
+//   n        unit normal
+//
+// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
+mat3 frame_from_normal(vec3 n) {
+    float s = steradian_select(n.z < 0.0, -1.0, 1.0);
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    vec3 y = vec3(b, s + n.y * n.y * a, -n.y);
+    return mat3(x, y, n);
+}
+
+// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+//
+//   n, v     unit normal and view
+//
+// Degenerate: a view along the normal (closer than 1e-6) gives any x.
+mat3 frame_from_normal_and_view(vec3 n, vec3 v) {
+    mat3 other = frame_from_normal(n);
+    vec3 t = v - n * dot(n, v);
+    float t2 = dot(t, t);
+    vec3 x = steradian_select(t2 > 1.0e-12, t * inversesqrt(max(t2, 1.0e-12)), steradian_transform(other, vec3(1.0, 0.0, 0.0)));
+    return mat3(x, cross(n, x), n);
+}
+
+// ==== ellipsoid ====
+
+// Spheres and ellipsoids as lights: their outline, seen from a point, is a planar ellipse.
+
+// The ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point [m], and whether it can be seen.
+struct EllipsoidOutline {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+    bool outside;  // false: the point is inside, no light
+};
+
+// Outline of the ellipsoid c + S u, |u| = 1, whose cone of tangents meets the shading point.
+//
+//   to_center  c - p, from the shading point p to the centre
+//   s          S, half axes as columns
+//   inverse    S^-1, its columns
+//
+// Degenerate: a point inside or on the ellipsoid gives outside = false and a finite outline.
+// Source: the unit sphere's outline from distance d is the circle of radius sqrt(1 - 1/d^2) at height 1/d above the
+// centre; S maps it.
+EllipsoidOutline ellipsoid_outline(vec3 to_center, mat3 s, mat3 inverse) {
+    vec3 p = -steradian_transform(inverse, to_center);
+    float d2 = dot(p, p);
+    float safe = max(d2, 1.000001);
+    float inverse_d = inversesqrt(safe);
+    vec3 k = p * inversesqrt(max(d2, 1.0e-30));
+    float rho = sqrt(1.0 - 1.0 / safe);
+    mat3 frame = frame_from_normal(k);
+    vec3 a = steradian_transform(frame, vec3(rho, 0.0, 0.0));
+    vec3 b = steradian_transform(frame, vec3(0.0, rho, 0.0));
+    EllipsoidOutline outline;
+    outline.center = to_center + steradian_transform(s, k * inverse_d);
+    outline.axis_a = steradian_transform(s, a);
+    outline.axis_b = steradian_transform(s, b);
+    outline.outside = d2 > 1.000001;
+    return outline;
+}
+
+// ==== ggx_closed_form ====
+
+// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
+// Fresnel (ggx_cubature.glsl adds both).
+//
+// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
+// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
+// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
+//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+//
+//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//
+// docs/ggx.md has the derivation.
+// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+
+// What the lobe's integrals need of the view and the surface.
+//   v        unit view, z > 0
+//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
+//   ax, ay   widths: roughness squared, at least 1.0e-4
+//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
+struct GgxView {
+    vec3 v;
+    vec3 w;
+    float ax;
+    float ay;
+    float masking;
+};
+
+// Prepares a view.
+//
+// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
+GgxView ggx_view(vec3 v, float ax, float ay) {
+    GgxView view;
+    float z = max(v.z, 1.0e-6);
+    view.v = vec3(v.x, v.y, z);
+    view.w = vec3(ax * v.x, ay * v.y, z);
+    view.ax = ax;
+    view.ay = ay;
+    view.masking = sqrt(dot(view.w, view.w)) / z;
+    return view;
+}
+
+// One edge of a light as an arc in stretched half vector space.
+//
+//   a, b     unit directions of the ends, in walk order, not below the horizon
+//
+// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
+// is further from it.
+// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
+ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
+    vec3 chord = b - a;
+    vec3 sum = a + b;
+    float chord2 = dot(chord, chord);
+    float sum2 = dot(sum, sum);
+    bool usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
+    vec3 middle = sum * inversesqrt(max(sum2, 1.0e-30));
+    vec3 along = chord * inversesqrt(max(chord2, 1.0e-36));
+    float half_sine = 0.5 * sqrt(chord2);
+    float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
+
+    bool from_end = dot(middle, view.v) > 0.9;
+    float side = steradian_select(from_end, steradian_select(dot(chord, view.v) > 0.0, -1.0, 1.0), 0.0);
+    float turn_cosine = steradian_select(from_end, half_cosine, 1.0);
+    vec3 base = middle * turn_cosine + along * (side * half_sine);
+    vec3 q = along * turn_cosine - middle * (side * half_sine);
+    float reach = steradian_select(usable, half_sine / (half_cosine + steradian_select(from_end, 0.0, 1.0)), 0.0);
+
+    float x = 1.0 / view.ax;
+    float y = 1.0 / view.ay;
+    vec3 u0 = view.v + base;
+    vec3 u2 = view.v - base;
+    return conic_prepare(
+        vec3(u0.x * x, u0.y * y, u0.z), vec3(q.x * x, q.y * y, q.z) * 2.0, vec3(u2.x * x, u2.y * y, u2.z),
+        steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+
+// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+//
+//   e        sum over the edges of conic_vector, negated where the light is seen from behind
+//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
+float ggx_unshadowed(GgxView view, vec3 e) {
+    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
 }
 
 // ==== microfacet ====
@@ -317,6 +912,202 @@ float ggx_lobe(vec3 l, vec3 v, float ax, float ay) {
     return microfacet_lobe_unshadowed(ggx_distribution(h, ax, ay) * g, l, v);
 }
 
+// ==== ggx_cubature ====
+
+// Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
+//
+// Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
+//   GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
+//   for each edge: c = ggx_cubature_edge(c, edge, extra_nodes);
+//   vec2 r = ggx_cubature_finish(c);         // or, without the second walk: ggx_draft(view, e, smith, facing)
+//   radiance = ggx_radiance(r, f0, f90)      // per channel
+//
+// In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
+// equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
+// The measure itself is exact; only the smooth factor G2 F is sampled.
+
+// The state of the second walk.
+//   centre          us
+//   amount          what the distribution alone sends (ggx_unshadowed)
+//   extent          the length of E
+//   smith           1 with shadowing, 0 without
+//   facing          -1 where the light is seen from behind
+//   weight          sum of the weights; weighted: of weight times (G2, G2 (1 - v.h)^5)
+//   centre_weight   share of the weights that belongs to the centre
+//   at_centre       (G2, G2 (1 - v.h)^5) there
+//   lowest, highest of all values with weight
+struct GgxCubature {
+    GgxView view;
+    vec3 centre;
+    float amount;
+    float extent;
+    float smith;
+    float facing;
+    float weight;
+    float centre_weight;
+    vec2 weighted;
+    vec2 at_centre;
+    vec2 lowest;
+    vec2 highest;
+};
+
+// Shadowing, and shadowing times Schlick's (1 - v.h)^5, at a direction of stretched half vector space.
+//
+//   u        unit
+//   smith    1 with shadowing, 0 without
+//   returns  (0, 0) where the mirrored light is not above the surface
+vec2 ggx_shadowing_and_fresnel(GgxView view, vec3 u, float smith) {
+    vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
+    h = h * inversesqrt(max(dot(h, h), 1.0e-30));
+    float v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
+    vec3 l = h * (2.0 * v_dot_h) - view.v;
+    float lz = max(l.z, 0.0);
+    float shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), 1.0e-30);
+    float g = steradian_select(l.z > 0.0, 1.0 + smith * (shadowing - 1.0), 0.0);
+    float x = 1.0 - v_dot_h;
+    float x2 = x * x;
+    return vec2(g, g * (x2 * x2 * x));
+}
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   smith    1.0: height-correlated shadowing; 0.0: none
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+GgxCubature ggx_cubature_begin(GgxView view, vec3 e, float smith, float facing) {
+    GgxCubature c;
+    vec3 inward = e * facing;
+    float length2 = dot(inward, inward);
+    bool usable = length2 > 1.0e-36;
+    c.view = view;
+    c.centre = steradian_select(usable, inward * inversesqrt(max(length2, 1.0e-36)), vec3(0.0, 0.0, 1.0));
+    c.amount = steradian_select(usable, ggx_unshadowed(view, inward), 0.0);
+    c.extent = sqrt(length2);
+    c.smith = smith;
+    c.facing = facing;
+    c.weight = 0.0;
+    c.centre_weight = 0.0;
+    c.weighted = vec2(0.0, 0.0);
+    c.at_centre = ggx_shadowing_and_fresnel(view, c.centre, smith);
+    c.lowest = c.at_centre;
+    c.highest = c.at_centre;
+    return c;
+}
+
+// Adds one node.
+//
+//   u        unit direction in stretched half vector space
+//   weight   0 for a lane that does not have this node
+GgxCubature ggx_cubature_add(GgxCubature c, vec3 u, float weight) {
+    GgxCubature next = c;
+    float o = weight * max(dot(c.view.w, u), 0.0);
+    vec2 g = ggx_shadowing_and_fresnel(c.view, u, c.smith);
+    bool counts = abs(o) > 0.0;
+    next.weight = c.weight + o;
+    next.weighted = c.weighted + g * o;
+    next.lowest = steradian_select(counts, vec2(min(c.lowest.x, g.x), min(c.lowest.y, g.y)), c.lowest);
+    next.highest = steradian_select(counts, vec2(max(c.highest.x, g.x), max(c.highest.y, g.y)), c.highest);
+    return next;
+}
+
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
+vec2 ggx_rule(float n, int j) {
+    vec2 r = gauss_legendre_node(1, j);
+    for (int k = 2; k <= 6; k++) {
+        r = steradian_select(n > float(k) - 0.5, gauss_legendre_node(k, j), r);
+    }
+    return r;
+}
+
+// Adds the nodes of one edge.
+//
+//   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
+//
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
+    GgxCubature next = c;
+    float total = edge.sweep.x + edge.sweep.y;
+    float n = 1.0 + steradian_select(total < 0.25, 0.0, 1.0) + steradian_select(total < 0.8, 0.0, 1.0) + steradian_select(total < 1.6, 0.0, 1.0) + float(extra);
+    bool fine = total >= 0.5;
+    if (extra > 0) {
+        fine = total > -1.0;
+    }
+    for (int j = 0; j < 4 + extra; j++) {
+        bool present = n > float(j) + 0.5 && total > 0.0;
+        if (present) {
+            vec2 rule = ggx_rule(n, j);
+            ConicNode node = conic_node(edge, rule.x);
+            vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+            vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
+            float inverse2 = 1.0 / max(dot(u, u), 1.0e-30);
+            vec3 rim = u * sqrt(inverse2);
+            float rim_cosine = dot(rim, c.centre);
+            vec3 out_of_centre = rim - c.centre * rim_cosine;
+            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), 1.0e-30));
+            float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+            om = steradian_select(present, om, 0.0);
+
+            float first = steradian_select(fine, 0.355051025721682190, 0.666666666666666667);
+            float first_weight = steradian_select(fine, 0.512485826188421615, 0.75);
+            float centre_weight = steradian_select(fine, 0.111111111111111111, 0.25);
+            float cosine = 1.0 - (1.0 - rim_cosine) * first;
+            float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+            next = ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
+            next.centre_weight = next.centre_weight + om * centre_weight;
+            if (fine && present) {
+                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
+                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+                om = steradian_select(fine, om * 0.376403062700467274, 0.0);
+                next = ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            }
+        }
+    }
+    return next;
+}
+
+// Limits what leaves: with shadowing no lobe sends more than it gets.
+//
+//   mean     means of (G2, G2 (1 - v.h)^5)
+vec2 ggx_limited(float amount, vec2 mean, float smith) {
+    float whole = amount * mean.x;
+    whole = steradian_select(smith > 0.5, min(whole, 1.0), whole);
+    return vec2(whole, clamp(amount * mean.y, 0.0, whole));
+}
+
+// Ends the second walk.
+//
+//   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
+//
+// Degenerate: weights that cancel leave the centre's value.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+vec2 ggx_cubature_finish(GgxCubature c) {
+    // The centre's values are known all along, its weight only now.
+    float o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
+    float weight = c.weight + o;
+    bool usable = weight > 1.0e-9 * c.extent;
+    float scale = 1.0 / steradian_select(usable, weight, 1.0);
+    vec2 mean = (c.weighted + c.at_centre * o) * scale;
+    mean = vec2(clamp(mean.x, c.lowest.x, c.highest.x), clamp(mean.y, c.lowest.y, c.highest.y));
+    mean = steradian_select(usable, mean, c.at_centre);
+    return ggx_limited(c.amount, mean, c.smith);
+}
+
+// Shadowing and Fresnel at the centre only: one walk. Arguments as ggx_cubature_begin, result as ggx_cubature_finish.
+vec2 ggx_draft(GgxView view, vec3 e, float smith, float facing) {
+    GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
+    return ggx_limited(c.amount, c.at_centre, smith);
+}
+
+// Radiance of one channel, for radiance 1.
+//
+//   r        of ggx_cubature_finish or ggx_draft
+//   f0, f90  Schlick's reflectances
+float ggx_radiance(vec2 r, float f0, float f90) {
+    return f0 * (r.x - r.y) + f90 * r.y;
+}
+
 // ==== phong ====
 
 // Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
@@ -351,6 +1142,542 @@ float phong_lobe(vec3 l, vec3 r, float n) {
 //   h        unit half vector, shading frame
 float blinn_phong_distribution(vec3 h, float n) {
     return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+}
+
+// ==== moment ====
+
+// Axial moments of spherical polygons: the integral of max(u.r, 0)^n over a light, for the Phong lobe about r.
+//
+// With m = n + 1, theta the angle from r and psi the azimuth about r,
+//     m * moment = closed integral over the outline of (1 - max(cos theta, 0)^m) dpsi
+// for any real n > -1, as long as -r is not inside (docs/moments.md derives it). No parity of n, no solid angle, no
+// vertices on the lobe's equator. On an edge, phi is the angle along its great circle from the foot, the point
+// nearest to r, where u.r = c; s = sin of the angle from r to the circle's plane; x = u.r = c cos phi and
+// y = c sin phi. The edge's share is
+//     sign(s) * ( |s| * integral of (1 - x^m)/(1 - x^2) dphi  over the part in front of the lobe's equator
+//                 + the azimuth that the part behind sweeps ).
+// moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
+//
+// Frame: any; r is the unit axis. Edges in walk order (kernels/polygon.glsl), clipped to the surface's horizon
+// (kernels/horizon_clip.glsl) before, so that -r cannot be inside a light.
+// Source: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena", 1995; Lecocq,
+// Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017. The form without
+// parity is this project's own.
+
+// One edge, seen from the lobe's axis.
+//   side            sign of s, +1 or -1; 0 for an edge without length
+//   s, c            |s| and the cosine that belongs to it
+//   x0, y0, x1, y1  the ends of the part in front, (c cos phi, c sin phi); equal where there is none
+//   log_c           -log(c^2), accurate for c near 1
+//   swept           azimuth that the part behind sweeps, positive [rad]
+struct MomentEdge {
+    float side;
+    float s;
+    float c;
+    float x0;
+    float y0;
+    float x1;
+    float y1;
+    float log_c;
+    float swept;
+};
+
+// log(1 + z) for z >= 0. Error: relative 3e-7 in float, 1e-13 in double.
+float moment_log_1_plus(float z) {
+    float near = 0.25;
+    // Twice the inverse hyperbolic tangent of t; the next term is t^10 / 11.
+    float t = z / (2.0 + z);
+    float t2 = t * t;
+    float series = 2.0 * t * (1.0 + t2 * (0.333333333333333333 + t2 * (0.2 + t2 * (0.142857142857142857 + t2 * 0.111111111111111111))));
+    return steradian_select(z < near, series, log(1.0 + z));
+}
+
+// 1 - exp(-x) for x >= 0. Error: relative 3e-7 in float, 1e-13 in double.
+float moment_1_minus_exp(float x) {
+    float near = 0.25;
+    // Taylor, nested; the next term is x^6 / 5040.
+    float series = x * (1.0 - 0.5 * x * (1.0 - 0.333333333333333333 * x * (1.0 - 0.25 * x * (1.0 - 0.2 * x * (1.0 - 0.166666666666666667 * x)))));
+    return steradian_select(x < near, series, 1.0 - exp(-x));
+}
+
+// Angle in [0, pi] from the direction (w x0, y0) to (w x1, y1): the definite integral of atan(tan(phi) / w).
+float moment_angle(float w, float x0, float y0, float x1, float y1) {
+    return trig_atan2_unwrapped(w * (x0 * y1 - x1 * y0), w * w * x0 * x1 + y0 * y1);
+}
+
+// -log(1 - s2), from s2 where it is small and from c2 = 1 - s2 where that is. Error: relative 3e-6 in float, 1e-13.
+float moment_minus_log_cosine2(float s2, float c2) {
+    float near = 0.05;
+    // Taylor; the next term is s2^7 / 7.
+    float series = s2 * (1.0 + s2 * (0.5 + s2 * (0.333333333333333333 + s2 * (0.25 + s2 * (0.2 + s2 * 0.166666666666666667)))));
+    return steradian_select(s2 < near, series, -log(c2));
+}
+
+// Prepares one edge.
+//
+//   a, b     unit directions of the edge's ends, in walk order
+//   r        unit axis of the lobe
+//
+// Degenerate: a = b, a = -b or a zero vector gives an edge that adds nothing. An axis within 1e-3 of the normal of
+// the edge's plane sees the whole edge near its equator, where the integrand is 1: all of it counts as swept.
+MomentEdge moment_edge(vec3 a, vec3 b, vec3 r) {
+    float pole2 = 1.0e-6;
+    vec3 n = cross(a, b);
+    float n2 = dot(n, n);
+    bool has_length = n2 > 1.0e-30;
+    n = n * inversesqrt(max(n2, 1.0e-30));
+    float s = dot(n, r);
+    vec3 q = cross(n, r);
+    // The share vanishes with s, like s sqrt(n/2) in the highlight: a floor of 1e-10 would show there.
+    float s2 = clamp(s * s, 1.0e-30, 1.0);
+    float c2 = clamp(dot(q, q), pole2, 1.0);
+
+    MomentEdge edge;
+    edge.side = steradian_select(has_length, steradian_select(s < 0.0, -1.0, 1.0), 0.0);
+    edge.s = s2 * inversesqrt(s2);
+    edge.c = c2 * inversesqrt(c2);
+    edge.log_c = moment_minus_log_cosine2(s2, c2);
+    float x0 = dot(a, r);
+    float y0 = dot(a, q);
+    float x1 = dot(b, r);
+    float y1 = dot(b, q);
+    edge.x0 = x0;
+    edge.y0 = y0;
+    edge.x1 = x1;
+    edge.y1 = y1;
+    edge.swept = 0.0;
+    bool behind0 = x0 <= 0.0;
+    bool behind1 = x1 <= 0.0;
+    bool pole = x0 * x0 + y0 * y0 < pole2;
+    if (behind0 || behind1 || pole) {
+        // The lobe's equator cuts the circle at phi = -pi/2 and pi/2.
+        bool none = (behind0 && behind1) || pole;
+        edge.x0 = steradian_select(behind0 || none, 0.0, x0);
+        edge.y0 = steradian_select(none, edge.c, steradian_select(behind0, -edge.c, y0));
+        edge.x1 = steradian_select(behind1 || none, 0.0, x1);
+        edge.y1 = steradian_select(behind1 || none, edge.c, y1);
+        float whole = moment_angle(edge.s, x0, y0, x1, y1);
+        float in_front = moment_angle(edge.s, edge.x0, edge.y0, edge.x1, edge.y1);
+        float swept = steradian_select(none, whole, max(whole - in_front, 0.0));
+        if (pole) {
+            float arc = trig_atan2(sqrt(n2), dot(a, b));
+            swept = steradian_select(pole, arc, swept);
+        }
+        edge.swept = steradian_select(behind0 || behind1 || pole, swept, 0.0);
+    }
+    return edge;
+}
+
+// The edge's share of m times the moment.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, by any method
+float moment_edge_share(MomentEdge edge, float front) {
+    return edge.side * (front + edge.swept);
+}
+
+// Radiance of an energy-normalised Phong lobe of albedo 1 under radiance 1, in [0, 1].
+//
+//   sum      of the edges' shares
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Source: Lecocq et al. 2017, eq. 10: (n + 1)/(2 pi) times the moment; without foreshortening.
+float moment_phong_radiance(float sum, bool reversed) {
+    return clamp(steradian_select(reversed, -sum, sum) * 0.159154943091895336, 0.0, 1.0);
+}
+
+// ==== moment_quadrature ====
+
+// The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
+//
+// The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
+// subdivides moment_quadrature_piece until it converges (source/moment/exact_moment.cpp); moment_quadrature_front
+// is the fixed rule, 14 nodes for each side of the foot.
+// The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
+// Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+
+// What the integrand needs of an edge and a lobe.
+//   t0, t1   ends of the part in front
+struct MomentQuadrature {
+    float m;
+    float s2;
+    float c2;
+    float kap;
+    float w;
+    float t0;
+    float t1;
+};
+
+// tan(u/2) of the direction (w x, y), x >= 0.
+float moment_quadrature_parameter(float w, float x, float y) {
+    float wx = w * x;
+    return clamp(y / max(wx + sqrt(wx * wx + y * y), 1.0e-18), -1.0, 1.0);
+}
+
+// Prepares the integrand of one edge for a lobe of exponent n.
+MomentQuadrature moment_quadrature_prepare(MomentEdge edge, float n) {
+    MomentQuadrature q;
+    q.m = n + 1.0;
+    q.s2 = edge.s * edge.s;
+    q.c2 = edge.c * edge.c;
+    q.kap = sqrt(moment_1_minus_exp(0.5 * q.m * edge.log_c));
+    q.w = edge.s / q.kap;
+    q.t0 = moment_quadrature_parameter(q.w, edge.x0, edge.y0);
+    q.t1 = moment_quadrature_parameter(q.w, edge.x1, edge.y1);
+    return q;
+}
+
+// Both integrands at t, with du/dt included.
+//   moment   |s| (1 - x^m)/(1 - x^2) dphi = kap E du, E = w^2 (1 - x^m)/Q, Q = s^2 cos^2 u + w^2 sin^2 u
+//   power    x^m dphi
+struct MomentIntegrands {
+    float moment;
+    float power;
+};
+
+// The integrands at one t.
+MomentIntegrands moment_quadrature_integrands(MomentQuadrature q, float t) {
+    float t2 = t * t;
+    float d = 1.0 / (1.0 + t2);
+    float cos_u = max((1.0 - t2) * d, 1.0e-15);
+    float sin_u = 2.0 * t * d;
+    float cos2 = cos_u * cos_u;
+    float wsin2 = q.w * q.w * sin_u * sin_u;
+    float Q = q.s2 * cos2 + wsin2;
+    float exponent = 0.5 * q.m * moment_log_1_plus(Q / (q.c2 * cos2));  // -log(x^m)
+    MomentIntegrands result;
+    result.moment = 2.0 * d * q.kap * q.w * q.w * moment_1_minus_exp(exponent) / Q;
+    result.power = 2.0 * d * q.w * exp(-exponent) / (cos2 + wsin2);
+    return result;
+}
+
+// Adds one pair of nodes at mid - offset and mid + offset.
+MomentIntegrands moment_quadrature_pair(MomentIntegrands sum, MomentQuadrature q, float mid, float offset, float weight) {
+    MomentIntegrands a = moment_quadrature_integrands(q, mid - offset);
+    MomentIntegrands b = moment_quadrature_integrands(q, mid + offset);
+    MomentIntegrands next;
+    next.moment = sum.moment + weight * (a.moment + b.moment);
+    next.power = sum.power + weight * (a.power + b.power);
+    return next;
+}
+
+// Both integrals from t = low to t = high.
+MomentIntegrands moment_quadrature_piece(MomentQuadrature q, float low, float high) {
+    float mid = 0.5 * (low + high);
+    float h = 0.5 * (high - low);
+    MomentIntegrands sum;
+    sum.moment = 0.0;
+    sum.power = 0.0;
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.986283808696812339, h * 0.035119460331751863);
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.928434883663573517, h * 0.080158087159760210);
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.827201315069764993, h * 0.121518570687903185);
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.687292904811685470, h * 0.157203167158193535);
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.515248636358154092, h * 0.185538397477937814);
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.319112368927889760, h * 0.205198463721295604);
+    sum = moment_quadrature_pair(sum, q, mid, h * 0.108054948707343662, h * 0.215263853463157790);
+    return sum;
+}
+
+// Both integrals over the part in front of an edge.
+//   moment   |s| times the integral of (1 - x^m)/(1 - x^2) dphi, m = n + 1
+//   power    the integral of x^m dphi
+//
+// Error: see docs/accuracy.md, "phong quadrature".
+MomentIntegrands moment_quadrature_front(MomentEdge edge, float n) {
+    MomentQuadrature q = moment_quadrature_prepare(edge, n);
+    MomentIntegrands to0 = moment_quadrature_piece(q, 0.0, q.t0);
+    MomentIntegrands to1 = moment_quadrature_piece(q, 0.0, q.t1);
+    MomentIntegrands result;
+    result.moment = max(to1.moment - to0.moment, 0.0);
+    result.power = max(to1.power - to0.power, 0.0);
+    return result;
+}
+
+// ==== moment_series ====
+
+// The Phong lobe's boundary integral in constant time: the matched ellipsoid and its cosine series.
+//
+// The integrand (1 - x^m)/(1 - x^2) is compared with that of the ellipsoid which has the same peak and the same
+// far tail. In the ellipsoid's own angle u, tan u = tan(phi)/w, w = |s|/kap, kap^2 = 1 - c^m,
+//     |s| * integral of the integrand dphi = kap * integral of E(u) du,
+// exactly; E is even, periodic in pi, 1 at both ends, and within 0.3 of 1 between: a few cosines give it. Their
+// amplitudes depend on kap^2 and 1/m alone and carry the factor 1 - kap^2 = c^m, so that the error vanishes away
+// from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
+// Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
+// Source: this project (docs/moments.md).
+
+// A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
+struct MomentSeries {
+    float m;
+    vec4 b0;
+    vec4 b1;
+    vec4 b2;
+    vec4 b3;
+};
+
+// The series of high quality: two harmonics more, each a quintic; low holds its first three coefficients.
+struct MomentSeriesHigh {
+    float m;
+    vec3 low0;
+    vec3 high0;
+    vec3 low1;
+    vec3 high1;
+    vec3 low2;
+    vec3 high2;
+    vec3 low3;
+    vec3 high3;
+    vec3 low4;
+    vec3 high4;
+    vec3 low5;
+    vec3 high5;
+};
+
+// The series of the lobe of exponent n. Prepare once per lobe.
+// Largest error 2.2e-04 of the full lobe for a piece of an edge that begins at the foot.
+MomentSeries moment_series_prepare(float n) {
+    float g = 1.0 / (n + 1.0);
+    MomentSeries series;
+    series.m = n + 1.0;
+    series.b0 = vec4(
+        0.12557 + g * (-0.27563 + g * 0.04870),
+        0.07372 + g * (-0.19343 + g * 0.08837),
+        -0.11704 + g * (0.36657 - g * 0.25594),
+        0.14769 + g * (-0.43202 + g * 0.26283));
+    series.b1 = vec4(
+        -0.03624 + g * (0.04407 + g * 0.05910),
+        0.06330 + g * (-0.33447 + g * 0.42828),
+        -0.13595 + g * (0.70502 - g * 0.89613),
+        0.16026 + g * (-0.82384 + g * 1.03934));
+    series.b2 = vec4(
+        -0.13522 + g * (0.38321 - g * 0.22983),
+        -0.06937 + g * (0.10996 + g * 0.07945),
+        0.05773 + g * (0.10382 - g * 0.50598),
+        -0.09477 + g * (-0.01994 + g * 0.49008));
+    series.b3 = vec4(
+        0.04719 + g * (-0.11741 + g * 0.04327),
+        -0.07026 + g * (0.38975 - g * 0.51644),
+        0.15093 + g * (-0.77915 + g * 0.98284),
+        -0.18602 + g * (0.98226 - g * 1.26158));
+    return series;
+}
+
+// Largest error 5.2e-05 of the full lobe for a piece of an edge that begins at the foot.
+MomentSeriesHigh moment_series_high_prepare(float n) {
+    float g = 1.0 / (n + 1.0);
+    MomentSeriesHigh series;
+    series.m = n + 1.0;
+    series.low0 = vec3(
+        0.12703 + g * (-0.27960 + g * 0.05068),
+        0.07290 + g * (-0.20575 + g * 0.11681),
+        -0.28538 + g * (0.99711 - g * 0.83461));
+    series.high0 = vec3(
+        0.97855 + g * (-3.32180 + g * 2.66803),
+        -1.33217 + g * (4.51682 - g * 3.62002),
+        0.68719 + g * (-2.30012 + g * 1.80682));
+    series.low1 = vec3(
+        -0.03470 + g * (0.03639 + g * 0.06855),
+        0.06539 + g * (-0.35485 + g * 0.46335),
+        -0.34870 + g * (1.88329 - g * 2.46506));
+    series.high1 = vec3(
+        1.16512 + g * (-6.26216 + g * 8.16649),
+        -1.58746 + g * (8.52191 - g * 11.10423),
+        0.81281 + g * (-4.34534 + g * 5.64527));
+    series.low2 = vec3(
+        -0.13626 + g * (0.38351 - g * 0.22562),
+        -0.06203 + g * (0.07759 + g * 0.11914),
+        0.09818 + g * (0.45104 - g * 1.48943));
+    series.high2 = vec3(
+        -0.39741 + g * (-1.24245 + g * 4.70244),
+        0.53926 + g * (1.70258 - g * 6.41759),
+        -0.29200 + g * (-0.81231 + g * 3.22433));
+    series.low3 = vec3(
+        0.04529 + g * (-0.10725 + g * 0.03012),
+        -0.06702 + g * (0.36617 - g * 0.47877),
+        0.34517 + g * (-1.73875 + g * 2.14127));
+    series.high3 = vec3(
+        -1.17770 + g * (5.99047 - g * 7.44009),
+        1.60733 + g * (-8.17260 + g * 10.14812),
+        -0.83356 + g * (4.25230 - g * 5.29673));
+    series.low4 = vec3(
+        0.00539 + g * (-0.08666 + g * 0.16020),
+        -0.01016 + g * (0.12811 - g * 0.24066),
+        0.22959 + g * (-1.81825 + g * 2.95180));
+    series.high4 = vec3(
+        -0.70628 + g * (5.68321 - g * 9.28700),
+        0.96798 + g * (-7.78243 + g * 12.71316),
+        -0.48419 + g * (3.91370 - g * 6.40728));
+    series.low5 = vec3(
+        -0.01074 + g * (0.07935 - g * 0.11996),
+        -0.00179 + g * (0.01480 - g * 0.02609),
+        0.00371 + g * (-0.17613 + g * 0.39859));
+    series.high5 = vec3(
+        0.01604 + g * (0.32547 - g * 0.87674),
+        -0.02595 + g * (-0.41291 + g * 1.14610),
+        0.02814 + g * (0.08612 - g * 0.37731));
+    return series;
+}
+
+// A harmonic's amplitude over 1 - kap2, at t = kap2.
+float moment_series_cubic(vec4 b, float t) {
+    return ((b.w * t + b.z) * t + b.y) * t + b.x;
+}
+
+// The same in high quality.
+float moment_series_quintic(vec3 low, vec3 high, float t) {
+    return ((((high.z * t + high.y) * t + high.x) * t + low.z) * t + low.y) * t + low.x;
+}
+
+// The part in front in the ellipsoid's own angle.
+//   kap, kap2  of the ellipsoid
+//   du         angle from end to end [rad]
+//   cosine     twice the cosine of 2u at end 0 and end 1
+//   sine       the sine of 2u
+struct MomentWarp {
+    float kap;
+    float kap2;
+    float du;
+    vec2 cosine;
+    vec2 sine;
+};
+
+// Finds the ellipsoid of one edge for a lobe of exponent m - 1.
+MomentWarp moment_warp(MomentEdge edge, float m) {
+    MomentWarp warp;
+    warp.kap2 = moment_1_minus_exp(0.5 * m * edge.log_c);
+    float over_kap = inversesqrt(warp.kap2);
+    warp.kap = warp.kap2 * over_kap;
+    float w = edge.s * over_kap;
+    float wx0 = w * edge.x0;
+    float wx1 = w * edge.x1;
+    warp.du = trig_atan2_unwrapped(wx0 * edge.y1 - wx1 * edge.y0, wx0 * wx1 + edge.y0 * edge.y1);
+    // One division for both ends: they are at least c^2 w^2, 1e-10 where the pole begins.
+    float d0 = wx0 * wx0 + edge.y0 * edge.y0;
+    float d1 = wx1 * wx1 + edge.y1 * edge.y1;
+    float over_both = 2.0 / max(d0 * d1, 1.0e-30);
+    float scale0 = over_both * d1;
+    float scale1 = over_both * d0;
+    warp.cosine = vec2(scale0 * (wx0 * wx0 - edge.y0 * edge.y0), scale1 * (wx1 * wx1 - edge.y1 * edge.y1));
+    warp.sine = vec2(scale0 * wx0 * edge.y0, scale1 * wx1 * edge.y1);
+    return warp;
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
+//
+//   edge     by moment_edge
+//   series   by moment_series_prepare, n >= 1
+//
+// Error: see docs/accuracy.md, "phong series": about 2e-4 of the full lobe's 2 pi for each side of the foot.
+float moment_series_front(MomentEdge edge, MomentSeries series) {
+    MomentWarp warp = moment_warp(edge, series.m);
+    float t = warp.kap2;
+    // sin(2(k + 1)u) = 2 cos(2u) sin(2ku) - sin(2(k - 1)u), at both ends.
+    vec2 s1 = warp.sine;
+    vec2 s2 = vec2(warp.cosine.x * s1.x, warp.cosine.y * s1.y);
+    vec2 s3 = vec2(warp.cosine.x * s2.x - s1.x, warp.cosine.y * s2.y - s1.y);
+    float bump = moment_series_cubic(series.b0, t) * warp.du
+              + moment_series_cubic(series.b1, t) * (s1.y - s1.x) * 0.5
+              + moment_series_cubic(series.b2, t) * (s2.y - s2.x) * 0.25
+              + moment_series_cubic(series.b3, t) * (s3.y - s3.x) * 0.166666666666666667;
+    return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
+}
+
+// The same in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+float moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
+    MomentWarp warp = moment_warp(edge, series.m);
+    float t = warp.kap2;
+    vec2 s1 = warp.sine;
+    vec2 s2 = vec2(warp.cosine.x * s1.x, warp.cosine.y * s1.y);
+    vec2 s3 = vec2(warp.cosine.x * s2.x - s1.x, warp.cosine.y * s2.y - s1.y);
+    vec2 s4 = vec2(warp.cosine.x * s3.x - s2.x, warp.cosine.y * s3.y - s2.y);
+    vec2 s5 = vec2(warp.cosine.x * s4.x - s3.x, warp.cosine.y * s4.y - s3.y);
+    float bump = moment_series_quintic(series.low0, series.high0, t) * warp.du
+              + moment_series_quintic(series.low1, series.high1, t) * (s1.y - s1.x) * 0.5
+              + moment_series_quintic(series.low2, series.high2, t) * (s2.y - s2.x) * 0.25
+              + moment_series_quintic(series.low3, series.high3, t) * (s3.y - s3.x) * 0.166666666666666667
+              + moment_series_quintic(series.low4, series.high4, t) * (s4.y - s4.x) * 0.125
+              + moment_series_quintic(series.low5, series.high5, t) * (s5.y - s5.x) * 0.1;
+    return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
+}
+
+// ==== moment_cosine ====
+
+// Powers of the cosine along an edge, the exact double-axis moment, and the Phong series below exponent 1.
+//
+// The integral of cos^n from the foot is an incomplete beta function. With v^2 = -2 log cos phi it becomes that of
+// exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
+// over n lead to where that is close.
+// Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+
+// The integral of cos^n phi from the foot to the end (x, y) = (c cos phi, c sin phi), |phi| <= pi/2, n >= 4.
+//
+// Error: relative to the integral up to pi/2, 7e-5 at n = 4, 7e-6 at n = 8, 3e-6 at n = 10, 2e-7 at n = 20.
+// Source of the error function: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
+float moment_cosine_from_foot(float x, float y, float n) {
+    float a = n + 0.5;
+    float v2 = moment_log_1_plus(y * y / max(x * x, 1.0e-30));
+    float t = 0.5 * a * v2;
+    float v = sqrt(v2);
+    float decay = exp(-t);
+    float e = 1.0 / (1.0 + 0.3275911 * sqrt(t));
+    float p = ((((1.061405429 * e - 1.453152027) * e + 1.421413741) * e - 0.284496736) * e + 0.254829592) * e;
+    // The correction's share of the integral up to pi/2, which is sqrt(pi/(2 a)) (1 - 1/(16 a^2)).
+    float correction = v * (v2 + 3.0 / a) * inversesqrt(a) / (60.1590786 - 3.75994241 / (a * a));
+    // Half the beta function B(1/2, (n+1)/2): Gamma(h + 1)/Gamma(h + 1/2) squared is k + 1/(32 k) - 9/(2048 k^3),
+    // k = h + 1/4, h = n/2, to 2e-5 at n = 4 and 4e-7 at n = 8.
+    float k = 0.5 * n + 0.25;
+    float quarter_turn = 0.886226925452758014 * inversesqrt(k + 0.03125 / k - 0.00439453125 / (k * k * k));
+    float magnitude = quarter_turn * (1.0 - decay * (p - correction));
+    return steradian_select(y < 0.0, -magnitude, magnitude);
+}
+
+// The integral of x^n dphi, x = c cos phi, over the part in front of one edge; n >= 0.
+//
+//   low      1 for n < 8, else 0; the same for every lane
+//
+// Error: at most 9e-5 of the integral over a half circle for n >= 0, 4e-5 for n >= 1, 7e-6 for n >= 5.
+float moment_cosine_front(MomentEdge edge, float n, int low) {
+    float order = n;
+    if (low == 1) {
+        order = n + 4.0;
+    }
+    float cosines = moment_cosine_from_foot(edge.x1, edge.y1, order) - moment_cosine_from_foot(edge.x0, edge.y0, order);
+    float result = exp(-0.5 * order * edge.log_c) * cosines;
+    if (low == 1) {
+        // (n + 1) c^2 int x^n = (n + 2) int x^(n+2) - [x^(n+1) y], twice.
+        float c2 = edge.c * edge.c;
+        float p0 = phong_power(edge.x0, n + 1.0) * edge.y0;
+        float p1 = phong_power(edge.x1, n + 1.0) * edge.y1;
+        result = ((n + 4.0) * result - (p1 * edge.x1 * edge.x1 - p0 * edge.x0 * edge.x0)) / ((n + 3.0) * c2);
+        result = ((n + 2.0) * result - (p1 - p0)) / ((n + 1.0) * c2);
+    }
+    return max(result, 0.0);
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, for m = n + 1 below 2.
+//
+//   n        exponent, in [0, 1)
+//   raised   the series of exponent n + 2: (1 - x^m)/(1 - x^2) = (1 - x^(m+2))/(1 - x^2) - x^m
+float moment_series_low_front(MomentEdge edge, MomentSeries raised, float n) {
+    return max(moment_series_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
+}
+
+// The same in high quality; the error is then that of the cosines.
+float moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, float n) {
+    return max(moment_series_high_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
+}
+
+// One edge's share of (n + 2) times the double-axis moment, the integral of max(u.r, 0)^n (u.v) over a light.
+//
+//   a, b     as for moment_edge, r unit axis of the power, v the other axis, of any length
+//   share    moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
+//   cosines  the integral of x^n dphi over the part in front, by any method
+//
+// Exact as far as share and cosines are: foreshortening (v the normal) and the v.h of half-vector space need no
+// product of lobes.
+float moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float share, float cosines) {
+    vec3 n = cross(a, b);
+    float n2 = dot(n, n);
+    float inward = dot(n, v) * inversesqrt(max(n2, 1.0e-30));
+    return dot(r, v) * share + steradian_select(n2 > 1.0e-30, inward * cosines, 0.0);
 }
 
 // ==== polygon ====
@@ -501,4 +1828,1175 @@ SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, vec3 a, vec3 b) {
 float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
     float y = steradian_select(reversed, -walk.product.y, walk.product.y);
     return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
+}
+
+// ==== half_vector ====
+
+// Lobes of half vectors by edge splitting: a light's edge is split into arcs, each arc's image in half vector space is
+// replaced by the great circle between its ends, and the lobe's integral is closed along great circles.
+//
+// For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
+// ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
+//
+//   ConicArc edge = ggx_edge(view, a, b);
+//   for j in 0 .. count - 1:
+//       p = half_vector_at(view, edge, half_vector_split_pole_mapped(edge, j / count)), q the next one
+//       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
+//
+// Frame and order: as ggx_closed_form.glsl.
+
+// The GGX width whose lobe is as wide as Blinn-Phong's of exponent n: both have the mean squared slope 2 / (n + 2).
+float blinn_phong_alpha(float n) {
+    return sqrt(2.0 / (n + 2.0));
+}
+
+// Unit half vector at a place of an edge.
+vec3 half_vector_at(GgxView view, ConicArc edge, float tau) {
+    vec3 u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
+    vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
+    return h * inversesqrt(max(dot(h, h), 1.0e-30));
+}
+
+// The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
+float half_vector_split_uniform(ConicArc edge, float share) {
+    float first = trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = trig_atan2(edge.scale * edge.end, 1.0);
+    vec2 u = complex_unit(first + share * (last - first));
+    return clamp(u.y / max(u.x * edge.scale, 1.0e-18), edge.begin, edge.end);
+}
+
+// The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
+// the edge passes the lobe, and some for the rest.
+//
+// Newton's steps, held in a bracket that shrinks. Ends after 8; a split that is a little off costs nothing.
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+float half_vector_split_pole_mapped(ConicArc edge, float share) {
+    float first = trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = trig_atan2(edge.scale * edge.end, 1.0);
+    float weight = 0.3 / max(last - first, 1.0e-12);
+    float goal = share * (edge.sweep.x + edge.sweep.y + 0.3);
+    ConicNode node = conic_node(edge, share);
+    float tau = node.tau;
+    float low = edge.begin;
+    float high = edge.end;
+    for (int i = 0; i < 8; i++) {
+        float t = edge.scale * tau;
+        float value = conic_sweep(edge.z1, edge.begin, tau) + conic_sweep(edge.z2, edge.begin, tau)
+            + weight * (trig_atan2(t, 1.0) - first) - goal;
+        float x1 = tau - edge.z1.x;
+        float x2 = tau - edge.z2.x;
+        float slope = edge.z1.y / (x1 * x1 + edge.z1.y * edge.z1.y) + edge.z2.y / (x2 * x2 + edge.z2.y * edge.z2.y)
+            + weight * edge.scale / (1.0 + t * t);
+        low = steradian_select(value < 0.0, tau, low);
+        high = steradian_select(value < 0.0, high, tau);
+        float next = tau - value / slope;
+        tau = steradian_select(next > low && next < high, next, 0.5 * (low + high));
+    }
+    return tau;
+}
+
+// One arc's share of Blinn-Phong: 2 pi v_z times the radiance, exact along the great circle.
+//
+//   a, b     unit half vectors of the arc's ends, in walk order
+//   v        unit view
+//   n        exponent, at least 0
+//
+// (n + 2) / (2 pi) h_z^n (v.h) is a double-axis moment, of axes z and v.
+float blinn_phong_arc(vec3 a, vec3 b, vec3 v, float n) {
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    MomentEdge edge = moment_edge(a, b, z);
+    MomentIntegrands front = moment_quadrature_front(edge, max(n, 1.0e-6) - 1.0);
+    return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front.moment), front.power);
+}
+
+// The same by the cosine series and the error function.
+//
+//   series   of exponent n - 1, or of n + 1 where n < 2
+//   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
+//
+// Error: of the series, see docs/accuracy.md, "phong series".
+float blinn_phong_arc_approximate(vec3 a, vec3 b, vec3 v, MomentSeries series, float n, int range) {
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    MomentEdge edge = moment_edge(a, b, z);
+    float front = 0.0;
+    if (range == 2) {
+        front = moment_series_low_front(edge, series, n - 1.0);
+    } else {
+        front = moment_series_front(edge, series);
+    }
+    int low = 0;
+    if (range > 0) {
+        low = 1;
+    }
+    return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front), moment_cosine_front(edge, n, low));
+}
+
+// The error function. Error: 1.5e-7 absolute.
+// Source: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
+float beckmann_error_function_approximate(float x) {
+    float t = abs(x);
+    float e = 1.0 / (1.0 + 0.3275911 * t);
+    float p = ((((1.061405429 * e - 1.453152027) * e + 1.421413741) * e - 0.284496736) * e + 0.254829592) * e;
+    float y = 1.0 - p * exp(-min(t * t, 80.0));
+    return steradian_select(x < 0.0, -y, y);
+}
+
+// The series that beckmann_arc takes: that of an infinite exponent.
+MomentSeriesHigh beckmann_series() {
+    MomentSeriesHigh series = moment_series_high_prepare(1.0e30);
+    series.m = 2.0;  // log_c below is the square of the distance
+    return series;
+}
+
+// One arc's share of Beckmann: 2 pi v_z times the radiance.
+//
+//   a, b     unit half vectors of the arc's ends, in walk order, above the surface
+//   series   beckmann_series()
+//
+// In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
+// w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
+// Error: of the series; see docs/accuracy.md, "half vector".
+float beckmann_arc(GgxView view, vec3 a, vec3 b, MomentSeriesHigh series) {
+    float za = 1.0 / max(a.z, 1.0e-6);
+    float zb = 1.0 / max(b.z, 1.0e-6);
+    vec2 p = vec2(a.x * za / view.ax, a.y * za / view.ay);
+    vec2 q = vec2(b.x * zb / view.ax, b.y * zb / view.ay);
+    vec2 along = q - p;
+    float length2 = dot(along, along);
+    bool usable = length2 > 1.0e-30;
+    along = along * inversesqrt(max(length2, 1.0e-30));
+    float d = p.x * along.y - p.y * along.x;
+    float low = dot(p, along);
+    float high = dot(q, along);
+
+    MomentEdge edge;
+    edge.side = steradian_select(d < 0.0, -1.0, 1.0);
+    edge.s = max(abs(d), 1.0e-6);
+    edge.c = 1.0;
+    edge.x0 = 1.0;
+    edge.y0 = low;
+    edge.x1 = 1.0;
+    edge.y1 = high;
+    edge.log_c = min(edge.s * edge.s, 80.0);
+    edge.swept = 0.0;
+    float around = moment_edge_share(edge, moment_series_high_front(edge, series));
+    float across = exp(-edge.log_c) * 0.886226925452758014
+        * (beckmann_error_function_approximate(high) - beckmann_error_function_approximate(low));
+    float share = view.w.z * around + (view.w.y * along.x - view.w.x * along.y) * across;
+    return steradian_select(usable, share, 0.0);
+}
+
+// One arc's share of E (ggx_closed_form.glsl) for GGX, exact along the great circle.
+vec3 ggx_arc(GgxView view, vec3 a, vec3 b) {
+    vec3 p = polygon_direction(vec3(a.x / view.ax, a.y / view.ay, a.z));
+    vec3 q = polygon_direction(vec3(b.x / view.ax, b.y / view.ay, b.z));
+    return polygon_edge(p, q);
+}
+
+// Radiance from the sum over the arcs, for radiance 1; not negative.
+//
+//   facing   1.0; -1.0 where the light is seen from behind
+float half_vector_radiance(GgxView view, float sum, float facing) {
+    return max(sum * facing, 0.0) * 0.159154943091895336 / view.v.z;
+}
+
+// ==== horizon_clip ====
+
+// Clipping a walked outline to the horizon, for integrals along its edges.
+//
+// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
+// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
+// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
+// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
+// different contours, and one clip serves a whole light with its holes:
+//
+//   HorizonClip clip = horizon_clip_begin();
+//   for each edge a, b of each contour:
+//       clip = horizon_clip_edge(clip, a, b);
+//       integrate clip.start, clip.end
+//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//   clip = horizon_clip_finish(clip);
+//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//
+// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
+
+// The state of a clip and what it last handed out.
+//   start, end          the edge's part above the horizon; equal where there is none
+//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
+//   closes              whether there is an arc
+//   leave               where the outline last went down and did not come back yet; zero: nowhere
+//   entry               where it came up without having been seen to go down; zero: nowhere
+struct HorizonClip {
+    vec3 start;
+    vec3 end;
+    vec3 arc_start;
+    vec3 arc_end;
+    bool closes;
+    vec3 leave;
+    vec3 entry;
+};
+
+// The state before the first edge.
+HorizonClip horizon_clip_begin() {
+    vec3 nowhere = vec3(0.0, 0.0, 0.0);
+    float zero = 0.0;
+    HorizonClip clip;
+    clip.start = nowhere;
+    clip.end = nowhere;
+    clip.arc_start = nowhere;
+    clip.arc_end = nowhere;
+    clip.closes = zero > 0.0;
+    clip.leave = nowhere;
+    clip.entry = nowhere;
+    return clip;
+}
+
+// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+//
+// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
+// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
+vec3 horizon_crossing(vec3 a, vec3 b) {
+    float wa = abs(b.z);
+    float wb = abs(a.z);
+    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+    return vec3(p.x, p.y, 0.0);
+}
+
+// Clips one edge.
+//
+//   a, b     unit directions of the edge's ends; z < 0 is below
+//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
+HorizonClip horizon_clip_edge(HorizonClip clip, vec3 a, vec3 b) {
+    HorizonClip next = clip;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    next.start = a;
+    next.end = b;
+    next.closes = a.z > 2.0;
+    if (a_below || b_below) {
+        vec3 nowhere = vec3(0.0, 0.0, 0.0);
+        vec3 crossing = horizon_crossing(a, b);
+        next.start = steradian_select(a_below, crossing, a);
+        next.end = steradian_select(b_below, crossing, b);  // both below: start = end
+        bool comes_up = a_below && !b_below;
+        bool goes_down = b_below && !a_below;
+        bool was_left = dot(clip.leave, clip.leave) > 0.5;
+        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
+        bool due = goes_down && was_left;
+        next.closes = (comes_up && was_left) || due;
+        next.arc_end = steradian_select(due, clip.entry, crossing);
+        next.arc_start = steradian_select(next.closes, clip.leave, next.arc_end);
+        next.leave = steradian_select(goes_down, crossing, steradian_select(comes_up, nowhere, clip.leave));
+        next.entry = steradian_select(comes_up && !was_left, crossing, steradian_select(due, nowhere, clip.entry));
+    }
+    return next;
+}
+
+// Ends the walk: the last arc, from where the outline went down to where it had first come up.
+HorizonClip horizon_clip_finish(HorizonClip clip) {
+    HorizonClip next = clip;
+    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
+    next.start = clip.end;
+    next.arc_start = steradian_select(next.closes, clip.leave, clip.entry);
+    next.arc_end = clip.entry;
+    return next;
+}
+
+// ==== lambert ====
+
+// The diffuse surface: the same radiance to every side.
+
+// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+//
+//   irradiance  polygon_irradiance, in [0, pi]
+float lambert_radiance(float irradiance) {
+    return irradiance * 0.318309886183790672;
+}
+
+// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
+float lambert_lobe(vec3 l) {
+    return max(l.z, 0.0) * 0.318309886183790672;
+}
+
+// ==== lobe_product ====
+
+// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
+//
+// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
+// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
+// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
+//
+//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = lobe_product_add(p, r_i, n_i);
+//   start = lobe_product_newton(p);                     // .78 degrees off after one step, .005 after two
+//   ... the same again, then
+//   CosineLobe lobe = lobe_product_isotropic(p);
+//
+// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
+// Source: this project (docs/moments.md).
+
+// scale (u.axis)^exponent
+struct CosineLobe {
+    vec3 axis;
+    float exponent;
+    float scale;
+};
+
+// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+struct StretchedLobe {
+    mat3 frame;
+    vec3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
+    float exponent;
+    float scale;
+};
+
+// Sums over the lobes, seen from a direction.
+//   about      frame whose z is that direction
+//   total      sum of n_i
+//   log_scale  sum of n_i log(z.r_i)
+//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
+//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
+//   lowest     smallest z.r_i
+struct LobeProduct {
+    mat3 about;
+    float total;
+    float log_scale;
+    vec2 slope;
+    vec3 curvature;
+    float lowest;
+};
+
+// The state before the first lobe.
+LobeProduct lobe_product_begin(vec3 direction) {
+    LobeProduct p;
+    p.about = frame_from_normal(direction);
+    p.total = 0.0;
+    p.log_scale = 0.0;
+    p.slope = vec2(0.0, 0.0);
+    p.curvature = vec3(0.0, 0.0, 0.0);
+    p.lowest = 1.0;
+    return p;
+}
+
+// Adds (u.r)^n.
+LobeProduct lobe_product_add(LobeProduct p, vec3 r, float n) {
+    vec3 local = steradian_transform_transposed(p.about, r);
+    float z = max(local.z, 1.0e-4);
+    float x = local.x / z;
+    float y = local.y / z;
+    LobeProduct next = p;
+    next.total = p.total + n;
+    next.log_scale = p.log_scale + n * log(z);
+    next.slope = p.slope + vec2(n * x, n * y);
+    next.curvature = p.curvature + vec3(n * x * x, n * x * y, n * y * y);
+    next.lowest = min(p.lowest, local.z);
+    return next;
+}
+
+// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
+vec3 lobe_product_newton(LobeProduct p) {
+    float xx = p.total + p.curvature.x;
+    float yy = p.total + p.curvature.z;
+    float xy = p.curvature.y;
+    float inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    vec3 step_to = vec3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
+    vec3 u = steradian_transform(p.about, step_to);
+    return u * inversesqrt(dot(u, u));
+}
+
+// Height of the product at the sums' direction; 0 where a lobe does not reach.
+float lobe_product_scale(LobeProduct p) {
+    return steradian_select(p.lowest > 1.0e-4, exp(p.log_scale), 0.0);
+}
+
+// The isotropic lobe; its exponent gives the full lobe's integral the right size.
+CosineLobe lobe_product_isotropic(LobeProduct p) {
+    float xx = p.total + p.curvature.x;
+    float yy = p.total + p.curvature.z;
+    CosineLobe lobe;
+    lobe.axis = steradian_transform(p.about, vec3(0.0, 0.0, 1.0));
+    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
+// the integral over a light is scale times the moment of the stretched outline about z.
+StretchedLobe lobe_product_anisotropic(LobeProduct p) {
+    float xx = p.total + p.curvature.x + 3.0;
+    float yy = p.total + p.curvature.z + 3.0;
+    float xy = p.curvature.y;
+    float d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
+    float root = inversesqrt((xx + yy) / d + 2.0);
+    StretchedLobe lobe;
+    lobe.frame = p.about;
+    lobe.stretch = vec3(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
+    lobe.exponent = d - 3.0;
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// A direction in the lobe's stretched frame, not unit; 0 at zero.
+vec3 lobe_product_stretch(StretchedLobe lobe, vec3 u) {
+    vec3 l = steradian_transform_transposed(lobe.frame, u);
+    return vec3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
+}
+
+// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
+//
+// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
+vec3 lobe_product_peak_of_two(vec3 r1, float n1, vec3 r2, float n2) {
+    float cosine = max(dot(r1, r2), 1.0e-6);
+    vec3 across = r2 - r1 * dot(r1, r2);
+    float sine2 = dot(across, across);
+    float tangent = sqrt(sine2) / cosine;
+    float sum = n1 + n2;
+    float t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
+    vec3 u = r1 + across * (t * inversesqrt(max(sine2, 1.0e-30)));
+    return u * inversesqrt(dot(u, u));
+}
+
+// ==== ltc ====
+
+// Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
+//
+// A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
+// the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
+// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
+// Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// M^-1 up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+struct LtcMatrix {
+    float xx;
+    float xz;
+    float yy;
+    float zx;
+    float zz;
+};
+
+// Where a table is read, both in [0, 1], nodes on the ends.
+//
+//   roughness  perceptual: the square root of alpha
+//   n_dot_v    cosine of the view
+vec2 ltc_coordinates(float roughness, float n_dot_v) {
+    return vec2(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
+}
+
+// From the classic texture.
+//
+//   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
+LtcMatrix ltc_from_classic(vec4 t) {
+    LtcMatrix m;
+    m.xx = t.x;
+    m.xz = t.z;
+    m.yy = 1.0;
+    m.zx = t.y;
+    m.zz = t.w;
+    return m;
+}
+
+// From the compact table, in which the matrix is stored about the mirror direction and divided by alpha.
+//
+//   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
+//            R turns z into the mirror direction (-s, 0, c)
+//   alpha    roughness squared, at least 1.0e-4
+//   view     unit, in the shading frame: (s, 0, c). Take s from the frame, not from sqrt(1 - c*c), which
+//            loses half the digits near the normal, where a narrow lobe needs them
+//
+// A lobe that is stored about the normal (diffuse, sheen) passes alpha = 1 and view = (0, 0, 1).
+LtcMatrix ltc_from_compact(vec4 e, float alpha, vec3 view) {
+    float tilt = alpha * e.z;
+    float shear = alpha * e.w;
+    float width = alpha * e.x;
+    LtcMatrix m;
+    m.xx = view.z + tilt * view.x;
+    m.xz = view.x - tilt * view.z;
+    m.yy = (e.x - tilt * e.w) / e.y;
+    m.zx = -(shear * view.z + width * view.x);
+    m.zz = width * view.z - shear * view.x;
+    return m;
+}
+
+// M^-1 v, up to the matrix' factor. Any vector of the shading frame.
+vec3 ltc_transform(LtcMatrix m, vec3 v) {
+    return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
+}
+
+// The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
+float ltc_lobe(LtcMatrix m, vec3 l) {
+    vec3 w = ltc_transform(m, l);
+    float d2 = max(dot(w, w), 1.0e-18);
+    float determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
+    return determinant * max(w.z, 0.0) * 0.318309886183790672 / (d2 * d2);
+}
+
+// The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
+//
+// Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
+float ltc_energy_above_horizon(LtcMatrix m) {
+    return 0.5 + 0.5 * m.xx * inversesqrt(max(m.xx * m.xx + m.zx * m.zx, 1.0e-36));
+}
+
+// The state of a walk along a light's outline under M^-1.
+//   lobe      what the clipped edges add up to
+//   anchor    where the outline first crossed the real horizon, under M^-1
+//   anchored  whether it did
+struct LtcWalk {
+    PolygonWalk lobe;
+    vec3 anchor;
+    bool anchored;
+};
+
+// A walk with no edge yet.
+LtcWalk ltc_begin() {
+    LtcWalk walk;
+    walk.lobe = polygon_begin();
+    walk.anchor = vec3(0.0, 0.0, 0.0);
+    walk.anchored = walk.anchor.x > 0.0;
+    return walk;
+}
+
+// Unit direction of a vertex under M^-1.
+//
+//   v        vertex or direction in the shading frame
+vec3 ltc_direction(LtcMatrix m, vec3 v) {
+    return polygon_direction(ltc_transform(m, v));
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's.
+//
+//   a, b     ends in the shading frame, in walk order: polygon_direction of the vertices
+//   ta, tb   ltc_direction(m, a) and ltc_direction(m, b): a vertex is transformed once for its two edges
+//
+// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
+// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
+// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+//
+// Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
+LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
+    LtcWalk next = walk;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    if (!a_below || !b_below) {
+        vec3 start = ta;
+        vec3 end = tb;
+        if (a_below || b_below) {
+            vec3 none = vec3(0.0, 0.0, 0.0);
+            bool crosses = (a_below && !b_below) || (b_below && !a_below);
+            float wa = abs(b.z);
+            float wb = abs(a.z);
+            vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+            vec3 crossing = steradian_select(crosses, ltc_direction(m, horizon), none);
+            start = steradian_select(a_below, crossing, ta);
+            end = steradian_select(b_below, crossing, tb);
+            // The first crossing is its own anchor: an edge of no length.
+            if (crosses && walk.anchored) {
+                bool closes = crosses && walk.anchored;
+                vec3 departure = steradian_select(a_below, walk.anchor, crossing);
+                vec3 arrival = steradian_select(a_below, crossing, walk.anchor);
+                next.lobe = polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
+            }
+            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
+            next.anchored = walk.anchored || crosses;
+        }
+        next.lobe = polygon_add_edge(next.lobe, start, end);
+    }
+    return next;
+}
+
+// Integral of the lobe over the part of the light above the real horizon, in [0, 1].
+//
+//   reversed true where the light is seen from behind
+float ltc_integral(LtcWalk walk, bool reversed) {
+    return polygon_irradiance(walk.lobe, reversed) * 0.318309886183790672;
+}
+
+// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+//
+//   n_a      magnitude of the lobe without Fresnel
+//   f_a      of the lobe times (1 - v.h)^5
+float ltc_specular_scale(float f0, float f90, float n_a, float f_a) {
+    return f0 * n_a + (f90 - f0) * f_a;
+}
+
+// The specular radiance where the lobe times (1 - v.h)^5 has a matrix of its own (table of fit --fresnel-lobe).
+//
+//   integral, grazing  ltc_integral with the lobe's and with the Fresnel lobe's matrix
+float ltc_specular_with_fresnel_lobe(float f0, float f90, float n_a, float integral, float f_a, float grazing) {
+    return f0 * n_a * integral + (f90 - f0) * f_a * grazing;
+}
+
+// Factor on the specular radiance that returns what single scattering loses between the facets.
+//
+//   f0       reflectance along the normal
+//   albedo   of the lobe with F = 1: n_a times ltc_energy_above_horizon, in (0, 1]
+//
+// Source: Turquin, "Practical multiple scattering compensation for microfacet models", 2019, eq. 16.
+float ltc_multiple_scattering(float f0, float albedo) {
+    float a = clamp(albedo, 1.0e-2, 1.0);
+    return 1.0 + f0 * (1.0 - a) / a;
+}
+
+// A surface under a clear coat of glTF: the coat reflects its share and dims what lies below.
+//
+//   base       radiance of the surface below
+//   coat       radiance of the coat's lobe with its own Fresnel (f0 0.04) in it
+//   clearcoat  strength in [0, 1]
+//   n_dot_v    cosine of the view to the coat's normal
+float ltc_clear_coat(float base, float coat, float clearcoat, float n_dot_v) {
+    float f = fresnel_schlick(0.04, 1.0, n_dot_v);
+    return base * (1.0 - clearcoat * f) + clearcoat * coat;
+}
+
+// A surface under sheen of glTF: what the cloth's fibres reflect does not reach what lies below.
+//
+//   base      radiance of the surface below
+//   sheen     radiance of the sheen lobe, its colour included
+//   strongest largest component of the sheen's colour
+//   albedo    of the sheen lobe at this view: n_a times ltc_energy_above_horizon
+float ltc_sheen(float base, float sheen, float strongest, float albedo) {
+    return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
+}
+
+// ==== ltc_clipless ====
+
+// Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
+// irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
+// Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
+
+// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
+//
+//   cosine   of the sphere's centre to z, in [-1, 1]
+//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
+//
+// Degenerate: f = 0 gives max(cosine, 0).
+// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
+float ltc_clipped_sphere(float cosine, float f) {
+    float z = clamp(cosine, -1.0, 1.0);
+    float s2 = clamp(f, 1.0e-12, 1.0);
+    float sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
+    float cos_s = sqrt(1.0 - s2);
+    bool crossed = z * z < s2;
+    // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
+    float x = clamp(cos_s / sin_w, 0.0, 1.0);
+    float y = sqrt(max(1.0 - x * x, 0.0));
+    float root = sqrt(max(s2 - y * y, 0.0));
+    float arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
+    float rim = abs(z) * (y * root + s2 * trig_atan2(y, root));
+    float whole = steradian_pi() * s2 * max(z, 0.0);
+    float cut = steradian_select(crossed, whole + arc - rim, whole);
+    return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
+}
+
+// Adds one edge to the irradiance vector under M^-1 [rad].
+//
+//   ta, tb   ltc_direction of the edge's ends, in walk order
+vec3 ltc_clipless_add_edge(vec3 sum, vec3 ta, vec3 tb) {
+    return sum + polygon_edge(ta, tb);
+}
+
+// Integral of the lobe over the light, approximately, in [0, 1].
+//
+//   sum      of ltc_clipless_add_edge, begun at zero
+//   reversed true where the light is seen from behind
+float ltc_clipless_integral(vec3 sum, bool reversed) {
+    vec3 e = sum * steradian_select(reversed, -1.0, 1.0);
+    float e2 = dot(e, e);
+    float inverse = inversesqrt(max(e2, 1.0e-36));
+    float form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
+    return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
+}
+
+// ==== moment_arvo ====
+
+// The Phong lobe's boundary integral by Arvo's recurrence: exact for integer n, in n/2 steps an edge.
+//
+// (1 - x^m)/(1 - x^2) is the finite sum of x^k over every other k below m: 1 + x^2 + ... for even m. For odd m one
+// factor x is taken out first, (x - x^m)/(1 - x^2) = x + x^3 + ..., and the rest, 1/(1 + x), integrates to half the
+// angle of a spherical triangle. Each power integrates by parts from the last but one.
+// Source: Arvo 1995, sec. 5; Lecocq et al. 2017, eq. 1 to 3, with N = n - 1.
+
+// |s| times the integral of 1/(1 + x) over the part in front: summed over a polygon, its solid angle.
+float moment_solid_angle_front(MomentEdge edge) {
+    float c0 = edge.c + edge.x0;
+    float c1 = edge.c + edge.x1;
+    float k = edge.s / (1.0 + edge.c);
+    return 2.0 * trig_atan2(k * (c0 * edge.y1 - c1 * edge.y0), c0 * c1 + k * k * edge.y0 * edge.y1);
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
+//
+//   n        integer exponent, at least 1
+//   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
+//            the slowest: at grazing views, where c is near 1, the stop comes late or never.
+//
+// Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
+float moment_arvo_front(MomentEdge edge, int n, int can_stop, float relative_precision) {
+    int odd_m = 1 - (n - (n / 2) * 2);
+    float c2 = edge.c * edge.c;
+    float x02 = edge.x0 * edge.x0;
+    float x12 = edge.x1 * edge.x1;
+    // The integral of x^p, and x^(p+1) y at both ends, which the next step needs.
+    float power = trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    float b0 = edge.x0 * edge.y0;
+    float b1 = edge.x1 * edge.y1;
+    float p = 2.0;
+    int steps = (n - 1) / 2;
+    if (odd_m == 1) {
+        power = edge.y1 - edge.y0;
+        b0 = x02 * edge.y0;
+        b1 = x12 * edge.y1;
+        p = 3.0;
+        steps = n / 2 - 1;
+    }
+    float sum = power;
+    float left = relative_precision * (1.0 - c2);
+    for (int i = 0; i < steps; i++) {
+        power = (b1 - b0 + (p - 1.0) * c2 * power) / p;
+        b0 = b0 * x02;
+        b1 = b1 * x12;
+        p = p + 2.0;
+        sum = sum + power;
+        // The terms fall by c^2 or more: those left sum to less than power c^2 / (1 - c^2).
+        if (can_stop == 1) {
+            if (power * c2 <= sum * left) {
+                break;
+            }
+        }
+    }
+    float front = edge.s * sum;
+    if (odd_m == 1) {
+        front = front + moment_solid_angle_front(edge);
+    }
+    return max(front, 0.0);
+}
+
+// ==== moment_peak_fits ====
+
+// The published peak fits of the Phong lobe's boundary integrand: Lorentzian, Lorentzian-Pearson, ellipsoid.
+//
+// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0: f = x for even n, f = 1 otherwise.
+// Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
+// width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
+// faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
+// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
+// eq. 5 to 16; its order N is n - 1 here.
+
+// What the fits share for one edge.
+//   x_w, x_t     half width and the place in the tail [rad]
+//   ratio_w      x_w over its limit for c -> 0
+//   peak         I at the foot, less its smallest value
+//   y_w, y_t     the same at x_w and x_t, over peak
+//   smallest     I at phi = pi/2: 0 for f = x, 1 for f = 1
+//   phi0, phi1   ends of the part in front [rad]
+struct MomentPeak {
+    float x_w;
+    float x_t;
+    float ratio_w;
+    float peak;
+    float y_w;
+    float y_t;
+    float smallest;
+    float phi0;
+    float phi1;
+};
+
+// Cosine for |x| <= pi/2: Taylor, the next term is x^16/16!, 7e-11 at pi/2.
+float moment_peak_cosine(float x) {
+    float t = x * x;
+    return 1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0 * (1.0 - t / 132.0 * (1.0 - t / 182.0))))));
+}
+
+// Sine for |x| <= pi/2: Taylor, the next term is x^15/15!, 7e-10 at pi/2.
+float moment_peak_sine(float x) {
+    float t = x * x;
+    return x * (1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0 * (1.0 - t / 156.0))))));
+}
+
+// I less its smallest value, at x = c cos phi. f = x: x (1 - x^n)/(1 - x^2); f = 1: x^2 (1 - x^(n-1))/(1 - x^2).
+//
+//   even_n   1 for f = x, 0 for f = 1
+float moment_peak_height(float s2, float c2, float n, int even_n, float cosine, float sine) {
+    float rest = s2 + c2 * sine * sine;  // 1 - x^2 without cancellation
+    float x2 = max(c2 * cosine * cosine, 1.0e-12);
+    float log_x = 0.5 * moment_log_1_plus(rest / x2);
+    if (even_n == 1) {
+        return sqrt(x2) * moment_1_minus_exp(n * log_x) / rest;
+    }
+    return x2 * moment_1_minus_exp((n - 1.0) * log_x) / rest;
+}
+
+// The half width by the paper's fit, over its limit for c -> 0 (pi/3 for f = x, pi/4 for f = 1).
+//
+// Error: up to 17 % (f = x) and 32 % (f = 1, n = 5000), 4 to 8 % on the average.
+// Source: eq. 7, with pi/4 outside the power.
+float moment_peak_half_width_ratio(float c, float n, int even_n) {
+    if (even_n == 1) {
+        float reduced = c - c / max(n - 1.0, 1.0);
+        return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
+    }
+    float k = max(c - c / max(n - 2.0, 1.0), 1.0e-6);
+    return phong_power(max(1.0 - phong_power(k, 2.5), 1.0e-8), 0.45);
+}
+
+// What the fits share for one edge and a lobe of exponent n.
+MomentPeak moment_peak_prepare(MomentEdge edge, float n, int even_n) {
+    float s2 = edge.s * edge.s;
+    float c2 = edge.c * edge.c;
+    float widest = 0.785398163397448310;
+    MomentPeak p;
+    p.smallest = 1.0;
+    if (even_n == 1) {
+        widest = 1.04719755119659775;
+        p.smallest = 0.0;
+    }
+    p.ratio_w = moment_peak_half_width_ratio(edge.c, n, even_n);
+    p.x_w = widest * p.ratio_w;
+    float k = 1.0 - p.ratio_w;  // eq. 14: its twelfth power
+    float k2 = k * k;
+    float k4 = k2 * k2;
+    p.x_t = min(p.x_w + 0.3946 * widest * (1.0 - k4 * k4 * k4), 1.57079632679489662);
+    p.peak = moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
+    float scale = 1.0 / max(p.peak, 1.0e-12);
+    p.y_w = scale * moment_peak_height(s2, c2, n, even_n, moment_peak_cosine(p.x_w), moment_peak_sine(p.x_w));
+    p.y_t = scale * moment_peak_height(s2, c2, n, even_n, moment_peak_cosine(p.x_t), moment_peak_sine(p.x_t));
+    p.y_w = clamp(p.y_w, 0.01, 0.99);
+    p.phi0 = trig_atan2(edge.y0, edge.x0);
+    p.phi1 = trig_atan2(edge.y1, edge.x1);
+    return p;
+}
+
+// A peak scaled to 1 at the foot and 0 at pi/2.
+//   integral  over the part in front
+//   tail      its value at x_t
+struct MomentFit {
+    float integral;
+    float tail;
+};
+
+// From a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
+MomentFit moment_fit_scaled(MomentPeak p, float integral, float tail, float lowest) {
+    float scale = 1.0 / (1.0 - lowest);
+    MomentFit fit;
+    fit.integral = scale * (integral - lowest * (p.phi1 - p.phi0));
+    fit.tail = scale * (tail - lowest);
+    return fit;
+}
+
+// Width parameter of the Lorentzian. Source: eq. 11. Kept above 1.0e-3, where the scaled peak is its limit.
+float moment_lorentzian_width(MomentPeak p) {
+    float x2 = p.x_w * p.x_w;
+    return max((1.0 - p.y_w - 0.405284734569351086 * x2) / (p.y_w * x2), 1.0e-3);
+}
+
+// 1/(1 + a phi^2). Source: eq. 11 and 12.
+MomentFit moment_fit_lorentzian(MomentPeak p) {
+    float a = moment_lorentzian_width(p);
+    float root = sqrt(a);
+    float integral = trig_atan2(root * (p.phi1 - p.phi0), 1.0 + a * p.phi0 * p.phi1) / root;
+    return moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
+}
+
+// Pearson VII: (1 + b phi^2)^-2 with b = a/2.
+MomentFit moment_fit_pearson(MomentPeak p) {
+    float b = 0.5 * moment_lorentzian_width(p);
+    float root = sqrt(b);
+    float angle = trig_atan2(root * (p.phi1 - p.phi0), 1.0 + b * p.phi0 * p.phi1);
+    float ends = p.phi1 / (1.0 + b * p.phi1 * p.phi1) - p.phi0 / (1.0 + b * p.phi0 * p.phi0);
+    float t = 1.0 / (1.0 + b * p.x_t * p.x_t);
+    float l = 1.0 / (1.0 + b * 2.46740110027233966);
+    return moment_fit_scaled(p, 0.5 * (ends + angle / root), t * t, l * l);
+}
+
+// A width of exactly 1 is a constant peak, 0/0 when scaled: kept 4e-3 away.
+float moment_fit_not_one(float a) {
+    return steradian_select(abs(a - 1.0) < 0.004, 1.004, a);
+}
+
+// Width parameter of the ellipsoid. Source: eq. 15.
+float moment_ellipsoid_width(MomentPeak p) {
+    float cosine = moment_peak_cosine(p.x_w);
+    float sine = moment_peak_sine(p.x_w);
+    return p.y_w * sine * sine / (cosine * cosine * (1.0 - p.y_w));
+}
+
+// a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
+MomentFit moment_fit_ellipsoid(MomentEdge edge, MomentPeak p) {
+    float a = moment_fit_not_one(moment_ellipsoid_width(p));
+    float root = sqrt(a);
+    float cosine = moment_peak_cosine(p.x_t);
+    float integral = root * moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
+    return moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
+}
+
+// (b/(1 + (b - 1) cos^2 phi))^2.
+MomentFit moment_fit_ellipsoid_squared(MomentEdge edge, MomentPeak p) {
+    float b = moment_fit_not_one(moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
+    float root = sqrt(b);
+    float cosine = moment_peak_cosine(p.x_t);
+    float e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, 1.0e-30);
+    float e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, 1.0e-30);
+    float angle = moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
+    float integral = 0.5 * root * (b + 1.0) * angle - 0.5 * b * (b - 1.0) * (e1 - e0);
+    float t = b / (1.0 + (b - 1.0) * cosine * cosine);
+    return moment_fit_scaled(p, integral, t * t, b * b);
+}
+
+// Blend of a peak with too heavy a tail and one with too light a tail, so that the blend meets I in the tail.
+//
+// Source: eq. 13, clamped: its denominator vanishes where the two meet.
+MomentFit moment_fit_blended(MomentPeak p, MomentFit heavy, MomentFit light) {
+    float d = light.tail - heavy.tail;
+    float alpha = (light.tail - p.y_t) / steradian_select(d < 0.0, min(d, -1.0e-12), max(d, 1.0e-12));
+    alpha = clamp(alpha, 0.0, 1.0);
+    MomentFit fit;
+    fit.integral = alpha * heavy.integral + (1.0 - alpha) * light.integral;
+    fit.tail = alpha * heavy.tail + (1.0 - alpha) * light.tail;
+    return fit;
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, from a fit.
+//
+// Degenerate: a peak below 1e-12 (n = 1) leaves the smallest value alone.
+float moment_fit_front(MomentEdge edge, MomentPeak p, MomentFit fit, int even_n) {
+    float peak = steradian_select(p.peak > 1.0e-12, p.peak * fit.integral, 0.0);
+    float front = edge.s * (peak + p.smallest * (p.phi1 - p.phi0));
+    if (even_n == 1) {
+        front = front + moment_solid_angle_front(edge);
+    }
+    return max(front, 0.0);
+}
+
+// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
+float moment_lorentzian_front(MomentEdge edge, float n, int even_n) {
+    MomentPeak p = moment_peak_prepare(edge, n, even_n);
+    return moment_fit_front(edge, p, moment_fit_lorentzian(p), even_n);
+}
+
+// The blend of Lorentzian and Pearson VII for one edge.
+float moment_pearson_front(MomentEdge edge, float n, int even_n) {
+    MomentPeak p = moment_peak_prepare(edge, n, even_n);
+    MomentFit fit = moment_fit_blended(p, moment_fit_lorentzian(p), moment_fit_pearson(p));
+    return moment_fit_front(edge, p, fit, even_n);
+}
+
+// The blend of ellipsoid and squared ellipsoid for one edge.
+float moment_ellipsoid_front(MomentEdge edge, float n, int even_n) {
+    MomentPeak p = moment_peak_prepare(edge, n, even_n);
+    MomentFit fit = moment_fit_blended(p, moment_fit_ellipsoid(edge, p), moment_fit_ellipsoid_squared(edge, p));
+    return moment_fit_front(edge, p, fit, even_n);
+}
+
+// ==== plane ====
+
+// Light in the plane: integrals of emission over the directions in which a piece of an edge or of a circle is seen.
+//
+// An edge is seen in the frame of its foot: d the distance of its line, f the angle from the perpendicular, t = tan f.
+// A circle is seen in the frame of its centre: D the centre's distance, psi the angle from the centre's direction.
+// Range window: (1 - r^2/R^2)^2 with r the distance to the surface; q = d^2/R^2; no window is q = 0, R = infinite.
+
+// Antiderivative of cos(f)^n.
+//
+//   n        2, 1, 0, -1, ..., -5, the same for all lanes
+//   t        tan f, f in (-pi/2, pi/2)
+//   f        the angle; read for n = 2 and n = 0 only
+//
+// Error: docs/plane.md, "closed forms"; against quadrature in plane_kernel_test.
+float plane_power_integral(int n, float t, float f) {
+    float sec2 = 1.0 + t * t;
+    float sec = sqrt(sec2);
+    if (n == 2) {
+        return 0.5 * (f + t / sec2);
+    }
+    if (n == 1) {
+        return t / sec;
+    }
+    if (n == 0) {
+        return f;
+    }
+    if (n == -2) {
+        return t;
+    }
+    if (n == -4) {
+        return t + t * t * t * 0.33333333333333333;
+    }
+    // asinh t, odd: the logarithm of a number at least 1, so that nothing cancels
+    float a = log(abs(t) + sec);
+    a = steradian_select(t < 0.0, -a, a);
+    if (n == -1) {
+        return a;
+    }
+    float cubed = 0.5 * (t * sec + a);
+    if (n == -3) {
+        return cubed;
+    }
+    return 0.25 * t * sec * sec2 + 0.75 * cubed;
+}
+
+// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See plane_power_integral; j = 2 takes n >= -3.
+float plane_term(int j, int n, float t, float f) {
+    if (j == 0) {
+        return plane_power_integral(n, t, f);
+    }
+    if (j == 2) {
+        return plane_power_integral(n - 2, t, f) - plane_power_integral(n, t, f);
+    }
+    // -cos^n / n, and -log(cos) for n = 0; cos^2 = 1 / sec2
+    float sec2 = 1.0 + t * t;
+    if (n == 0) {
+        return 0.5 * log(sec2);
+    }
+    if (n == 2) {
+        return -0.5 / sec2;
+    }
+    if (n == 1) {
+        return -inversesqrt(sec2);
+    }
+    if (n == -1) {
+        return sqrt(sec2);
+    }
+    if (n == -2) {
+        return 0.5 * sec2;
+    }
+    if (n == -3) {
+        return sec2 * sqrt(sec2) * 0.33333333333333333;
+    }
+    return 0.25 * sec2 * sec2;
+}
+
+// Antiderivative of tan(f)^j cos(f)^k under the range window (1 - q/cos^2)^2: what an edge of this emission sends.
+//
+//   j        0 constant along the edge, 1 linear along it (2: moments of the linear one)
+//   k        0 uniform, 1 Lambert or 1/r (times 1/d); one more for first moments
+//   q        (d/R)^2; the caller clips the edge to cos f >= d/R
+float plane_edge_integral(int j, int k, float t, float f, float q) {
+    float w0 = plane_term(j, k, t, f);
+    float w2 = plane_term(j, k - 2, t, f);
+    float w4 = plane_term(j, k - 4, t, f);
+    return w0 - 2.0 * q * w2 + q * q * w4;
+}
+
+// Antiderivative of the range window over the directions of a circle of uniform radiance, seen from outside.
+//
+//   d2       squared distance of the centre, above rho2 = squared radius; both in units of the range: R = 1
+//   c, s     cosine and sine of psi
+//   psi      the angle from the centre's direction
+//   chord    sqrt(rho2 - x^2), x = D sin psi: half the chord that the ray cuts; 0 for a tangent ray
+//   beta     asin(x / rho): pi/2 for a tangent ray
+//
+// With x as the variable, r^2 and r^4 split into a polynomial in x and the chord times one, and both integrate to
+// elementary terms: int chord dx = (x chord + rho2 beta) / 2, int x^2 chord dx = (x (2 x^2 - rho2) chord + rho2^2 beta) / 8.
+// Linear in the two angles: differences of psi and beta may be taken before the call.
+float plane_disk_window_integral(float d2, float rho2, float d, float c, float s, float psi, float chord, float beta) {
+    float x = d * s;
+    float sin2 = 2.0 * s * c;
+    float cos2 = c * c - s * s;
+    float half_disk = x * chord + rho2 * beta;
+    float r2 = 0.5 * d2 * sin2 + rho2 * psi - half_disk;
+    float even = psi * rho2 * (rho2 + 2.0 * d2) + d2 * sin2 * (2.0 * rho2 + 0.5 * d2 * cos2);
+    float mixed = 2.0 * (d2 + rho2) * half_disk - x * (2.0 * x * x - rho2) * chord - rho2 * rho2 * beta;
+    return psi - 2.0 * r2 + even - mixed;
+}
+
+// Whole disk window integral between two rays, from their slopes.
+//
+//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi; the caller has clipped the rays to the range
+//
+// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
+float plane_disk_window(float m0, float m1, float d2, float rho2) {
+    float d = sqrt(d2);
+    float c0 = inversesqrt(1.0 + m0 * m0);
+    float c1 = inversesqrt(1.0 + m1 * m1);
+    float s0 = m0 * c0;
+    float s1 = m1 * c1;
+    float chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
+    float chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
+    float psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
+    float beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
+    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
+         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+}
+
+// The slope of a point in a frame: tangent of the angle from the axis.
+//
+//   w, t     components of the point along the axis and across it (counter-clockwise positive), any common scale
+//   beyond   the slope where the point is not in front of the axis: +-1.0e9
+float plane_slope(float w, float t, float beyond) {
+    return steradian_select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
+}
+
+// ==== representative_point ====
+
+// The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
+// the mirror direction, on a lobe widened to make up for it.
+// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon.
+
+// The state of a walk.
+//   turn     how far the outline has turned about the mirror direction [rad]: two pi or zero at the end
+//   nearest  direction on the outline nearest to it
+//   cosine   between the two
+struct RepresentativeWalk {
+    float turn;
+    vec3 nearest;
+    float cosine;
+};
+
+// A walk with no edge yet.
+RepresentativeWalk representative_begin() {
+    RepresentativeWalk walk;
+    walk.turn = 0.0;
+    walk.nearest = vec3(0.0, 0.0, 1.0);
+    walk.cosine = -2.0;
+    return walk;
+}
+
+// Adds one edge.
+//
+//   mirror   unit: the view mirrored at the normal
+//   a, b     unit directions of the edge's ends
+RepresentativeWalk representative_add_edge(RepresentativeWalk walk, vec3 mirror, vec3 a, vec3 b) {
+    RepresentativeWalk next = walk;
+    float ca = dot(mirror, a);
+    float cb = dot(mirror, b);
+    next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
+    // The nearest of the great circle, if it lies between the ends.
+    vec3 n = cross(a, b);
+    float n2 = max(dot(n, n), 1.0e-30);
+    vec3 p = mirror - n * (dot(mirror, n) / n2);
+    vec3 on_circle = p * inversesqrt(max(dot(p, p), 1.0e-30));
+    bool between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
+    vec3 nearest = steradian_select(between, on_circle, steradian_select(ca > cb, a, b));
+    float cosine = dot(mirror, nearest);
+    bool better = cosine > walk.cosine;
+    next.nearest = steradian_select(better, nearest, walk.nearest);
+    next.cosine = steradian_select(better, cosine, walk.cosine);
+    return next;
+}
+
+// Radiance towards the view, per radiance of the light, without Fresnel.
+//
+//   view, mirror  unit, in the shading frame
+//   solid_angle   of the light [sr]
+//   alpha         of the GGX lobe
+//
+// Degenerate: 0 where the representative direction is below the horizon.
+float representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, float solid_angle, float alpha) {
+    bool inside = abs(walk.turn) > steradian_pi();
+    vec3 l = steradian_select(inside, mirror, walk.nearest);
+    // The radius of the disk of that solid angle widens the lobe; the lobe's peak falls by the square.
+    float wider = clamp(alpha + sqrt(solid_angle * 0.318309886183790672) / 3.0, 0.0, 1.0);
+    float fall = alpha / max(wider, 1.0e-4);
+    return ggx_lobe(l, view, alpha, alpha) * fall * fall * solid_angle;
+}
+
+// The half vector's cosine for Fresnel. Arguments as above.
+float representative_v_dot_h(RepresentativeWalk walk, vec3 view, vec3 mirror) {
+    bool inside = abs(walk.turn) > steradian_pi();
+    vec3 h = microfacet_half_vector(steradian_select(inside, mirror, walk.nearest), view);
+    return dot(view, h);
 }

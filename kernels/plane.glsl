@@ -3,6 +3,7 @@
 // An edge is seen in the frame of its foot: d the distance of its line, f the angle from the perpendicular, t = tan f.
 // A circle is seen in the frame of its centre: D the centre's distance, psi the angle from the centre's direction.
 // Range window: (1 - r^2/R^2)^2 with r the distance to the surface; q = d^2/R^2; no window is q = 0, R = infinite.
+// Needs: inverse_trig.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Antiderivative of cos(f)^n.

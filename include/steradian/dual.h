@@ -25,6 +25,13 @@ struct Dual {
 
   Dual() = default;
   Dual(double value) : v(value) {}
+  // Written out: for the implicit copy g++ 12 takes rep movsq, whose start alone costs more than the arithmetic.
+  Dual(const Dual& other) { *this = other; }
+  Dual& operator=(const Dual& other) {
+    v = other.v;
+    for (std::size_t i = 0; i < N; ++i) d[i] = other.d[i];
+    return *this;
+  }
 
   // f(x), given the value and the slope of f there.
   Dual chain(double value, double slope) const {
