@@ -6,7 +6,8 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The state of a walk.
-//   turn     how far the outline has turned about the mirror direction [rad]: two pi or zero at the end
+//   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
+//            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
 //   nearest  direction on the outline nearest to it
 //   cosine   between the two
 struct RepresentativeWalk {
@@ -47,16 +48,23 @@ RepresentativeWalk representative_add_edge(RepresentativeWalk walk, vec3 mirror,
     return next;
 }
 
+// The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
+vec3 representative_direction(RepresentativeWalk walk, vec3 mirror, mask reversed) {
+    real turn = select(reversed, -walk.turn, walk.turn);
+    return select(turn > pi(), mirror, walk.nearest);
+}
+
 // Radiance towards the view, per radiance of the light, without Fresnel.
 //
 //   view, mirror  unit, in the shading frame
 //   solid_angle   of the light [sr]
 //   alpha         of the GGX lobe
+//   reversed      true where the light is seen from behind
 //
-// Degenerate: 0 where the representative direction is below the horizon.
-real representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, real solid_angle, real alpha) {
-    mask inside = abs(walk.turn) > pi();
-    vec3 l = select(inside, mirror, walk.nearest);
+// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside a small light the widening
+// is too little: 9/4 of the light's radiance.
+real representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, real solid_angle, real alpha, mask reversed) {
+    vec3 l = representative_direction(walk, mirror, reversed);
     // The radius of the disk of that solid angle widens the lobe; the lobe's peak falls by the square.
     real wider = clamp(alpha + sqrt(solid_angle * 0.318309886183790672) / 3.0, 0.0, 1.0);
     real fall = alpha / max(wider, 1.0e-4);
@@ -64,8 +72,7 @@ real representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, re
 }
 
 // The half vector's cosine for Fresnel. Arguments as above.
-real representative_v_dot_h(RepresentativeWalk walk, vec3 view, vec3 mirror) {
-    mask inside = abs(walk.turn) > pi();
-    vec3 h = microfacet_half_vector(select(inside, mirror, walk.nearest), view);
+real representative_v_dot_h(RepresentativeWalk walk, vec3 view, vec3 mirror, mask reversed) {
+    vec3 h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
     return dot(view, h);
 }

@@ -64,8 +64,8 @@ void run(const Options& options) {
   // A wrong ending is found before the work, not after it.
   if (!options.output.empty()) {
     if (options.layout == "classic")
-      classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4)}, options.lobe,
-                    options.output);
+      classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4),
+                     ClassicNormalisation::middle}, options.lobe, options.output);
     else
       compact_files({}, options.lobe, options.output);
   }

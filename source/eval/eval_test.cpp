@@ -73,8 +73,8 @@ TEST(Eval, AnswersEveryMaterialMethodAndLight) {
                                        R"("method":")" + method + R"(","spp":16,"seed":3,"precision":"double")");
         const json a = answer(line);
         ASSERT_TRUE(a.contains("radiance")) << line << "\n" << a;
-        const auto is = [&](const char* brdf) { return material.find(brdf) != std::string::npos; };
-        const std::string resolved = is("lambert") ? "exact" : is("\"phong") ? "series" : "reference";
+        const auto is = [&](const char* part) { return material.find(part) != std::string::npos; };
+        const std::string resolved = is("lambert") || is("none") ? "exact" : is("\"phong") ? "series" : is("ggx") ? "closed-form" : "half-vector";
         EXPECT_EQ(a["method"], method != "auto" ? method : resolved);
         EXPECT_EQ(a.contains("standard_error"), method == "sampled");
         EXPECT_EQ(a.contains("bound"), a["method"] == "reference");

@@ -51,19 +51,20 @@ struct Magnitudes {
   double albedo = 0, grazing = 0;
 };
 
-Magnitudes integrate_magnitudes(const Lobe& lobe, int n) {
+// By a Fibonacci lattice: the horizon cuts rings of a product rule all at once, but a lattice evenly.
+Magnitudes integrate_magnitudes(const Lobe& lobe, int directions) {
   Magnitudes sum;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const Vec3d l = lobe.sample((i + 0.5) / n, 0.5 * (j + 0.5) / n);
-      if (!(l.z > 0)) continue;
-      const double f = lobe.evaluate(l) / lobe.pdf(l);
-      const double v_dot_h = dot(lobe.view, normalized(l + lobe.view));
-      sum.albedo += f;
-      sum.grazing += f * std::pow(std::clamp(1 - v_dot_h, 0.0, 1.0), 5.0);
-    }
-  sum.albedo /= n * n;
-  sum.grazing /= n * n;
+  for (int i = 0; i < directions; ++i) {
+    const double b = i * 0.6180339887498949;
+    const Vec3d l = lobe.sample((i + 0.5) / directions, 0.5 * (b - std::floor(b)));
+    if (!(l.z > 0)) continue;
+    const double f = lobe.evaluate(l) / lobe.pdf(l);
+    const double v_dot_h = dot(lobe.view, normalized(l + lobe.view));
+    sum.albedo += f;
+    sum.grazing += f * std::pow(std::clamp(1 - v_dot_h, 0.0, 1.0), 5.0);
+  }
+  sum.albedo /= directions;
+  sum.grazing /= directions;
   return sum;
 }
 
@@ -136,7 +137,7 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   const Lobe lobe = family.at(roughness, cos_theta);
   const double alpha = alpha_from_roughness(roughness);
   const Nodes nodes = place_nodes(lobe, options.nodes);
-  const Magnitudes magnitudes = integrate_magnitudes(lobe, options.magnitude_nodes);
+  const Magnitudes magnitudes = integrate_magnitudes(lobe, options.magnitude_directions);
   const std::vector<TestRectangle> lights = test_rectangles_near(lobe, options.lights, kLightSeed);
   const Objective objective{nodes, family.frame, alpha, lobe.view, magnitudes.albedo, options.norm, lights,
                             true_radiance(lobe, lights, options.light_directions)};

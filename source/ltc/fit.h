@@ -29,7 +29,7 @@ struct FitOptions {
   int size = 64;                // nodes along roughness and along sqrt(1 - cos theta)
   FitNorm norm = FitNorm::l1;
   int nodes = 32;               // quadrature nodes: nodes^2 on half of the hemisphere, in the lobe's own coordinates
-  int magnitude_nodes = 128;    // the same for albedo and grazing
+  int magnitude_directions = 1 << 14;  // quadrature points for albedo and grazing
   int lights = 64;              // random rectangles of the second pass; 0: none
   int light_directions = 4096;  // quadrature points for their true radiance
   double lobe_share = 0.1;      // weight of the lobe's L1 beside the relative error on the lights

@@ -25,7 +25,7 @@ void expect_density_holds(const Lobe& lobe, double width, const std::string& nam
   reference::Chi2Options options;
   options.axis = normalized(Vec3d{-lobe.view.x, 0, lobe.view.z});
   options.width = width;
-  options.samples = 40'000;
+  options.samples = 20'000;
   const auto result = reference::chi2_test(lobe.sample, lobe.pdf, options);
   EXPECT_GE(result.p_value, level) << name << ": " << result.evidence;
 }

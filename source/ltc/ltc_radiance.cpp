@@ -90,8 +90,8 @@ struct Evaluation : Kernels<S> {
       solid_angle = this->solid_angle_add_edge(solid_angle, a, b);
     });
     const real sr = this->solid_angle_finish(solid_angle, reversed);
-    const real lobe = this->representative_radiance(walk, view, mirror, sr, material.alpha_x);
-    const real v_dot_h = this->representative_v_dot_h(walk, view, mirror);
+    const real lobe = this->representative_radiance(walk, view, mirror, sr, material.alpha_x, reversed);
+    const real v_dot_h = this->representative_v_dot_h(walk, view, mirror, reversed);
     const auto channel = [&](double f0, double f90, double radiance) {
       return static_cast<double>((this->fresnel_schlick(f0, f90, v_dot_h) * lobe * real(radiance)).v);
     };

@@ -38,7 +38,10 @@ TEST(LtcRadiance, IsNearTheReference) {
       EXPECT_NEAR(ltc_radiance(LtcMethod::classic, light, at, ggx(roughness)).x, expected, 0.02) << roughness << " " << cosine;
       EXPECT_NEAR(ltc_radiance(LtcMethod::compact, light, at, ggx(roughness)).x, expected, 0.02) << roughness << " " << cosine;
       EXPECT_NEAR(ltc_radiance(LtcMethod::clipless, light, at, ggx(roughness)).x, expected, 0.15) << roughness << " " << cosine;
-      EXPECT_NEAR(ltc_radiance(LtcMethod::representative_point, light, at, ggx(roughness)).x, expected, 0.6) << roughness << " " << cosine;
+      // No claim of nearness; the comparison must only be one: 9/4 too bright at the worst, see its kernel.
+      const double point = ltc_radiance(LtcMethod::representative_point, light, at, ggx(roughness)).x;
+      EXPECT_GT(point, expected / 3) << roughness << " " << cosine;
+      EXPECT_LT(point, expected * 3) << roughness << " " << cosine;
     }
 }
 

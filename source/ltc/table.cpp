@@ -72,12 +72,14 @@ LtcValue ClassicTable::look_up(double roughness, double cos_theta) const {
   const Stencil s = stencil(roughness, view_coordinate(cos_theta), size);
   const auto m = interpolate(matrix, s);
   const auto f = interpolate(magnitude, s);
+  if (normalisation == ClassicNormalisation::last) return {{m[0], m[2], m[3], m[1], 1.0}, f[0], f[1]};
   return {{m[0], m[2], 1.0, m[1], m[3]}, f[0], f[1]};
 }
 
 ClassicTable classic_table(const LtcTable& fit, ClassicNormalisation normalisation) {
   ClassicTable table;
   table.size = fit.size;
+  table.normalisation = normalisation;
   for (int j = 0; j < fit.size; ++j)
     for (int i = 0; i < fit.size; ++i) {
       const LtcCell& cell = fit.at(i, j);

@@ -15,6 +15,9 @@ struct LtcValue {
   double f_a = 0;
 };
 
+// Which element of M^-1 is 1. Engines expect the middle one; see docs/ltc.md for what each does between the nodes.
+enum class ClassicNormalisation { middle, last };
+
 // Two textures as engines sample them: roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends.
 //   matrix     M^-1 over its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
 //   magnitude  n_A, f_A, 0, form factor of a sphere clipped by the horizon (see clipped_sphere.h)
@@ -22,12 +25,10 @@ struct ClassicTable {
   int size = 0;
   std::vector<std::array<float, 4>> matrix;
   std::vector<std::array<float, 4>> magnitude;
+  ClassicNormalisation normalisation = ClassicNormalisation::middle;  // last: the fourth of matrix is the middle
 
   LtcValue look_up(double roughness, double cos_theta) const;
 };
-
-// Which element of M^-1 is 1. Engines expect the middle one; see docs/ltc.md for what each does between the nodes.
-enum class ClassicNormalisation { middle, last };
 
 ClassicTable classic_table(const LtcTable& fit, ClassicNormalisation normalisation = ClassicNormalisation::middle);
 
