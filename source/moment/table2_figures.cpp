@@ -38,15 +38,16 @@ double integrand(double c, double n, double phi) {
   return (1 - std::pow(x, n + 1)) / (1 - x * x);
 }
 
-// What a method integrates, from its integral over a short piece.
+// Error of what a method integrates, over the peak, from its integral over short pieces.
 template <class Front>
-Curve curve_of(const std::string& name, double c, double phi_high, int colour, Front front) {
-  Curve curve{name, {}, true, colour};
+Curve error_of(const std::string& name, double c, double n, double phi_high, int colour, Front front) {
+  Curve curve{name, {}, false, colour};
   constexpr int kPoints = 200;
   for (int i = 0; i < kPoints; ++i) {
     const double a = phi_high * i / kPoints, b = phi_high * (i + 1) / kPoints;
     const auto edge = edge_on_circle(c, a, b);
-    curve.points.push_back({0.5 * (a + b), front(edge).v / edge.s.v / (b - a)});
+    const double phi = 0.5 * (a + b);
+    curve.points.push_back({phi, (front(edge).v / edge.s.v / (b - a) - integrand(c, n, phi)) / integrand(c, n, 0)});
   }
   return curve;
 }
@@ -98,17 +99,17 @@ LinePlot half_width_plot() {
 
 LinePlot fits_plot() {
   K k;
-  constexpr double c = 0.99, n = 100, phi_high = 0.8;
+  constexpr double c = 0.99, n = 100, phi_high = kQuarterTurn;
   const PhongLobe<double> lobe(n, 0);
-  LinePlot plot{"The methods' integrands at n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, 0, 45, {}};
-  Curve exact{"exact", {}, false, 0};
-  for (int i = 0; i <= 200; ++i) exact.points.push_back({phi_high * i / 200, integrand(c, n, phi_high * i / 200)});
-  plot.curves.push_back(exact);
-  plot.y_high = 5 * std::ceil(integrand(c, n, 0) / 5 * 1.1);
-  plot.curves.push_back(curve_of("lorentzian", c, phi_high, 1, [&](const auto& e) { return k.moment_lorentzian_front(e, n, 1); }));
-  plot.curves.push_back(curve_of("pearson", c, phi_high, 2, [&](const auto& e) { return k.moment_pearson_front(e, n, 1); }));
-  plot.curves.push_back(curve_of("ellipsoid", c, phi_high, 5, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, 1); }));
-  plot.curves.push_back(curve_of("series", c, phi_high, 3, [&](const auto& e) { return k.moment_series_front(e, lobe.series); }));
+  LinePlot plot{"Errors of the methods' integrands over the peak, n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, -0.03, 0.03, {}};
+  const auto add = [&](const char* name, int colour, auto front) {
+    plot.curves.push_back(error_of(name, c, n, phi_high, colour, front));
+  };
+  add("lorentzian", 1, [&](const auto& e) { return k.moment_lorentzian_front(e, n, 1); });
+  add("pearson", 2, [&](const auto& e) { return k.moment_pearson_front(e, n, 1); });
+  add("ellipsoid", 5, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, 1); });
+  add("series", 3, [&](const auto& e) { return k.moment_series_front(e, lobe.series); });
+  add("series high", 0, [&](const auto& e) { return k.moment_series_high_front(e, lobe.series_high); });
   return plot;
 }
 
