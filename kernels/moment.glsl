@@ -56,9 +56,14 @@ real moment_1_minus_exp(real x) {
     if (real_digits() > 24) {
         near = 0.001;
     }
-    // Taylor, nested; the next term is x^6 / 5040.
-    real series = x * (1.0 - 0.5 * x * (1.0 - 0.333333333333333333 * x * (1.0 - 0.25 * x * (1.0 - 0.2 * x * (1.0 - 0.166666666666666667 * x)))));
-    return select(x < near, series, 1.0 - exp(-x));
+    real result = 1.0 - exp(-x);
+    mask small = x < near;
+    if (any_lane(small)) {
+        // Taylor, nested; the next term is x^6 / 5040.
+        real series = x * (1.0 - 0.5 * x * (1.0 - 0.333333333333333333 * x * (1.0 - 0.25 * x * (1.0 - 0.2 * x * (1.0 - 0.166666666666666667 * x)))));
+        result = select(small, series, result);
+    }
+    return result;
 }
 
 // Angle in [0, pi] from the direction (w x0, y0) to (w x1, y1): the definite integral of atan(tan(phi) / w).
@@ -72,9 +77,14 @@ real moment_minus_log_cosine2(real s2, real c2) {
     if (real_digits() > 24) {
         near = 0.001;
     }
-    // Taylor; the next term is s2^7 / 7.
-    real series = s2 * (1.0 + s2 * (0.5 + s2 * (0.333333333333333333 + s2 * (0.25 + s2 * (0.2 + s2 * 0.166666666666666667)))));
-    return select(s2 < near, series, -log(c2));
+    real result = -log(c2);
+    mask small = s2 < near;
+    if (any_lane(small)) {
+        // Taylor; the next term is s2^7 / 7.
+        real series = s2 * (1.0 + s2 * (0.5 + s2 * (0.333333333333333333 + s2 * (0.25 + s2 * (0.2 + s2 * 0.166666666666666667)))));
+        result = select(small, series, result);
+    }
+    return result;
 }
 
 // Prepares one edge.

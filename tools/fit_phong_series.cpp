@@ -5,10 +5,11 @@
 //   fit_phong_series --check FILE    exit 0 when FILE holds exactly these functions, 1 when it does not
 //
 // E depends on two numbers: kap2 = 1 - c^m in (0, 1) and g = 1/m in (0, 1/2]. At every node of a grid over both, its
-// harmonics b_k come from the trapezoidal rule, which is exact to rounding for a smooth periodic function. Then each
-// b_k / (1 - kap2) is fitted by a polynomial in kap2 and g. The harmonics are orthogonal, so the least squares on E
-// fall apart into one problem for each harmonic. A node counts by about kap, the factor of E in the integral, and more
-// for large exponents, which are rare in g; the powers in fit() gave the smallest of the largest errors among a dozen.
+// harmonics come from the trapezoidal rule, which is exact to rounding for a smooth periodic function, and amplitudes
+// b_k of the few harmonics kept from least squares on the integral of E from the foot, which is what an edge needs:
+// the harmonics left out are partly made good by b_0. Then each b_k / (1 - kap2) is fitted by a polynomial in kap2
+// and g. A node counts by about kap, the factor of E in the integral, and more for large exponents, which are rare in
+// g; the powers in fit() gave the smallest errors on lights among a dozen tried.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -45,13 +46,18 @@ Long factor(const Node& p, Long u) {
 
 // E - 1 = b_0 + sum_k b_k cos 2ku.
 std::vector<Long> harmonics(const Node& p, int highest) {
+  static const std::vector<Long> cosine = [] {  // of pi j / kSamples, over two turns
+    std::vector<Long> table;
+    for (int j = 0; j < 2 * kSamples; ++j) table.push_back(std::cos(kPi * j / kSamples));
+    return table;
+  }();
   std::vector<Long> b(static_cast<std::size_t>(highest) + 1, 0);
   for (int i = 0; i <= kSamples; ++i) {
     const Long u = kPi / 2 * i / kSamples;
     const Long weight = (i == 0 || i == kSamples ? 0.5L : 1.0L) / kSamples;
     const Long e = factor(p, u) - 1;
     for (int k = 0; k <= highest; ++k)
-      b[static_cast<std::size_t>(k)] += (k == 0 ? 1 : 2) * weight * e * std::cos(2 * k * u);
+      b[static_cast<std::size_t>(k)] += (k == 0 ? 1 : 2) * weight * e * cosine[static_cast<std::size_t>(k * i % (2 * kSamples))];
   }
   return b;
 }
@@ -93,6 +99,25 @@ std::vector<Long> solve(std::vector<std::vector<Long>> rows) {
   return x;
 }
 
+// The amplitudes b_0..b_highest with which the integral of E from the foot to u is closest, over all u.
+std::vector<Long> amplitudes(const Node& p, int highest) {
+  const std::vector<Long> all = harmonics(p, 40);
+  std::vector<std::vector<Long>> rows;
+  for (int i = 0; i < 128; ++i) {
+    const Long u = kPi / 2 * (i + 0.5L) / 128;
+    std::vector<Long> row = {u};
+    Long integral = all[0] * u;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      const Long term = std::sin(2 * Long(k) * u) / (2 * Long(k));
+      if (k <= static_cast<std::size_t>(highest)) row.push_back(term);
+      integral += all[k] * term;
+    }
+    row.push_back(integral);
+    rows.push_back(row);
+  }
+  return solve(rows);
+}
+
 struct Series {
   int highest, powers;                  // harmonics 0..highest, powers of kap2 0..powers-1
   std::vector<std::vector<Long>> c;     // c[k][3 i + j], of kap2^i g^j
@@ -102,7 +127,7 @@ Series fit(int highest, int powers) {
   Series series{highest, powers, {}};
   const std::vector<Node> nodes = grid();
   std::vector<std::vector<Long>> b;
-  for (const Node& p : nodes) b.push_back(harmonics(p, highest));
+  for (const Node& p : nodes) b.push_back(amplitudes(p, highest));
   for (std::size_t k = 0; k <= static_cast<std::size_t>(highest); ++k) {
     std::vector<std::vector<Long>> rows;
     for (std::size_t r = 0; r < nodes.size(); ++r) {

@@ -8,6 +8,7 @@
 
 #include "../../bench/benches.h"
 #include "core/progress.h"
+#include "moment/table2.h"
 #include "steradian/error.h"
 #include "verbs.h"
 
@@ -18,7 +19,20 @@ struct Options {
   std::string filter, simd;
   double min_time = 0.5;
   bool json = false;
+  bool table2 = false;
+  std::string figures;
 };
+
+// The published comparison of Phong area lights, made again.
+void print_table2(const Options& options) {
+  moment::Table2Options table;
+  table.min_time = options.min_time < 0.5 ? options.min_time : 0.05;
+  fmt::print("{}", moment::table2_text(moment::measure_table2(table), table));
+  if (options.figures.empty()) return;
+  for (const std::string& file : moment::write_table2_figures(options.figures, table.simd))
+    fmt::print(stderr, "wrote {}\n", file);
+}
+
 
 std::vector<BenchResult> run(const Options& options) {
   if (!options.simd.empty()) setenv("STERADIAN_SIMD", options.simd.c_str(), 1);
@@ -89,7 +103,14 @@ void add_bench(CLI::App& app, Exit&) {
       ->group("How")
       ->check(CLI::Range(0.0, 3600.0).description("0..3600"));
   verb->add_flag("--json", options->json, "Print JSON")->group("How");
+  verb->add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)")
+      ->group("What");
+  verb->add_option("--figures", options->figures, "With --table2: write the page's figures into this folder")
+      ->group("What")
+      ->check(CLI::ExistingDirectory);
   verb->callback([options] {
+    if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
+    if (options->table2) return print_table2(*options);
     const std::vector<BenchResult> results = run(*options);
     options->json ? print_json(results) : print_table(results);
   });

@@ -1,0 +1,174 @@
+#include "moment/table2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/bench.h"
+#include "core/float_mode.h"
+#include "moment/phong_plane.h"
+
+namespace steradian::moment {
+namespace {
+
+constexpr int kExponents[] = {100, 500, 5000};
+
+Material phong(double n) {
+  Material material;
+  material.brdf = Brdf::phong;
+  material.exponent = n;
+  return material;
+}
+
+// Every k-th pixel of every k-th row, with the same camera: a smaller picture.
+PhongPlane thinned(const Table2Options& options) {
+  return make_phong_plane(options.width / options.every, options.height / options.every);
+}
+
+std::vector<double> exact_picture(const PhongPlane& plane, const PreparedPolygon& light, int n) {
+  std::vector<double> picture(plane.count);
+  const Material material = phong(n);
+  for (std::size_t i = 0; i < plane.count; ++i)
+    picture[i] = phong_radiance(light, plane.at(i), material, {PhongMethod::exact}).x;
+  return picture;
+}
+
+std::vector<float> picture_by(const PhongPlane& plane, const PreparedPolygon& light, int n, const PhongOptions& options,
+                              Simd simd) {
+  const FlushDenormals flush;
+  std::vector<float> picture(plane.x.size());
+  phong_table_for(simd).radiance(light, plane.points(), n, options, picture.data());
+  return picture;
+}
+
+double packs_ns(const PhongPlane& plane, const NamedLight& light, int n, const PhongOptions& method,
+                const Table2Options& options) {
+  BenchOptions bench;
+  bench.min_time = options.min_time;
+  bench.min_runs = 5;
+  std::vector<float> picture(plane.x.size());
+  const auto radiance = phong_table_for(options.simd).radiance;
+  const Bench body{"packs", picture.size() * light.edges, name_of(options.simd), [&] {
+                     const FlushDenormals flush;
+                     radiance(light.light, plane.points(), n, method, picture.data());
+                     keep(picture.front());
+                   }};
+  return run_bench(body, bench).ns_per_item;
+}
+
+double scalar_ns(const PhongPlane& plane, const NamedLight& light, int n, const PhongOptions& method,
+                 const Table2Options& options) {
+  BenchOptions bench;
+  bench.min_time = options.min_time;
+  bench.min_runs = 5;
+  constexpr std::size_t kStep = 61;  // scalar is slow; a prime, so that columns are mixed
+  const Material material = phong(n);
+  const Bench body{"scalar", plane.count / kStep * light.edges, "scalar", [&] {
+                     const FlushDenormals flush;
+                     float sum = 0;
+                     for (std::size_t i = 0; i < plane.count / kStep; ++i)
+                       sum += phong_radiance_float(light.light, plane.at(i * kStep), material, method).x;
+                     keep(sum);
+                   }};
+  return run_bench(body, bench).ns_per_item;
+}
+
+std::string format(const char* pattern, double x) {
+  char text[64];
+  std::snprintf(text, sizeof text, pattern, x);
+  return text;
+}
+
+// The paper's own, for n = 100, 500, 5000.
+struct Published {
+  const char* method;
+  const char* rmse;
+  const char* milliseconds;
+};
+constexpr Published kPublished[] = {
+    {"arvo", "reference", "13.6, 49, 476 / 0.41, 1.57, 9.8"},
+    {"lorentzian", ".004354, .005506, .004128", "0.25 / 0.12 at any n"},
+    {"pearson", ".003641, .003094, .002551", "0.40 / 0.125 at any n"},
+    {"ellipsoid", ".001500, .001652, .001014", "0.47 / 0.127 at any n"},
+};
+
+}  // namespace
+
+const std::vector<ComparedMethod>& compared_methods() {
+  static const std::vector<ComparedMethod> methods = {
+      {"arvo", {PhongMethod::arvo}},
+      {"arvo to 1e-4", {PhongMethod::arvo, PhongQuality::normal, 1e-4}},
+      {"lorentzian", {PhongMethod::lorentzian}},
+      {"pearson", {PhongMethod::pearson}},
+      {"ellipsoid", {PhongMethod::ellipsoid}},
+      {"series", {PhongMethod::series}},
+      {"series high", {PhongMethod::series, PhongQuality::high}},
+      {"quadrature", {PhongMethod::exact}},
+  };
+  return methods;
+}
+
+std::vector<Table2Row> measure_table2(const Table2Options& options) {
+  const PhongPlane plane = thinned(options);
+  const double all_pixels = static_cast<double>(plane.width) * plane.height;
+  std::vector<Table2Row> rows;
+  for (const NamedLight& light : comparison_lights())
+    for (const int n : kExponents) {
+      const std::vector<double> exact = exact_picture(plane, light.light, n);
+      const double brightest = *std::max_element(exact.begin(), exact.end());
+      for (const ComparedMethod& method : compared_methods()) {
+        const std::vector<float> picture = picture_by(plane, light.light, n, method.options, options.simd);
+        Table2Row row;
+        row.light = light.name;
+        row.method = method.name;
+        row.exponent = n;
+        double squares = 0;
+        for (std::size_t i = 0; i < plane.count; ++i) {
+          const double error = std::fabs(static_cast<double>(picture[i]) - exact[i]) / brightest;
+          squares += error * error;
+          row.largest = std::max(row.largest, error);
+        }
+        row.rmse = std::sqrt(squares / all_pixels);
+        if (options.min_time > 0) {
+          row.packs_ns = packs_ns(plane, light, n, method.options, options);
+          row.scalar_ns = scalar_ns(plane, light, n, method.options, options);
+        }
+        rows.push_back(row);
+      }
+    }
+  return rows;
+}
+
+std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options& options) {
+  std::string text;
+  const auto cells = [&](const std::string& light, const std::string& method, auto value) {
+    for (const int n : kExponents)
+      for (const Table2Row& row : rows)
+        if (row.light == light && row.method == method && row.exponent == n) text += " " + value(row) + " |";
+  };
+  for (const NamedLight& light : comparison_lights()) {
+    text += "**" + light.name + "**, " + std::to_string(light.edges) + " edges\n\n";
+    text += "| method | RMSE n=100 | 500 | 5000 | largest 100 | 500 | 5000 |";
+    if (options.min_time > 0)
+      text += std::string(" ns scalar 100 | 500 | 5000 | ns ") + name_of(options.simd) + " 100 | 500 | 5000 |";
+    text += options.min_time > 0 ? "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n" : "\n|---|---|---|---|---|---|---|\n";
+    for (const ComparedMethod& method : compared_methods()) {
+      text += "| " + method.name + " |";
+      cells(light.name, method.name, [](const Table2Row& r) { return format("%.1e", r.rmse); });
+      cells(light.name, method.name, [](const Table2Row& r) { return format("%.1e", r.largest); });
+      if (options.min_time > 0) {
+        cells(light.name, method.name, [](const Table2Row& r) { return format("%.0f", r.scalar_ns); });
+        cells(light.name, method.name, [](const Table2Row& r) { return format("%.1f", r.packs_ns); });
+      }
+      text += "\n";
+    }
+    text += "\n";
+  }
+  text += "Published (another, unknown scene; whole screen, ms per edge, GTX 580 / GTX 980 Ti)\n\n";
+  text += "| method | RMSE n = 100, 500, 5000 | ms per edge |\n|---|---|---|\n";
+  for (const Published& p : kPublished)
+    text += std::string("| ") + p.method + " | " + p.rmse + " | " + p.milliseconds + " |\n";
+  return text;
+}
+
+}  // namespace steradian::moment

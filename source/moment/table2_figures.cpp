@@ -1,0 +1,168 @@
+// The figures of docs/moments.md: the integrand, its half width and the fits as plots; the scene and the errors.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/atomic_file.h"
+#include "core/float_mode.h"
+#include "moment/line_plot.h"
+#include "moment/phong_lobe.h"
+#include "moment/phong_plane.h"
+#include "moment/table2.h"
+#include "steradian/picture.h"
+
+namespace steradian::moment {
+namespace {
+
+using K = Kernels<double>;
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+
+// An edge whose foot has the cosine c, from phi0 to phi1.
+K::MomentEdge edge_on_circle(double c, double phi0, double phi1) {
+  K::MomentEdge edge;
+  edge.side = 1.0;
+  edge.c = c;
+  edge.s = std::sqrt(1 - c * c);
+  edge.x0 = c * std::cos(phi0);
+  edge.y0 = c * std::sin(phi0);
+  edge.x1 = c * std::cos(phi1);
+  edge.y1 = c * std::sin(phi1);
+  edge.log_c = -2 * std::log(c);
+  edge.swept = 0.0;
+  return edge;
+}
+
+double integrand(double c, double n, double phi) {
+  const double x = c * std::cos(phi);
+  return (1 - std::pow(x, n + 1)) / (1 - x * x);
+}
+
+// Error of what a method integrates, over the peak, from its integral over short pieces.
+template <class Front>
+Curve error_of(const std::string& name, double c, double n, double phi_high, int colour, Front front) {
+  Curve curve{name, {}, false, colour};
+  constexpr int kPoints = 200;
+  for (int i = 0; i < kPoints; ++i) {
+    const double a = phi_high * i / kPoints, b = phi_high * (i + 1) / kPoints;
+    const auto edge = edge_on_circle(c, a, b);
+    const double phi = 0.5 * (a + b);
+    curve.points.push_back({phi, (front(edge).v / edge.s.v / (b - a) - integrand(c, n, phi)) / integrand(c, n, 0)});
+  }
+  return curve;
+}
+
+LinePlot integrand_plot() {
+  LinePlot plot{"The integrand (1 - x^m)/(1 - x^2), x = c cos phi, over its peak", "phi [rad]", "", 0, kQuarterTurn, 0, 1, {}};
+  int colour = 0;
+  for (const double n : {10.0, 100.0, 5000.0}) {
+    for (const double c : {0.5, 0.95, 0.9999}) {
+      char name[64];
+      std::snprintf(name, sizeof name, "n = %g, c = %g", n, c);
+      Curve curve{name, {}, c < 0.9 || c > 0.99, colour};
+      if (c > 0.99) curve.dashed = false;
+      for (int i = 0; i <= 400; ++i) {
+        const double phi = kQuarterTurn * i / 400;
+        curve.points.push_back({phi, integrand(c, n, phi) / integrand(c, n, 0)});
+      }
+      plot.curves.push_back(curve);
+      colour = (colour + 1) % 8;
+    }
+  }
+  return plot;
+}
+
+LinePlot half_width_plot() {
+  K k;
+  LinePlot plot{"Half width of the peak above its smallest value, and the published fit (dashed)", "c", "x_w [rad]", 0, 1, 0, 1.2, {}};
+  int colour = 0;
+  for (const double n : {10.0, 11.0, 100.0, 101.0, 5000.0, 5001.0}) {
+    const int even_n = static_cast<int>(n) % 2 == 0;
+    Curve exact{even_n ? "n = " + std::to_string(static_cast<int>(n)) + ", f = x" : "n = " + std::to_string(static_cast<int>(n)) + ", f = 1", {}, false, colour};
+    Curve fit{"", {}, true, colour++};
+    for (int i = 1; i < 200; ++i) {
+      const double c = i / 200.0, s2 = 1 - c * c;
+      const auto height = [&](double phi) {
+        return k.moment_peak_height(s2, c * c, n, even_n, std::cos(phi), std::sin(phi)).v;
+      };
+      double low = 0, high = kQuarterTurn;
+      for (int step = 0; step < 50; ++step) (height(0.5 * (low + high)) > 0.5 * height(0) ? low : high) = 0.5 * (low + high);
+      exact.points.push_back({c, low});
+      fit.points.push_back({c, (even_n ? std::numbers::pi / 3 : std::numbers::pi / 4) *
+                                   k.moment_peak_half_width_ratio(c, n, even_n).v});
+    }
+    plot.curves.push_back(exact);
+    plot.curves.push_back(fit);
+  }
+  return plot;
+}
+
+LinePlot fits_plot() {
+  K k;
+  constexpr double c = 0.99, n = 100, phi_high = kQuarterTurn;
+  const PhongLobe<double> lobe(n, 0);
+  LinePlot plot{"Errors of the methods' integrands over the peak, n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, -0.03, 0.03, {}};
+  const auto add = [&](const char* name, int colour, auto front) {
+    plot.curves.push_back(error_of(name, c, n, phi_high, colour, front));
+  };
+  add("lorentzian", 1, [&](const auto& e) { return k.moment_lorentzian_front(e, n, 1); });
+  add("pearson", 2, [&](const auto& e) { return k.moment_pearson_front(e, n, 1); });
+  add("ellipsoid", 5, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, 1); });
+  add("series", 3, [&](const auto& e) { return k.moment_series_front(e, lobe.series); });
+  add("series high", 0, [&](const auto& e) { return k.moment_series_high_front(e, lobe.series_high); });
+  return plot;
+}
+
+// Rows: lights; columns: the exact picture, then errors of the methods, enlarged.
+Picture error_picture(Simd simd, int n, double enlarged) {
+  constexpr int kWidth = 240, kHeight = 135;
+  const PhongPlane plane = make_phong_plane(kWidth, kHeight);
+  const std::vector<PhongMethod> methods = {PhongMethod::lorentzian, PhongMethod::pearson, PhongMethod::ellipsoid, PhongMethod::series};
+  const std::vector<NamedLight> lights = comparison_lights();
+  Picture picture(kWidth * static_cast<int>(methods.size() + 1), kHeight * static_cast<int>(lights.size()));
+  Material material;
+  material.brdf = Brdf::phong;
+  material.exponent = n;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    std::vector<double> exact(plane.count);
+    for (std::size_t i = 0; i < plane.count; ++i)
+      exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {PhongMethod::exact}).x;
+    const double brightest = *std::max_element(exact.begin(), exact.end());
+    const auto put = [&](std::size_t column, std::size_t i, double value) {
+      const float v = static_cast<float>(value);
+      picture.at(static_cast<int>(column) * kWidth + plane.pixels[i] % kWidth,
+                 static_cast<int>(l) * kHeight + plane.pixels[i] / kWidth) = {v, v, v};
+    };
+    for (std::size_t i = 0; i < plane.count; ++i) put(0, i, 0.8 * exact[i] / brightest);
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      const FlushDenormals flush;
+      std::vector<float> result(plane.x.size());
+      phong_table_for(simd).radiance(lights[l].light, plane.points(), n, {methods[m]}, result.data());
+      for (std::size_t i = 0; i < plane.count; ++i)
+        put(m + 1, i, enlarged * std::fabs(static_cast<double>(result[i]) - exact[i]) / brightest);
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+std::vector<std::string> write_table2_figures(const std::string& folder, Simd simd) {
+  std::vector<std::string> files;
+  const auto write = [&](const std::string& name, const LinePlot& plot) {
+    files.push_back(folder + "/" + name);
+    AtomicFile file(files.back());
+    file.write(to_svg(plot));
+    file.commit();
+  };
+  write("phong_integrand.svg", integrand_plot());
+  write("phong_half_width.svg", half_width_plot());
+  write("phong_fits.svg", fits_plot());
+  for (const int n : {100, 5000}) {
+    files.push_back(folder + "/phong_errors_" + std::to_string(n) + ".png");
+    write_picture(error_picture(simd, n, 50), files.back());
+  }
+  return files;
+}
+
+}  // namespace steradian::moment
