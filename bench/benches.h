@@ -6,14 +6,18 @@
 namespace steradian::bench {
 
 void add_lambert(BenchList& list);
+void add_ltc(BenchList& list);
 void add_eval(BenchList& list);
+void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
 void add_closed_form(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
   add_lambert(list);
+  add_ltc(list);
   add_eval(list);
+  add_derivatives(list);
   add_phong(list);
   add_closed_form(list);
   return list;

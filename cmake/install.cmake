@@ -10,6 +10,12 @@ if(STERADIAN_APPS)
   install(TARGETS steradian_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
+# A static library passes on what it is made of: whoever links ours needs these, under the same names.
+set(STERADIAN_DEPENDENCIES "")
+foreach(package OpenEXR fmt simdjson ZLIB TBB "embree 3")
+  string(APPEND STERADIAN_DEPENDENCIES "find_dependency(${package})\n")
+endforeach()
+
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/steradian)
 install(EXPORT steradian-targets NAMESPACE steradian:: DESTINATION ${config_dir})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/steradian-config.cmake.in

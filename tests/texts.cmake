@@ -1,10 +1,10 @@
 # Checks on texts rather than on results: the dialect of the kernels, every compiler that reads them, and the
 # symbols that keep instruction sets apart.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(GLOB kernel_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.glsl)
 
 add_test(NAME Dialect.KernelsKeepIt
-  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dialect_lint.py ${kernel_files})
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dialect_lint.py ${kernel_files}
+          ${CMAKE_CURRENT_LIST_DIR}/parity/cases.glsl)
 add_test(NAME Dialect.LintCatchesEveryBadSnippet
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dialect_lint_test.py)
 
@@ -12,6 +12,10 @@ foreach(language glsl es hlsl)
   add_test(NAME Dialect.KernelsCompileAs_${language}
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/shader_compilers.py ${language} ${PROJECT_SOURCE_DIR}/kernels)
 endforeach()
+
+add_test(NAME Parity.EveryKernelFunctionIsReached
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/parity/make_cases.py reached
+          ${CMAKE_CURRENT_LIST_DIR}/parity/cases.glsl)
 
 # Unoptimised and sanitised units keep out-of-line copies; only the release is shipped, and only it is checked.
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
@@ -27,3 +31,16 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
             $<TARGET_OBJECTS:steradian_leaking_unit>)
   set_tests_properties(Packs.SymbolTestFindsALeak PROPERTIES PASS_REGULAR_EXPRESSION "W steradian::leaks.float.")
 endif()
+
+# dist/: what is checked in is what the script writes, and each file compiles alone.
+add_test(NAME Dist.RegeneratingGivesTheSameBytes
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/dist/make_dist.py --check)
+foreach(file steradian.glsl steradian.es.glsl steradian.hlsl steradian.wgsl)
+  add_test(NAME Dist.CompilesAlone_${file}
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/dist_compiles.py ${file} ${PROJECT_BINARY_DIR}/npm)
+  set_tests_properties(Dist.CompilesAlone_${file} PROPERTIES SKIP_RETURN_CODE 77 RESOURCE_LOCK npm)
+endforeach()
+
+add_test(NAME Packaging.ExampleBuildsAgainstTheInstalledTree
+  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR} -DCOMPILER=${CMAKE_CXX_COMPILER}
+          -DSCRATCH=${PROJECT_BINARY_DIR}/installed_tree -P ${CMAKE_CURRENT_LIST_DIR}/installed_tree.cmake)

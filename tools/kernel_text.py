@@ -8,6 +8,8 @@ import re
 from collections import namedtuple
 from pathlib import Path
 
+KERNELS = Path(__file__).resolve().parent.parent / "kernels"
+
 Token = namedtuple("Token", "kind text line")  # kind: name, number, op, comment, directive, error
 
 _TOKEN = re.compile(
@@ -57,6 +59,8 @@ def with_needs(path, _open=()):
     for name in needs(path.read_text()):
         needed = path.parent / name
         if not needed.exists():
+            needed = KERNELS / name
+        if not needed.exists():
             raise ValueError(f"{path}: needs {name}, which does not exist")
         for p in with_needs(needed, _open + (path,)):
             if p not in order:
@@ -66,6 +70,28 @@ def with_needs(path, _open=()):
 
 def kernel_files(folder):
     return sorted(Path(folder).glob("*.glsl"))
+
+
+def functions(text):
+    """[(name, its tokens)] of a file's functions, in order."""
+    tokens = [t for t in tokenize(text) if t.kind not in ("comment", "directive")]
+    found, i = [], 0
+    while i < len(tokens):
+        is_function = tokens[i].text != "struct" and i + 2 < len(tokens) and tokens[i + 2].text == "("
+        begin, depth = i, 0
+        while i < len(tokens):
+            depth += (tokens[i].text == "{") - (tokens[i].text == "}")
+            i += 1
+            if depth == 0 and tokens[i - 1].text in ("}", ";"):
+                break
+        if is_function:
+            found.append((tokens[begin + 1].text, tokens[begin:i]))
+    return found
+
+
+def calls(body):
+    """The names that a function's tokens call."""
+    return {t.text for t, after in zip(body[3:], body[4:]) if t.kind == "name" and after.text == "("}
 
 
 def in_order(folder):

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/simd.h"
+#include "render/vulkan/device.h"
 #include "steradian/version.h"
 #include "verbs.h"
 
@@ -29,6 +30,9 @@ Json facts() {
   info["simd"] = name_of(active_simd());
   info["lanes"] = lanes_of(active_simd());
   info["threads"] = std::thread::hardware_concurrency();
+  info["vulkan_devices"] = Json::array();  // none: no loader, or no driver for Vulkan 1.2
+  for (const vulkan::DeviceInfo& d : vulkan::list_devices())
+    info["vulkan_devices"].push_back(fmt::format("{} ({}){}", d.name, d.driver, d.software ? ", software" : ""));
   const auto dotted = [](int a, int b, int c) { return fmt::format("{}.{}.{}", a, b, c); };
   info["libraries"] = {
       {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)},
@@ -44,6 +48,7 @@ Json facts() {
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_structured()) return value.dump();
+  if (value.empty()) return "none";
   std::string text;
   for (const auto& [key, item] : value.items())
     text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : std::string()) + text_of(item);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   steradian::app::add_bench(app, exit);
   steradian::app::add_diff(app, exit);
   steradian::app::add_render(app, exit);
+  steradian::app::add_fit(app, exit);
   steradian::app::add_info(app, exit);
 
   try {

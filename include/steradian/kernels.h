@@ -56,6 +56,12 @@ struct Kernels {
 
 #include "microfacet.glsl"
 
+#include "ltc.glsl"
+
+#include "ltc_clipless.glsl"
+
+#include "representative_point.glsl"
+
 #include "complex.glsl"
 
 #include "gauss_legendre.glsl"
@@ -71,6 +77,13 @@ struct Kernels {
 #include "half_vector.glsl"
 
 #include "ellipse.glsl"
+
+#include "plane.glsl"
+
+// Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
+#ifdef STERADIAN_KERNEL_EXTENSION
+#include STERADIAN_KERNEL_EXTENSION
+#endif
 };
 
 STERADIAN_END_ISA

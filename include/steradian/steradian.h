@@ -2,8 +2,10 @@
 #pragma once
 
 #include "steradian/error.h"
+#include "steradian/dual.h"
 #include "steradian/kernels.h"
 #include "steradian/load_scene.h"
+#include "steradian/polygon_derivatives.h"
 #include "steradian/polygon_light.h"
 #include "steradian/scene.h"
 #include "steradian/version.h"

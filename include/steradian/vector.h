@@ -45,9 +45,12 @@ T length(Vector3<T> a) {
 // Unit vector; the zero vector stays zero.
 template <class T>
 Vector3<T> normalized(Vector3<T> a) {
+  const T square = dot(a, a);
+  if (square > T(1e-30) && square < T(1e30)) return a / std::sqrt(square);
+  // The squares of tiny and huge vectors would leave the range.
   const T largest = std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
   if (!(largest > T(0))) return {};
-  a = a / largest;  // squares of tiny and huge vectors would leave the range
+  a = a / largest;
   return a / length(a);
 }
 template <class T>

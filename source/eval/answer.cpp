@@ -4,9 +4,12 @@
 
 #include "eval/point_light.h"
 #include "steradian/error.h"
+#include "steradian/polygon_derivatives.h"
 
 namespace steradian::eval {
 namespace {
+
+constexpr double kPi = 3.14159265358979324;
 
 // The light made ready, whatever its type; the errors are placed at the query's key.
 PreparedPolygon prepare(const PolygonLight& light) {
@@ -26,6 +29,22 @@ LobeAnswer point_answer(const PointLight& light, const ShadingPoint& at, const M
   return answer;
 }
 
+// Adds what one material contributes to the derivatives. Throws Error for lobes and methods that have none.
+void add_derivatives(Answer& answer, const LightDerivatives& irradiance, const PolygonLight& light, const Material& m,
+                     Method method) {
+  if (m.brdf != Brdf::lambert || method != Method::exact)
+    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by this method",
+                "so far: lambert with method exact");
+  const Vec3d scale = m.albedo * light.radiance / kPi;
+  answer.by_vertex.resize(irradiance.vertices.size());
+  for (std::size_t i = 0; i < irradiance.vertices.size(); ++i) {
+    const Vec3d d = irradiance.vertices[i];
+    answer.by_vertex[i][0] += d * scale.x;
+    answer.by_vertex[i][1] += d * scale.y;
+    answer.by_vertex[i][2] += d * scale.z;
+  }
+}
+
 class Sum {
  public:
   void add(const MethodEntry& entry, const LobeAnswer& part) {
@@ -39,6 +58,7 @@ class Sum {
     if (part.standard_error)
       answer_.standard_error = std::hypot(answer_.standard_error.value_or(0.0), *part.standard_error);
   }
+  Answer& answer() { return answer_; }
   Answer finish(Precision precision) && {
     answer_.precision = precision;
     const bool error_is_finite =
@@ -62,9 +82,15 @@ Answer evaluate(const Query& query) {
 
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
+  if (query.derivatives && polygon == nullptr)
+    throw Error("derivatives", "a point light has no vertices", "leave the key out");
+  LightDerivatives irradiance;
+  if (query.derivatives) irradiance = polygon_irradiance_derivatives(*polygon, at.position, at.normal);
+  if (!seen) irradiance.vertices.assign(irradiance.vertices.size(), Vec3d{});
   Sum sum;
   for (const Material& material : query.materials) {
     const MethodEntry& entry = resolve(query.method, material, query.precision);
+    if (query.derivatives) add_derivatives(sum.answer(), irradiance, *polygon, material, entry.method);
     if (!seen)
       sum.add(entry, LobeAnswer{});
     else if (polygon != nullptr)

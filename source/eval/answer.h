@@ -1,9 +1,11 @@
 // Answer: what `steradian eval` says to one query, and the line of JSON that says it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "eval/query.h"
 
@@ -15,6 +17,8 @@ struct Answer {
   std::optional<double> bound;
   std::optional<double> standard_error;
   Precision precision = Precision::double_;
+  // Of the three channels by every vertex: the outline, then the holes. Empty where the query does not ask.
+  std::vector<std::array<Vec3d, 3>> by_vertex;  // [vertex][channel]
 };
 
 // Throws Error (key and hint) for what the query's method cannot do and for results that are not finite.

@@ -17,6 +17,26 @@ void append_number(std::string& out, double x, Precision precision) {
   }
 }
 
+// [channel][vertex][x, y, z]
+void append_derivatives(std::string& out, const Answer& answer) {
+  out += ",\"d_vertices\":";
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    out += channel == 0 ? '[' : ',';
+    for (std::size_t i = 0; i < answer.by_vertex.size(); ++i) {
+      out += i == 0 ? "[[" : ",[";
+      const Vec3d& d = answer.by_vertex[i][channel];
+      append_number(out, d.x, answer.precision);
+      out += ',';
+      append_number(out, d.y, answer.precision);
+      out += ',';
+      append_number(out, d.z, answer.precision);
+      out += ']';
+    }
+    out += ']';
+  }
+  out += ']';
+}
+
 }  // namespace
 
 void write_answer(std::string& out, const Answer& answer) {
@@ -37,6 +57,7 @@ void write_answer(std::string& out, const Answer& answer) {
     out += ",\"standard_error\":";
     append_number(out, *answer.standard_error, Precision::double_);
   }
+  if (!answer.by_vertex.empty()) append_derivatives(out, answer);
   out += "}\n";
 }
 

@@ -209,7 +209,7 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
       {query(kLight, kPlace, kLambert, R"("spp":0)"), {"spp: must be"}},
       {query(kLight, kPlace, kLambert, R"("spp":1.5)"), {"spp: expected an integer"}},
       {query(kLight, kPlace, kLambert, R"("seed":-1)"), {"seed: must be"}},
-      {query(kLight, kPlace, kLambert, R"("derivatives":true)"), {"derivatives: ", "not supported yet"}},
+      {with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true)"), {"derivatives: ", "ggx has none"}},
       {query(kLight, kPlace, kLambert, R"("normal":[0,0,1])"), {"normal: the key is given twice"}},
       {query(kLight, kPlace, kLambert, R"("colour":1,"size":2)"), {"colour: unknown", "size: unknown"}},
       {query(R"("light":{"type":"rect","centre":[0,2,0],"x":[1,0,0],"y":[0,0,1]})", kPlace,
@@ -308,6 +308,32 @@ TEST(Eval, SurvivesMutatedLines) {
   }
   EXPECT_GT(answered, 100);
   EXPECT_GT(refused, 1000);
+}
+
+// The derivatives of [channel][vertex] against the same question with a vertex moved.
+TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
+  const auto ask = [](double dx, const std::string& rest) {
+    json light = {{"type", "polygon"}, {"radiance", {2, 1, 0.5}},
+                  {"vertices", {{-1 + dx, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}};
+    return answer(query("\"light\":" + light.dump(), R"("position":[0.2,0.1,0],"normal":[0,0.6,0.8])",
+                        R"("material":{"brdf":"lambert","albedo":0.5})", rest));
+  };
+  const json got = ask(0, R"("derivatives":true)");
+  ASSERT_EQ(got.at("d_vertices").size(), 3u) << got;
+  ASSERT_EQ(got["d_vertices"][0].size(), 4u) << got;
+  const double h = 1e-6;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double above = ask(h, {})["radiance"][channel], below = ask(-h, {})["radiance"][channel];
+    // Truncation h^2 times a third derivative of order 1, rounding 1e-16 / h.
+    EXPECT_NEAR(got["d_vertices"][channel][0][0].get<double>(), (above - below) / (2 * h), 1e-9) << got;
+  }
+  EXPECT_FALSE(ask(0, R"("derivatives":false)").contains("d_vertices"));
+}
+
+TEST(Eval, DerivativesAreRefusedWhereThereAreNone) {
+  EXPECT_TRUE(answer(with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true)")).contains("error"));
+  EXPECT_TRUE(answer(query(R"("light":{"type":"point","position":[0,1,0]})", kPlace, kLambert, R"("derivatives":true)"))
+                  .contains("error"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "steradian/half_vector.h"
 #include "steradian/kernels.h"
 #include "steradian/phong.h"
+#include "steradian/ltc.h"
 
 namespace steradian::eval {
 namespace {
@@ -89,6 +90,16 @@ LobeAnswer sampled(const PreparedPolygon& light, const ShadingPoint& at, const M
   return {r.radiance, std::nullopt, r.standard_error};
 }
 
+bool ltc_serves(const Material& m) { return serves(LtcMethod::classic, m); }
+
+template <LtcMethod method>
+LobeAnswer ltc(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const MethodOptions& options) {
+  const auto evaluate = options.precision == Precision::float_ ? ltc_radiance_float : ltc_radiance;
+  LobeAnswer answer;
+  answer.radiance = evaluate(method, light, at, m);
+  return answer;
+}
+
 // A new method is an entry here and a name in Method.
 constexpr MethodEntry kMethods[] = {
     {Method::series, "series", phong_only, true, phong<PhongMethod::series>},
@@ -98,6 +109,10 @@ constexpr MethodEntry kMethods[] = {
     {Method::pearson, "pearson", phong_only, true, phong<PhongMethod::pearson>},
     {Method::ellipsoid, "ellipsoid", phong_only, true, phong<PhongMethod::ellipsoid>},
     {Method::closed_form, "closed-form", ggx_only, true, closed_form},
+    {Method::ltc, "ltc", ltc_serves, true, ltc<LtcMethod::classic>},
+    {Method::ltc_compact, "ltc-compact", ltc_serves, true, ltc<LtcMethod::compact>},
+    {Method::ltc_clipless, "ltc-clipless", ltc_serves, true, ltc<LtcMethod::clipless>},
+    {Method::representative_point, "representative-point", ltc_serves, true, ltc<LtcMethod::representative_point>},
     {Method::half_vector, "half-vector", half_vector_lobes, true, half_vector},
     {Method::reference, "reference", every_lobe, false, reference},
     {Method::sampled, "sampled", every_lobe, false, sampled},

@@ -16,7 +16,10 @@ namespace steradian::eval {
 enum class Precision { double_, float_ };
 
 // `automatic` stands for the first method of the table that serves the lobe.
-enum class Method { automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, closed_form, half_vector, reference, sampled };
+enum class Method {
+  automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, closed_form, ltc, ltc_compact, ltc_clipless,
+  representative_point, half_vector, reference, sampled
+};
 
 // What the methods need to know of a query.
 struct MethodOptions {

@@ -222,9 +222,7 @@ constexpr Field<Query> kQueryFields[] = {
        q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max()));
      }},
     {"derivatives",
-     [](Problems& p, const Place& at, Json v, Query&) {
-       if (read_bool(p, at, v)) p.add(at, "derivatives are not supported yet", "leave the key out");
-     }},
+     [](Problems& p, const Place& at, Json v, Query& q) { q.derivatives = read_bool(p, at, v); }},
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ struct Query {
   Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
+  bool derivatives = false;  // of the radiance by the light's vertices
 };
 
 struct QueryDefaults {

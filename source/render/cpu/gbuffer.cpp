@@ -1,5 +1,6 @@
 #include "render/cpu/gbuffer.h"
 
+#include <algorithm>
 #include <limits>
 
 
@@ -65,19 +66,16 @@ Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   return s;
 }
 
-void fill_tile(const Scene& scene, const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place,
-               SurfaceTile& tile) {
-  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_coat = tile.any_override = false;
+void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits) {
   const Vec3f origin = camera.origin();
   for (int by = 0; by < kTileSide; by += 4)
     for (int bx = 0; bx < kTileSide; bx += 4) {
       alignas(64) RTCRayHit16 packet;
       alignas(64) int valid[16];
-      bool any = false;
+      const std::size_t first = tile_slot(bx, by);
       for (int i = 0; i < 16; ++i) {
         const int x = bx + i % 4, y = by + i / 4;
         valid[i] = x < area.width && y < area.height ? -1 : 0;
-        any |= valid[i] != 0;
         const Vec3f d = camera.direction(static_cast<float>(area.x + x) + place.x, static_cast<float>(area.y + y) + place.y);
         packet.ray.org_x[i] = origin.x;
         packet.ray.org_y[i] = origin.y;
@@ -94,19 +92,28 @@ void fill_tile(const Scene& scene, const RayScene& rays, const CameraRays& camer
         packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       }
-      if (any) rays.intersect(valid, packet);
-      for (int i = 0; i < 16; ++i) {
-        const std::size_t slot = tile_slot(bx + i % 4, by + i / 4);
-        if (valid[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
-          put_nothing(tile, slot);
-          continue;
-        }
-        const Vec3f view{-packet.ray.dir_x[i], -packet.ray.dir_y[i], -packet.ray.dir_z[i]};
-        const Mesh& mesh = scene.meshes[packet.hit.geomID[i]];
-        put_surface(tile, slot,
-                    surface_at(scene, mesh, packet.hit.primID[i], packet.hit.u[i], packet.hit.v[i], view), view);
-      }
+      rays.intersect(valid, packet);
+      std::copy_n(packet.hit.geomID, 16, &hits.geometry[first]);
+      std::copy_n(packet.hit.primID, 16, &hits.triangle[first]);
+      std::copy_n(packet.hit.u, 16, &hits.u[first]);
+      std::copy_n(packet.hit.v, 16, &hits.v[first]);
+      std::copy_n(packet.ray.dir_x, 16, &hits.direction.x[first]);
+      std::copy_n(packet.ray.dir_y, 16, &hits.direction.y[first]);
+      std::copy_n(packet.ray.dir_z, 16, &hits.direction.z[first]);
     }
+}
+
+void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
+  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_coat = tile.any_override = false;
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (hits.geometry[i] == RTC_INVALID_GEOMETRY_ID) {
+      put_nothing(tile, i);
+      continue;
+    }
+    const Vec3f view = -get(hits.direction, i);
+    const Mesh& mesh = scene.meshes[hits.geometry[i]];
+    put_surface(tile, i, surface_at(scene, mesh, hits.triangle[i], hits.u[i], hits.v[i], view), view);
+  }
 }
 
 }  // namespace steradian

@@ -12,9 +12,18 @@ struct TileArea {
   int x, y, width, height;  // in the picture; at most kTileSide wide and high
 };
 
-// One primary sample per pixel, at `place` within the pixel. tile.radiance becomes the emission.
-void fill_tile(const Scene& scene, const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place,
-               SurfaceTile& tile);
+// What the primary rays of a tile hit, by slot (tile_slot). geometry: index of the mesh, or RTC_INVALID_GEOMETRY_ID.
+struct TileHits {
+  std::array<unsigned, kTilePixels> geometry, triangle;
+  std::array<float, kTilePixels> u, v;
+  alignas(64) TileVector direction;
+};
+
+// One primary ray per pixel, through `place` within the pixel.
+void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits);
+
+// The surfaces that were hit. tile.radiance becomes the emission.
+void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile);
 
 // The surface in a slot that has one, put together again.
 Surface surface_in(const SurfaceTile& tile, std::size_t slot);

@@ -83,7 +83,7 @@ class Renderer {
   }
 
   void report(RenderStats& stats) const {
-    stats.passes = {{"build", build_ms_}, gbuffer_clock_.time(threads_), direct_clock_.time(threads_)};
+    stats.passes = {{"build", build_ms_}, rays_clock_.time(threads_), gbuffer_clock_.time(threads_), direct_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
     stats.total_ms = ms_since(start_);
     stats.threads = threads_;
@@ -133,8 +133,9 @@ class Renderer {
   }
 
   void fill(int index, int sample, SurfaceTile& tile) {
-    gbuffer_clock_.run(
-        [&] { fill_tile(scene_, rays_, camera_, area(index), pixel_place(sample, options_.aa), tile); });
+    TileHits hits;
+    rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits); });
+    gbuffer_clock_.run([&] { shade_tile(scene_, hits, tile); });
   }
 
   // Pairs per tile so that the rms standard error is the target's share of the rms radiance, from a pilot run.
@@ -212,7 +213,7 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::task_arena arena_;
   double build_ms_ = 0;
-  PassClock gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, sampling_clock_{"sampling"};
+  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, sampling_clock_{"sampling"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

@@ -1,0 +1,109 @@
+// steradian fit --lobe NAME --layout classic|compact -o FILE
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+
+#include "core/atomic_file.h"
+#include "core/progress.h"
+#include "ltc/fit_report.h"
+#include "ltc/table_files.h"
+#include "steradian/error.h"
+#include "verbs.h"
+
+namespace steradian::app {
+namespace {
+
+struct Options {
+  std::string lobe = "ggx", layout = "classic", output, picture, normalisation = "middle";
+  bool report = false, fresnel_lobe = false;
+  CompactSizes compact;
+  FitOptions fit;
+};
+
+LtcTable fit_with_progress(const LobeFamily& family, FitOptions fit) {
+  Progress progress("fit " + family.name, static_cast<std::uint64_t>(fit.size * fit.size));
+  fit.cell_done = [&] { progress.add(); };
+  return fit_table(family, fit);
+}
+
+std::string with_suffix(const std::string& path, const std::string& suffix) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? path + suffix : path.substr(0, dot) + suffix + path.substr(dot);
+}
+
+void write_table(const LtcTable& table, const Options& options, const std::string& path) {
+  const std::vector<TableFile> files =
+      options.layout == "classic"
+          ? classic_files(classic_table(table), table.family.name, path)
+          : compact_files(compact_table(table, options.compact), table.family.name, path);
+  write_files(files);
+  for (const TableFile& file : files) fmt::print("{}\n", file.path);
+}
+
+void report(const LtcTable& table, const Options& options) {
+  LookUp look_up;
+  if (options.layout == "classic") {
+    const auto normalisation =
+        options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
+    look_up = [t = classic_table(table, normalisation)](double r, double c) { return t.look_up(r, c); };
+  } else {
+    look_up = [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
+    fmt::print("bytes        {}\n", compact_table(table, options.compact).bytes());
+  }
+  const Report whole = measure(table.family, look_up, whole_grid());
+  const Report nodes = measure(table.family, look_up, node_grid());
+  fmt::print("{}", describe(whole, nodes, measure_between_nodes(table, look_up)));
+  if (!options.picture.empty()) write_picture(draw(whole, whole_grid()), options.picture);
+}
+
+void run(const Options& options) {
+  if (options.output.empty() && !options.report) throw CLI::RequiredError("-o or --report");
+  const LobeFamily& family = lobe_family(options.lobe);
+  // A wrong ending is found before the work, not after it.
+  if (!options.output.empty()) {
+    if (options.layout == "classic")
+      classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4)}, options.lobe,
+                    options.output);
+    else
+      compact_files({}, options.lobe, options.output);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const LtcTable table = fit_with_progress(family, options.fit);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.report) fmt::print("fit          {} x {} in {:.1f} s\n", table.size, table.size, seconds);
+  if (!options.output.empty()) write_table(table, options, options.output);
+  if (options.fresnel_lobe) {
+    LobeFamily fresnel = family;
+    fresnel.name += "-fresnel";
+    fresnel.at = [&family](double roughness, double cosine) { return with_grazing_fresnel(family.at(roughness, cosine)); };
+    write_table(fit_with_progress(fresnel, options.fit), options, with_suffix(options.output, "_fresnel"));
+  }
+  if (options.report) report(table, options);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, Exit&) {
+  CLI::App* verb = app.add_subcommand("fit", "Fit linearly transformed cosines to a lobe and write or judge the table");
+  const auto options = std::make_shared<Options>();
+  std::vector<std::string> names;
+  for (const LobeFamily& family : lobe_families()) names.push_back(family.name);
+  verb->add_option("--lobe", options->lobe, "What to fit")->check(CLI::IsMember(names));
+  verb->add_option("--size", options->fit.size, "Nodes along roughness and along the view")->check(CLI::Range(2, 1024));
+  verb->add_option("--layout", options->layout, "Two textures, or plain arrays of at most 4 KB")
+      ->check(CLI::IsMember({"classic", "compact"}));
+  verb->add_option("-o,--output", options->output,
+                   "Table: .h .glsl .json; classic also .dds .exr, as NAME_1 (matrix) and NAME_2 (magnitudes)");
+  verb->add_flag("--fresnel-lobe", options->fresnel_lobe, "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel")
+      ->needs("--output");
+  verb->add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
+  verb->add_option("--report-picture", options->picture, "The error over roughness and view (.png, .exr)")->needs("--report");
+  verb->add_option("--normalisation", options->normalisation, "Of the classic matrix, in the report: its element that is 1")
+      ->check(CLI::IsMember({"middle", "last"}));
+  verb->add_option("--threads", options->fit.threads, "0: all")->check(CLI::Range(0, 4096));
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace steradian::app

@@ -1,0 +1,75 @@
+// kernel/ltc/quad, kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of a floor that gets rougher away
+// from the eye, decoding included; most pixels see the whole quad.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "benches.h"
+#include "render/cpu/ltc_points.h"
+
+namespace steradian::bench {
+namespace {
+
+constexpr std::size_t kSide = 128;
+
+struct GlossyFloor {
+  std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, roughness, irradiance, specular, grazing;
+  PackLight light;
+  LtcPackTables tables;
+
+  SeenPoints points() const {
+    return {{x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()}, vx.data(), vy.data(), vz.data(), roughness.data()};
+  }
+};
+
+std::shared_ptr<GlossyFloor> make_floor(const LtcPackTables& tables) {
+  auto floor = std::make_shared<GlossyFloor>();
+  floor->tables = tables;
+  const Vec3d eye = {0, 1.5, 9};
+  for (std::size_t j = 0; j < kSide; ++j)
+    for (std::size_t i = 0; i < kSide; ++i) {
+      const Vec3d p = {8.0 * (static_cast<double>(i) + 0.5) / kSide - 4.0, 0, 8.0 * (static_cast<double>(j) + 0.5) / kSide};
+      const Vec3d n = normalized(Vec3d{0.05 * std::sin(3 * p.x), 1.0, 0.05 * std::cos(2 * p.z)});
+      const Vec3d v = normalized(eye - p);
+      const auto push = [](std::vector<float>& to, double value) { to.push_back(static_cast<float>(value)); };
+      push(floor->x, p.x), push(floor->y, p.y), push(floor->z, p.z);
+      push(floor->nx, n.x), push(floor->ny, n.y), push(floor->nz, n.z);
+      push(floor->vx, v.x), push(floor->vy, v.y), push(floor->vz, v.z);
+      push(floor->roughness, 0.1 + 0.8 * static_cast<double>(j) / kSide);
+    }
+  for (auto* out : {&floor->irradiance, &floor->specular, &floor->grazing}) out->resize(floor->x.size());
+  PolygonLight quad;
+  quad.vertices = {{-1, 0.3, -0.5}, {1, 0.3, -0.5}, {1, 1.5, -0.7}, {-1, 1.5, -0.7}};
+  floor->light = prepare_light(prepare_polygon(quad));
+  return floor;
+}
+
+using Run = decltype(LtcPackTable::classic);
+
+Bench make(const std::string& name, Simd simd, Run LtcPackTable::*run, const LtcPackTables& tables) {
+  auto floor = make_floor(tables);
+  const Run work = ltc_pack_table_for(simd).*run;
+  return {name, floor->x.size(), name_of(simd), [floor, work] {
+            GlossyFloor& f = *floor;
+            work(&f.light, 1, f.points(), f.tables, {f.irradiance.data(), f.specular.data(), f.grazing.data()});
+            keep(f.specular.front());
+          }};
+}
+
+void add(BenchList& list, const std::string& name, Run LtcPackTable::*run, LtcPackTables (*tables)()) {
+  list.add(name, [=](const BenchOptions& options) { return make(name, options.simd, run, tables()); });
+  for (const Simd simd : available_simd()) {
+    const std::string one = name + "/" + name_of(simd);
+    list.add(one, [=](const BenchOptions&) { return make(one, simd, run, tables()); });
+  }
+}
+
+}  // namespace
+
+void add_ltc(BenchList& list) {
+  add(list, "kernel/ltc/quad", &LtcPackTable::classic, ltc_classic_pack_tables);
+  add(list, "kernel/ltc-compact/quad", &LtcPackTable::compact, ltc_compact_pack_tables);
+}
+
+}  // namespace steradian::bench

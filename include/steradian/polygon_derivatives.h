@@ -1,0 +1,26 @@
+// Derivatives of what a polygon light sends: by its vertices, by the point, by the surface's normal. For fitting lights
+// to pictures, for inverse lighting, for error control.
+#pragma once
+
+#include <vector>
+
+#include "steradian/polygon_light.h"
+
+namespace steradian {
+
+struct LightDerivatives {
+  double value = 0;
+  std::vector<Vec3d> vertices;  // by each vertex as stored: the outline, then the holes
+  Vec3d position;               // by the shading point
+  Vec3d normal;                 // by the normal, of the function of n/|n|: perpendicular to it
+};
+
+// Irradiance of radiance 1 (polygon_irradiance) and its derivatives. Zero where no light arrives. Vertices that a
+// prepared light drops (repeated ones) have derivative 0. Moving one vertex of more than three bends the light; the
+// boundary integral is differentiated as it stands, edge by edge.
+LightDerivatives polygon_irradiance_derivatives(const PolygonLight& light, Vec3d position, Vec3d normal);
+
+// Solid angle (polygon_solid_angle) and its derivatives; the normal does not matter.
+LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& light, Vec3d position);
+
+}  // namespace steradian

@@ -1,0 +1,138 @@
+// Light in the plane: integrals of emission over the directions in which a piece of an edge or of a circle is seen.
+//
+// An edge is seen in the frame of its foot: d the distance of its line, f the angle from the perpendicular, t = tan f.
+// A circle is seen in the frame of its centre: D the centre's distance, psi the angle from the centre's direction.
+// Range window: (1 - r^2/R^2)^2 with r the distance to the surface; q = d^2/R^2; no window is q = 0, R = infinite.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Antiderivative of cos(f)^n.
+//
+//   n        2, 1, 0, -1, ..., -5, the same for all lanes
+//   t        tan f, f in (-pi/2, pi/2)
+//   f        the angle; read for n = 2 and n = 0 only
+//
+// Error: docs/plane.md, "closed forms"; against quadrature in plane_kernel_test.
+real plane_power_integral(int n, real t, real f) {
+    real sec2 = 1.0 + t * t;
+    real sec = sqrt(sec2);
+    if (n == 2) {
+        return 0.5 * (f + t / sec2);
+    }
+    if (n == 1) {
+        return t / sec;
+    }
+    if (n == 0) {
+        return f;
+    }
+    if (n == -2) {
+        return t;
+    }
+    if (n == -4) {
+        return t + t * t * t * 0.33333333333333333;
+    }
+    // asinh t, odd: the logarithm of a number at least 1, so that nothing cancels
+    real a = log(abs(t) + sec);
+    a = select(t < 0.0, -a, a);
+    if (n == -1) {
+        return a;
+    }
+    real cubed = 0.5 * (t * sec + a);
+    if (n == -3) {
+        return cubed;
+    }
+    return 0.25 * t * sec * sec2 + 0.75 * cubed;
+}
+
+// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See plane_power_integral; j = 2 takes n >= -3.
+real plane_term(int j, int n, real t, real f) {
+    if (j == 0) {
+        return plane_power_integral(n, t, f);
+    }
+    if (j == 2) {
+        return plane_power_integral(n - 2, t, f) - plane_power_integral(n, t, f);
+    }
+    // -cos^n / n, and -log(cos) for n = 0; cos^2 = 1 / sec2
+    real sec2 = 1.0 + t * t;
+    if (n == 0) {
+        return 0.5 * log(sec2);
+    }
+    if (n == 2) {
+        return -0.5 / sec2;
+    }
+    if (n == 1) {
+        return -inversesqrt(sec2);
+    }
+    if (n == -1) {
+        return sqrt(sec2);
+    }
+    if (n == -2) {
+        return 0.5 * sec2;
+    }
+    if (n == -3) {
+        return sec2 * sqrt(sec2) * 0.33333333333333333;
+    }
+    return 0.25 * sec2 * sec2;
+}
+
+// Antiderivative of tan(f)^j cos(f)^k under the range window (1 - q/cos^2)^2: what an edge of this emission sends.
+//
+//   j        0 constant along the edge, 1 linear along it (2: moments of the linear one)
+//   k        0 uniform, 1 Lambert or 1/r (times 1/d); one more for first moments
+//   q        (d/R)^2; the caller clips the edge to cos f >= d/R
+real plane_edge_integral(int j, int k, real t, real f, real q) {
+    real w0 = plane_term(j, k, t, f);
+    real w2 = plane_term(j, k - 2, t, f);
+    real w4 = plane_term(j, k - 4, t, f);
+    return w0 - 2.0 * q * w2 + q * q * w4;
+}
+
+// Antiderivative of the range window over the directions of a circle of uniform radiance, seen from outside.
+//
+//   d2       squared distance of the centre, above rho2 = squared radius; both in units of the range: R = 1
+//   c, s     cosine and sine of psi
+//   psi      the angle from the centre's direction
+//   chord    sqrt(rho2 - x^2), x = D sin psi: half the chord that the ray cuts; 0 for a tangent ray
+//   beta     asin(x / rho): pi/2 for a tangent ray
+//
+// With x as the variable, r^2 and r^4 split into a polynomial in x and the chord times one, and both integrate to
+// elementary terms: int chord dx = (x chord + rho2 beta) / 2, int x^2 chord dx = (x (2 x^2 - rho2) chord + rho2^2 beta) / 8.
+// Linear in the two angles: differences of psi and beta may be taken before the call.
+real plane_disk_window_integral(real d2, real rho2, real d, real c, real s, real psi, real chord, real beta) {
+    real x = d * s;
+    real sin2 = 2.0 * s * c;
+    real cos2 = c * c - s * s;
+    real half_disk = x * chord + rho2 * beta;
+    real r2 = 0.5 * d2 * sin2 + rho2 * psi - half_disk;
+    real even = psi * rho2 * (rho2 + 2.0 * d2) + d2 * sin2 * (2.0 * rho2 + 0.5 * d2 * cos2);
+    real mixed = 2.0 * (d2 + rho2) * half_disk - x * (2.0 * x * x - rho2) * chord - rho2 * rho2 * beta;
+    return psi - 2.0 * r2 + even - mixed;
+}
+
+// Whole disk window integral between two rays, from their slopes.
+//
+//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi; the caller has clipped the rays to the range
+//
+// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
+real plane_disk_window(real m0, real m1, real d2, real rho2) {
+    real d = sqrt(d2);
+    real c0 = inversesqrt(1.0 + m0 * m0);
+    real c1 = inversesqrt(1.0 + m1 * m1);
+    real s0 = m0 * c0;
+    real s1 = m1 * c1;
+    real chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
+    real chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
+    real psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
+    real beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
+    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
+         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+}
+
+// The slope of a point in a frame: tangent of the angle from the axis.
+//
+//   w, t     components of the point along the axis and across it (counter-clockwise positive), any common scale
+//   beyond   the slope where the point is not in front of the axis: +-1.0e9
+real plane_slope(real w, real t, real beyond) {
+    return select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
+}

@@ -1,0 +1,11 @@
+// The shipped GGX tables, as tables. Their text is the fitter's own output, see ggx_tables.cpp.
+#pragma once
+
+#include "ltc/table.h"
+
+namespace steradian {
+
+const ClassicTable& ggx_classic_table();
+const CompactTable& ggx_compact_table();
+
+}  // namespace steradian

@@ -1,0 +1,160 @@
+// GGX by tables, through the library's calls.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/random.h"
+#include "reference/random_configurations.h"
+#include "render/cpu/ltc_points.h"
+#include "steradian/error.h"
+#include "steradian/ltc.h"
+
+namespace steradian {
+namespace {
+
+constexpr LtcMethod kMethods[] = {LtcMethod::classic, LtcMethod::compact, LtcMethod::clipless, LtcMethod::representative_point};
+
+Material ggx(double roughness) {
+  Material m;
+  m.brdf = Brdf::ggx;
+  m.alpha_x = m.alpha_y = std::max(roughness * roughness, 1e-4);
+  return m;
+}
+
+PreparedPolygon rectangle(Vec3d centre, Vec3d u, Vec3d v) {
+  return prepare_polygon({{centre - u - v, centre + u - v, centre + u + v, centre - u + v}, {}, {1, 1, 1}, true});
+}
+
+}  // namespace
+
+TEST(LtcRadiance, IsNearTheReference) {
+  // What the methods are for: a lamp over a floor, in front. The bounds are three times the mean error of docs/ltc.md.
+  const PreparedPolygon light = rectangle({-1, 0.2, 1}, {0, 0.6, 0}, {0.3, 0, 0.5});
+  for (double roughness : {0.2, 0.4, 0.7})
+    for (double cosine : {0.9, 0.6}) {
+      const ShadingPoint at = {{}, {0, 0, 1}, {std::sqrt(1 - cosine * cosine), 0, cosine}};
+      const double expected = reference_radiance(light, at, ggx(roughness), {1e-6, 1e-8, 400'000}).radiance.x;
+      EXPECT_NEAR(ltc_radiance(LtcMethod::classic, light, at, ggx(roughness)).x, expected, 0.02) << roughness << " " << cosine;
+      EXPECT_NEAR(ltc_radiance(LtcMethod::compact, light, at, ggx(roughness)).x, expected, 0.02) << roughness << " " << cosine;
+      EXPECT_NEAR(ltc_radiance(LtcMethod::clipless, light, at, ggx(roughness)).x, expected, 0.15) << roughness << " " << cosine;
+      EXPECT_NEAR(ltc_radiance(LtcMethod::representative_point, light, at, ggx(roughness)).x, expected, 0.6) << roughness << " " << cosine;
+    }
+}
+
+TEST(LtcRadiance, IsExactlyZeroForALightBelowTheHorizonAndFromBehind) {
+  reference::Random random(21);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d centre = {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-3, -1.01)};
+    PreparedPolygon light = rectangle(centre, reference::random_direction(random) * 0.5, reference::random_direction(random) * 0.5);
+    const ShadingPoint at = {{}, {0, 0, 1}, reference::random_view(random, {0, 0, 1})};
+    const Material m = ggx(random.uniform());
+    for (LtcMethod method : {LtcMethod::classic, LtcMethod::compact, LtcMethod::representative_point}) {
+      EXPECT_EQ(ltc_radiance(method, light, at, m).x, 0.0);
+      EXPECT_EQ(ltc_radiance_float(method, light, at, m).x, 0.0);
+    }
+    light.two_sided = false;
+    const ShadingPoint behind = {light.centroid - light.normal, light.normal, light.normal};
+    for (LtcMethod method : kMethods) EXPECT_EQ(ltc_radiance(method, light, behind, m).x, 0.0);
+  }
+}
+
+TEST(LtcRadiance, IsFiniteAndNotNegativeForEveryLight) {
+  reference::Random random(22);
+  for (int i = 0; i < 3000; ++i) {
+    const reference::Configuration c = reference::random_configuration(random);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    Material m = ggx(random.uniform());
+    m.f0 = {0.04, 0.5, 1};
+    for (LtcMethod method : kMethods)
+      for (const Vec3d& radiance : {ltc_radiance(method, light, c.at, m), ltc_radiance_float(method, light, c.at, m)}) {
+        ASSERT_TRUE(is_finite(radiance)) << c.kind;
+        ASSERT_GE(std::min({radiance.x, radiance.y, radiance.z}), 0.0) << c.kind;
+      }
+  }
+}
+
+// The mirror image of a half-vector's cancellation: a narrow lobe amplifies the rounding of float by 1 / alpha.
+TEST(LtcRadiance, InFloatIsNearDouble) {
+  reference::Random random(23);
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const reference::Configuration c = reference::random_configuration(random);
+    if (c.kind == "near" || c.kind == "tiny" || c.kind == "huge") continue;  // vertices lose their digits before we see them
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const Material m = ggx(random.uniform(0.2, 1));
+    for (LtcMethod method : {LtcMethod::classic, LtcMethod::compact}) {
+      const double d = ltc_radiance(method, light, c.at, m).x, f = ltc_radiance_float(method, light, c.at, m).x;
+      worst = std::max(worst, std::fabs(d - f));
+      // Vertices 5 m away carry 4e-7, amplified by 2 / alpha <= 50; twice that for both ends of an edge.
+      EXPECT_NEAR(f, d, 4e-5) << c.kind << " roughness " << std::sqrt(m.alpha_x);
+    }
+  }
+  std::printf("largest difference of float and double %.2g\n", worst);
+}
+
+TEST(LtcRadiance, IsRotationInvariantAndLinear) {
+  reference::Random random(24);
+  for (int i = 0; i < 100; ++i) {
+    const PreparedPolygon light = rectangle({-0.5, 0.4, 1.2}, {0.4, 0, 0.1}, {0, 0.5, 0});
+    const ShadingPoint at = {{}, {0, 0, 1}, normalized(Vec3d{0.7, 0, 0.6})};
+    const Frame frame = Frame::from_normal_and_tangent(reference::random_direction(random), reference::random_direction(random));
+    PreparedPolygon turned = light;
+    for (Vec3d& v : turned.vertices) v = frame.to_world(v);
+    turned.normal = frame.to_world(light.normal);
+    turned.centroid = frame.to_world(light.centroid);
+    turned.radiance = {2, 3, 0};
+    const ShadingPoint there = {{}, frame.z, frame.to_world(at.view)};
+    for (LtcMethod method : kMethods) {
+      const double expected = ltc_radiance(method, light, at, ggx(0.4)).x;
+      const Vec3d found = ltc_radiance(method, turned, there, ggx(0.4));
+      EXPECT_NEAR(found.x, 2 * expected, 1e-11);
+      EXPECT_NEAR(found.y, 3 * expected, 1e-11);
+      EXPECT_EQ(found.z, 0);
+    }
+  }
+}
+
+TEST(LtcRadiance, ServesIsotropicGgxOnly) {
+  Material m = ggx(0.3);
+  EXPECT_TRUE(serves(LtcMethod::classic, m));
+  m.alpha_y = 0.5;
+  EXPECT_FALSE(serves(LtcMethod::classic, m));
+  EXPECT_THROW(ltc_radiance(LtcMethod::classic, rectangle({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), {{}, {0, 0, 1}, {0, 0, 1}}, m), Error);
+}
+
+TEST(LtcPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
+  reference::Random random(25);
+  constexpr std::size_t kCount = 256;
+  std::vector<float> a[10];
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Vec3d n = normalized(Vec3d{random.uniform(-.5, .5), random.uniform(-.5, .5), 1}), v = reference::random_view(random, n);
+    const double values[10] = {random.uniform(-2, 2), random.uniform(-2, 2), 0, n.x, n.y, n.z, v.x, v.y, v.z, random.uniform(0.2, 1)};
+    for (std::size_t k = 0; k < 10; ++k) a[k].push_back(static_cast<float>(values[k]));
+  }
+  // Dips below the floor: both kinds of clipping happen.
+  const PreparedPolygon light = rectangle({0.3, 0.8, 0.4}, {0.9, 0, 0.2}, {0, 0.3, 0.8});
+  const PackLight pack_light = prepare_light(light);
+  const SeenPoints points = {{a[0].data(), a[1].data(), a[2].data(), a[3].data(), a[4].data(), a[5].data(), kCount}, a[6].data(), a[7].data(), a[8].data(), a[9].data()};
+  std::vector<float> irradiance(kCount), specular(kCount), grazing(kCount);
+  const LtcSums sums = {irradiance.data(), specular.data(), grazing.data()};
+  for (Simd simd : available_simd())
+    for (LtcMethod method : {LtcMethod::classic, LtcMethod::compact}) {
+      const LtcPackTable& table = ltc_pack_table_for(simd);
+      if (method == LtcMethod::classic)
+        table.classic(&pack_light, 1, points, ltc_classic_pack_tables(), sums);
+      else
+        table.compact(&pack_light, 1, points, ltc_compact_pack_tables(), sums);
+      for (std::size_t i = 0; i < kCount; ++i) {
+        const Vec3d p = {a[0][i], a[1][i], a[2][i]}, n = {a[3][i], a[4][i], a[5][i]}, v = {a[6][i], a[7][i], a[8][i]};
+        Material m = ggx(a[9][i]);
+        const double expected = ltc_radiance(method, light, {p, n, v}, m).x;
+        EXPECT_NEAR(specular[i], expected, 1e-4) << name_of(simd) << " " << i << " roughness " << a[9][i];
+        EXPECT_NEAR(irradiance[i], polygon_irradiance(light, p, n), 2e-5) << name_of(simd) << " " << i;
+        m.f0 = {0, 0, 0};
+        EXPECT_NEAR(grazing[i], ltc_radiance(method, light, {p, n, v}, m).x, 1e-4) << name_of(simd) << " " << i;
+      }
+    }
+}
+
+}  // namespace steradian

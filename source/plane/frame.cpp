@@ -1,0 +1,376 @@
+// A frame by tile recursion: 256, 128, 64, 32, 16 pixels. At every level a light keeps only the blockers that touch the
+// hull of tile and light, and is dropped where one of them hides it from all of the tile.
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/float_mode.h"
+#include "plane/emission.h"
+#include "plane/leaf.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+constexpr int kSides[] = {256, 128, 64, 32, kTileSide};
+constexpr int kLevels = 5;
+
+struct Grid {
+  Vec2d origin, step;  // of pixel centres
+  int width, height;
+  Vec2d at(int x, int y) const { return {origin.x + step.x * x, origin.y + step.y * y}; }
+};
+
+Grid grid_of(const PlaneScene& scene, int width, int height) {
+  const Vec2d step{scene.width / width, scene.height / height};
+  return {scene.origin + step * 0.5, step, width, height};
+}
+
+// Does the convex blocker hide the emitter from all of the tile? Its chord between the vertices furthest to either side
+// must separate the two, and its ends lie beyond every line from the tile to the light.
+bool hides(const Vec2d* v, std::size_t count, const PlaneEmitter& e, const TileArea& tile) {
+  const Vec2d axis = e.center - tile.center;
+  Vec2d left = v[0], right = v[0];
+  for (std::size_t k = 1; k < count; ++k) {
+    if (cross(axis, v[k]) > cross(axis, left)) left = v[k];
+    if (cross(axis, v[k]) < cross(axis, right)) right = v[k];
+  }
+  const Vec2d chord = right - left;
+  const double size = length(chord);
+  if (size == 0) return false;
+  for (Vec2d end : {e.a, e.b})
+    if (cross(chord, end - left) < e.radius * size) return false;  // the light beyond the chord
+  for (double sx : {-1.0, 1.0})
+    for (double sy : {-1.0, 1.0}) {
+      const Vec2d corner{tile.center.x + sx * tile.half.x, tile.center.y + sy * tile.half.y};
+      if (cross(chord, corner - left) >= 0) return false;
+      const Vec2d to_left = left - corner, to_right = right - corner;
+      for (Vec2d end : {e.a, e.b}) {
+        const double past_left = -cross(to_left, end - corner), past_right = cross(to_right, end - corner);
+        if (past_left <= 0 || past_left * past_left < e.radius * e.radius * dot(to_left, to_left)) return false;
+        if (past_right <= 0 || past_right * past_right < e.radius * e.radius * dot(to_right, to_right)) return false;
+      }
+    }
+  return true;
+}
+
+struct Entry {
+  int emitter;
+  std::size_t begin, end;  // its blockers in the level's list
+};
+
+struct Level {
+  std::vector<Entry> entries;
+  std::vector<int> blockers;
+  std::vector<int> bodies;  // whose boxes touch the tile
+  std::vector<int> general; // general lights in range
+};
+
+// One thread's work.
+class Worker {
+ public:
+  Worker(const FrameScene& frame, const Grid& grid, const TileTable& table, Picture& picture)
+      : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame) {
+    for (int y = 0; y < kTileSide; ++y)
+      for (int x = 0; x < kTileSide; ++x) {
+        buffer_.x[slot(x, y)] = static_cast<float>((x - 0.5 * (kTileSide - 1)) * grid_.step.x);
+        buffer_.y[slot(x, y)] = static_cast<float>((y - 0.5 * (kTileSide - 1)) * grid_.step.y);
+      }
+  }
+
+  void run(int x, int y) {
+    Level& top = levels_[0];
+    top.entries.clear();
+    top.blockers.clear();
+    top.bodies.clear();
+    top.general.clear();
+    const TileArea tile = area(x, y, kSides[0]);
+    for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
+      const PlaneEmitter& emitter = frame_.emitters[e];
+      if (frame_.general[static_cast<std::size_t>(emitter.body)] != 0) continue;
+      filter(static_cast<int>(e), frame_.nearby[e].data(), frame_.nearby[e].size(), tile, top);
+    }
+    for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
+      if (touches(world_.boxes[i], tile)) top.bodies.push_back(static_cast<int>(i));
+      if (frame_.general[i] != 0 && in_range(i, tile)) top.general.push_back(static_cast<int>(i));
+    }
+    descend(0, x, y);
+  }
+
+  std::uint64_t tile_lights = 0, tile_blockers = 0;
+
+ private:
+  TileArea area(int x, int y, int side) const {
+    return {grid_.at(x, y) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
+  }
+
+  bool touches(const Box& box, const TileArea& t) const {
+    return box.low.x <= t.center.x + t.half.x && box.high.x >= t.center.x - t.half.x && box.low.y <= t.center.y + t.half.y &&
+           box.high.y >= t.center.y - t.half.y;
+  }
+  bool in_range(std::size_t body, const TileArea& t) const {
+    const Box& b = world_.boxes[body];
+    const Vec2d gap{std::max({b.low.x - t.center.x - t.half.x, 0.0, t.center.x - t.half.x - b.high.x}),
+                    std::max({b.low.y - t.center.y - t.half.y, 0.0, t.center.y - t.half.y - b.high.y})};
+    return length(gap) < world_.scene.bodies[body].light->range;
+  }
+
+  // Appends the emitter with the blockers that touch the hull of it and the tile, unless it cannot be seen.
+  void filter(int index, const int* blockers, std::size_t count, const TileArea& tile, Level& to) const {
+    const PlaneEmitter& e = frame_.emitters[static_cast<std::size_t>(index)];
+    const double half = tile.radius, bound = e.bound;
+    const Vec2d axis = e.center - tile.center;
+    const double length2 = dot(axis, axis), reach = e.range + bound + half;
+    if (length2 >= reach * reach) return;
+    if (e.kind == PlaneEmitter::Kind::edge) {
+      const Vec2d n = e.normal;
+      if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return;
+    }
+    // The hull of two circles, seen across the axis at the share t of the way: its slanted sides are (half + t growth)
+    // over the cosine of their slope away, and a circle's distance to them shrinks by that cosine too.
+    const double growth = bound - half;
+    const double cosine2 = length2 > growth * growth ? 1 - growth * growth / length2 : 0;
+    const double widen = cosine2 > 0.04 ? 1 / std::sqrt(cosine2) : 0, widest = std::max(half, bound);
+    const double inverse = length2 > 0 ? 1 / length2 : 0;
+    const std::size_t begin = to.blockers.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const BlockerBound& b = frame_.bounds[static_cast<std::size_t>(blockers[i])];
+      const Vec2d v = Vec2d{b.x, b.y} - tile.center;
+      const double t = std::clamp(dot(v, axis) * inverse, 0.0, 1.0);
+      const Vec2d off = v - axis * t;
+      const double limit = widen > 0 ? (half + t * growth + b.radius) * widen : widest + b.radius;
+      if (dot(off, off) > limit * limit) continue;
+      if (b.convex && b.radius > 0.7 * (half + t * growth) && hides(blockers[i], e, tile)) {
+        to.blockers.resize(begin);
+        return;
+      }
+      to.blockers.push_back(blockers[i]);
+    }
+    to.entries.push_back({index, begin, to.blockers.size()});
+  }
+
+  bool hides(int blocker, const PlaneEmitter& e, const TileArea& tile) const {
+    const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+    return steradian::hides(&frame_.vertices[b.first], b.count, e, tile);
+  }
+
+  void descend(int level, int x, int y) {
+    if (level + 1 == kLevels) {
+      leaf(levels_[static_cast<std::size_t>(level)], x, y);
+      return;
+    }
+    const Level& from = levels_[static_cast<std::size_t>(level)];
+    Level& to = levels_[static_cast<std::size_t>(level) + 1];
+    const int side = kSides[level + 1];
+    for (int dy = 0; dy < kSides[level] && y + dy < grid_.height; dy += side)
+      for (int dx = 0; dx < kSides[level] && x + dx < grid_.width; dx += side) {
+        const TileArea tile = area(x + dx, y + dy, side);
+        to.entries.clear();
+        to.blockers.clear();
+        to.bodies.clear();
+        to.general.clear();
+        for (const Entry& e : from.entries) filter(e.emitter, from.blockers.data() + e.begin, e.end - e.begin, tile, to);
+        for (int i : from.bodies)
+          if (touches(world_.boxes[static_cast<std::size_t>(i)], tile)) to.bodies.push_back(i);
+        for (int i : from.general)
+          if (in_range(static_cast<std::size_t>(i), tile)) to.general.push_back(i);
+        descend(level + 1, x + dx, y + dy);
+      }
+  }
+
+  static int slot(int x, int y) { return (y / 4 * 4 + x / 4) * 16 + (y % 4) * 4 + x % 4; }
+
+  void leaf(const Level& level, int x0, int y0) {
+    const TileArea tile = area(x0, y0, kTileSide);
+    std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
+    std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
+    std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
+    for (const Entry& e : level.entries) {
+      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.data() + e.begin, e.end - e.begin, tile);
+      if (!visible) continue;
+      table_.add_light(light, buffer_);
+      ++tile_lights;
+      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.ordered_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
+    }
+    if (level.bodies.empty() && level.general.empty()) {
+      copy_out(x0, y0);
+      return;
+    }
+    mark_inside(level, x0, y0);
+    if (!level.general.empty()) collect_general_curves(level, tile);
+    for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
+      for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x) {
+        const int i = slot(x, y);
+        Vec3f& out = picture_.at(x0 + x, y0 + y);
+        const int inside = inside_[i];
+        if (inside == kDark) {
+          out = {};
+        } else if (inside >= 0) {
+          out = static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x0 + x, y0 + y)));
+        } else {
+          out = {buffer_.red[i], buffer_.green[i], buffer_.blue[i]};
+          if (!level.general.empty())
+            out += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general, EmissionParts::radiance).radiance);
+        }
+      }
+  }
+
+  void copy_out(int x0, int y0) {
+    for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y) {
+      Vec3f* row = &picture_.at(x0, y0 + y);
+      const int width = std::min(kTileSide, grid_.width - x0), first = slot(0, y);
+      for (int x = 0; x < width; ++x) {
+        const int i = first + x / 4 * 16 + x % 4;
+        row[x] = {buffer_.red[i], buffer_.green[i], buffer_.blue[i]};
+      }
+    }
+  }
+
+  Vec3d interior(std::size_t body, Vec2d p) const {
+    if (frame_.interior[body].empty()) return radiance_at(*world_.scene.bodies[body].light, p);
+    return envelope_light(world_, frame_.interior[body], p, static_cast<int>(body), EmissionParts::radiance).radiance;
+  }
+
+  // Which body fills each pixel: in double and by the same test as a query.
+  void mark_inside(const Level& level, int x0, int y0) {
+    std::fill(std::begin(inside_), std::end(inside_), -1);
+    for (int index : level.bodies) {
+      const PlaneBody& body = world_.scene.bodies[static_cast<std::size_t>(index)];
+      const Box& box = world_.boxes[static_cast<std::size_t>(index)];
+      const Vec2d first = grid_.at(x0, y0);
+      const auto low = [](double at, double origin, double step) { return std::max(static_cast<int>(std::ceil((at - origin) / step - 1e-9)), 0); };
+      const auto high = [](double at, double origin, double step) { return std::min(static_cast<int>(std::floor((at - origin) / step + 1e-9)), kTileSide - 1); };
+      for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y); ++y)
+        for (int x = low(box.low.x, first.x, grid_.step.x); x <= high(box.high.x, first.x, grid_.step.x); ++x) {
+          int& inside = inside_[slot(x, y)];
+          if (inside == kDark || !contains(body, grid_.at(x0 + x, y0 + y))) continue;
+          inside = body.light ? index : kDark;
+        }
+    }
+  }
+
+  void collect_general_curves(const Level& level, const TileArea& tile) {
+    double reach = 0;
+    for (int i : level.general) {
+      const Box& b = world_.boxes[static_cast<std::size_t>(i)];
+      const double far = length((b.low + b.high) * 0.5 - tile.center) + 0.5 * length(b.high - b.low) + tile.radius;
+      reach = std::max(reach, std::min(far, world_.scene.bodies[static_cast<std::size_t>(i)].light->range + tile.radius));
+    }
+    general_curves_.clear();
+    for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
+      const Box& b = world_.boxes[i];
+      const Vec2d gap{std::max({b.low.x - tile.center.x, 0.0, tile.center.x - b.high.x}), std::max({b.low.y - tile.center.y, 0.0, tile.center.y - b.high.y})};
+      if (length(gap) > reach) continue;
+      for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c) general_curves_.push_back(&world_.curves[c]);
+    }
+  }
+
+  static constexpr int kDark = -2;
+  const FrameScene& frame_;
+  const PlaneWorld::Impl& world_;
+  const Grid& grid_;
+  const TileTable& table_;
+  Picture& picture_;
+  LeafBuilder leaf_;
+  Level levels_[kLevels];
+  TileBuffer buffer_;
+  int inside_[kTilePixels];
+  std::vector<const Curve*> general_curves_;
+};
+
+Picture averaged(const Picture& fine, int n) {
+  Picture result(fine.width / n, fine.height / n);
+  const auto average = [&](const std::vector<Vec3f>& from, std::vector<Vec3f>& to) {
+    for (int y = 0; y < result.height; ++y)
+      for (int x = 0; x < result.width; ++x) {
+        Vec3f sum;
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) sum += from[static_cast<std::size_t>(y * n + j) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x * n + i)];
+        to[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) + static_cast<std::size_t>(x)] = sum / static_cast<float>(n * n);
+      }
+  };
+  average(fine.pixels, result.pixels);
+  for (const auto& [name, layer] : fine.layers) {
+    result.layers[name].resize(result.pixels.size());
+    average(layer, result.layers[name]);
+  }
+  return result;
+}
+
+// Every method but the exact one without moments: pixel by pixel.
+void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const Grid& grid, Picture& picture) {
+  if (options.moments)
+    for (const char* name : {"moment_x", "moment_y"}) picture.layers[name].resize(picture.pixels.size());
+  std::atomic<std::uint64_t> done{0};
+  tbb::parallel_for(0, grid.height, [&](int y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const PlaneLight light = world.query(grid.at(x, y), options.method, options.sampling);
+      picture.at(x, y) = static_cast<Vec3f>(light.radiance);
+      if (!options.moments) continue;
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+      picture.layers["moment_x"][i] = static_cast<Vec3f>(light.moment_x);
+      picture.layers["moment_y"][i] = static_cast<Vec3f>(light.moment_y);
+    }
+    if (options.progress) options.progress(++done, static_cast<std::uint64_t>(grid.height));
+  });
+}
+
+void by_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const Grid& grid, Picture& picture, PlaneFrameStats& stats) {
+  const TileTable& table = tile_table_for(active_simd());
+  const int columns = (grid.width + kSides[0] - 1) / kSides[0], rows = (grid.height + kSides[0] - 1) / kSides[0];
+  std::atomic<std::uint64_t> done{0}, lights{0}, blockers{0};
+  tbb::parallel_for(0, columns * rows, [&](int i) {
+    const FlushDenormals flush;
+    const auto worker = std::make_unique<Worker>(frame, grid, table, picture);
+    worker->run(i % columns * kSides[0], i / columns * kSides[0]);
+    lights += worker->tile_lights;
+    blockers += worker->tile_blockers;
+    if (options.progress) options.progress(++done, static_cast<std::uint64_t>(columns * rows));
+  });
+  stats.tile_lights = lights;
+  stats.tile_blockers = blockers;
+}
+
+}  // namespace
+
+Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  const PlaneScene& scene = world.scene();
+  const int n = static_cast<int>(std::ceil(std::sqrt(std::max(options.aa, 1)) - 1e-9));
+  const int width = options.width > 0 ? options.width : std::max(static_cast<int>(std::lround(scene.width)), 1);
+  const int height = options.height > 0 ? options.height : std::max(static_cast<int>(std::lround(scene.height)), 1);
+  if (static_cast<double>(width) * n > 65536 || static_cast<double>(height) * n > 65536)
+    throw Error("size", "the picture would have more than 65536 pixels a side", "set a smaller size");
+  const Grid grid = grid_of(scene, width * n, height * n);
+  Picture picture(grid.width, grid.height);
+  PlaneFrameStats own;
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  own.threads = arena.max_concurrency();
+  for (const PlaneBody& body : scene.bodies) ++(body.light ? own.lights : own.occluders);
+  arena.execute([&] {
+    const auto start = Clock::now();
+    if (options.method != PlaneMethod::exact || options.moments) {
+      by_query(world, options, grid, picture);
+      own.frame_ms = ms_since(start);
+      return;
+    }
+    const FrameScene frame = prepare_frame(world.impl());
+    own.prepare_ms = ms_since(start);
+    const auto tiles = Clock::now();
+    by_tiles(frame, options, grid, picture, own);
+    own.frame_ms = ms_since(tiles);
+  });
+  if (stats != nullptr) *stats = own;
+  return n > 1 ? averaged(picture, n) : picture;
+}
+
+}  // namespace steradian

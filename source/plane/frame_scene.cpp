@@ -1,0 +1,373 @@
+#include "plane/frame_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace steradian {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t kMostVertices = 8;  // of a convex blocker; more, and edges stand alone: their tangents move less
+constexpr double kTouching = 1e-9;
+
+bool is_full_circle(const Curve& c) {
+  const double xx = dot(c.ellipse.x, c.ellipse.x), yy = dot(c.ellipse.y, c.ellipse.y);
+  return c.kind == Curve::Kind::arc && c.tau_span > 2 * pi - 1e-9 && std::fabs(xx - yy) <= 1e-12 * xx &&
+         std::fabs(dot(c.ellipse.x, c.ellipse.y)) <= 1e-12 * xx;
+}
+
+double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
+  const Vec2d ab = b - a;
+  const double t = std::clamp(dot(p - a, ab) / std::max(dot(ab, ab), 1e-300), 0.0, 1.0);
+  return length(p - a - ab * t);
+}
+
+class Preparation {
+ public:
+  explicit Preparation(const PlaneWorld::Impl& world) : world_(world) {
+    frame_.world = &world;
+    frame_.general.assign(world.scene.bodies.size(), 0);
+  }
+
+  FrameScene run() {
+    const std::size_t bodies = world_.scene.bodies.size();
+    for (std::size_t i = 0; i < bodies; ++i) {
+      first_blocker_.push_back(frame_.blockers.size());
+      add_blockers(i);
+    }
+    first_blocker_.push_back(frame_.blockers.size());
+    for (std::size_t i = 0; i < bodies; ++i)
+      if (world_.scene.bodies[i].light) add_emitters(i);
+    build_bins();
+    interior();
+    frame_.nearby.resize(frame_.emitters.size());
+    for (std::size_t e = 0; e < frame_.emitters.size(); ++e) find_nearby(e);
+    for (const PlaneBlocker& b : frame_.blockers)
+      frame_.bounds.push_back({b.center.x, b.center.y, b.bound, b.kind == PlaneBlocker::Kind::convex});
+    for (char g : frame_.general) frame_.any_general = frame_.any_general || g != 0;
+    return std::move(frame_);
+  }
+
+ private:
+  const PlaneBody& body(std::size_t i) const { return world_.scene.bodies[i]; }
+
+  void add_convex(std::vector<Vec2d> vertices, int owner, std::vector<PlaneBlocker>& to) {
+    PlaneBlocker b;
+    b.body = owner;
+    b.first = frame_.vertices.size();
+    b.count = vertices.size();
+    Box box;
+    for (Vec2d v : vertices) box.add(v);
+    b.center = (box.low + box.high) * 0.5;
+    for (Vec2d v : vertices) b.bound = std::max(b.bound, length(v - b.center));
+    frame_.vertices.insert(frame_.vertices.end(), vertices.begin(), vertices.end());
+    to.push_back(b);
+  }
+
+  void add_ellipse(const Ellipse& e, int owner) {
+    PlaneBlocker b;
+    b.kind = PlaneBlocker::Kind::ellipse;
+    b.body = owner;
+    b.center = e.center;
+    b.x_axis = e.x;
+    b.y_axis = e.y;
+    b.bound = is_round(e) ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
+    frame_.blockers.push_back(b);
+  }
+  static bool is_round(const Ellipse& e) {
+    return std::fabs(dot(e.x, e.x) - dot(e.y, e.y)) <= 1e-12 * dot(e.x, e.x) && std::fabs(dot(e.x, e.y)) <= 1e-12 * dot(e.x, e.x);
+  }
+
+  // The outline as one convex counter-clockwise polygon, if it is one.
+  std::vector<Vec2d> convex_outline(std::size_t i) const {
+    const PlaneBody& b = body(i);
+    if (b.shape != PlaneBody::Shape::polygon || b.contours.size() != 1) return {};
+    std::vector<Vec2d> v;
+    for (Vec2d p : b.contours[0])
+      if (v.empty() || !(p == v.back())) v.push_back(p);
+    while (v.size() > 1 && v.front() == v.back()) v.pop_back();
+    if (v.size() < 3 || v.size() > kMostVertices) return {};
+    double turn = 0;
+    int reflex = 0, convex = 0;
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const Vec2d e = v[(k + 1) % v.size()] - v[k], f = v[(k + 2) % v.size()] - v[(k + 1) % v.size()];
+      (cross(e, f) > 0 ? convex : reflex) += 1;
+      turn += std::atan2(cross(e, f), dot(e, f));
+    }
+    if ((convex != 0 && reflex != 0) || std::fabs(std::fabs(turn) - 2 * pi) > 1e-6) return {};
+    if (reflex != 0) std::reverse(v.begin(), v.end());
+    return v;
+  }
+
+  void add_blockers(std::size_t i) {
+    const int owner = static_cast<int>(i);
+    if (body(i).shape == PlaneBody::Shape::capsule && world_.first_curve[i] < world_.first_curve[i + 1]) {
+      // Two disks and the box between them: the same silhouette.
+      const Vec2d p = body(i).contours[0][0], q = body(i).contours[0][1];
+      const double r = body(i).radius;
+      add_ellipse({p, {r, 0}, {0, r}}, owner);
+      if (p == q) return;
+      add_ellipse({q, {r, 0}, {0, r}}, owner);
+      const Vec2d along = (q - p) / length(q - p), left = Vec2d{-along.y, along.x} * r;
+      add_convex({p - left, q - left, q + left, p + left}, owner, frame_.blockers);
+      return;
+    }
+    const std::vector<Vec2d> convex = convex_outline(i);
+    if (!convex.empty()) {
+      add_convex(convex, owner, frame_.blockers);
+      return;
+    }
+    bool ellipse_done = false;
+    for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c) {
+      const Curve& curve = world_.curves[c];
+      if (curve.kind == Curve::Kind::segment)
+        add_convex({curve.a, curve.b}, owner, frame_.blockers);
+      else if (!ellipse_done)
+        add_ellipse(curve.ellipse, owner), ellipse_done = true;  // gradients cut an ellipse into several arcs
+    }
+  }
+
+  void add_emitters(std::size_t i) {
+    const PlaneEmission& light = *body(i).light;
+    const bool spot = light.spot_axis.x != 0 || light.spot_axis.y != 0;
+    const bool plain = light.profile == PlaneProfile::uniform && !light.gradient;
+    const std::size_t first = world_.first_curve[i], last = world_.first_curve[i + 1];
+    const std::size_t before = frame_.emitters.size();
+    for (std::size_t c = first; c < last; ++c) {
+      const Curve& curve = world_.curves[c];
+      PlaneEmitter e;
+      e.body = static_cast<int>(i);
+      e.curve = &curve;
+      if (curve.kind == Curve::Kind::segment && !spot) {
+        e.kind = PlaneEmitter::Kind::edge;
+        e.a = curve.a;
+        e.b = curve.b;
+        add_emitter(e);
+        if (curve.two_sided) {
+          std::swap(e.a, e.b);
+          add_emitter(e);
+        }
+      } else if (is_full_circle(curve) && plain && !spot) {
+        e.a = e.b = curve.ellipse.center;
+        e.radius = length(curve.ellipse.x);
+        add_emitter(e);
+      } else {
+        frame_.emitters.resize(before);
+        frame_.general[i] = 1;
+        return;
+      }
+    }
+  }
+
+  void add_emitter(PlaneEmitter e) {
+    const Vec2d along = e.b - e.a;
+    const double size = length(along);
+    e.center = (e.a + e.b) * 0.5;
+    e.bound = e.radius + 0.5 * size;
+    if (size > 0) e.normal = Vec2d{along.y, -along.x} / size;
+    e.range = body(static_cast<std::size_t>(e.body)).light->range;
+    frame_.emitters.push_back(e);
+  }
+
+  // Bins of blockers by their centres, as wide as the picture's larger side over 32.
+  void build_bins() {
+    Box box;
+    for (const PlaneBlocker& b : frame_.blockers) box.add(b.center), largest_ = std::max(largest_, b.bound);
+    if (frame_.blockers.empty()) box.add({0, 0});
+    low_ = box.low;
+    cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
+    bins_.resize(33 * 33);
+    for (std::size_t i = 0; i < frame_.blockers.size(); ++i) bins_[bin(frame_.blockers[i].center)].push_back(static_cast<int>(i));
+  }
+  int cell(double offset) const { return std::clamp(static_cast<int>(offset / cell_), 0, 32); }
+  std::size_t bin(Vec2d p) const { return static_cast<std::size_t>(cell(p.y - low_.y) * 33 + cell(p.x - low_.x)); }
+
+  template <class F>
+  void for_each_within(Vec2d p, double reach, F f) const {
+    const double r = std::min(reach + largest_, 1e9);
+    for (int y = cell(std::max(p.y - r - low_.y, 0.0)); y <= cell(std::clamp(p.y + r - low_.y, 0.0, 64 * cell_)); ++y)
+      for (int x = cell(std::max(p.x - r - low_.x, 0.0)); x <= cell(std::clamp(p.x + r - low_.x, 0.0, 64 * cell_)); ++x)
+        for (int i : bins_[static_cast<std::size_t>(y * 33 + x)]) {
+          const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(i)];
+          const Vec2d away = b.center - p;
+          const double limit = reach + b.bound;
+          if (dot(away, away) < limit * limit) f(i);
+        }
+  }
+
+  void interior() {
+    frame_.interior.resize(world_.scene.bodies.size());
+    for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
+      if (!body(i).light || world_.first_curve[i] == world_.first_curve[i + 1]) continue;
+      const Box& mine = world_.boxes[i];
+      std::vector<std::size_t> others{i};
+      const Vec2d middle = (mine.low + mine.high) * 0.5;
+      for_each_within(middle, 0.5 * length(mine.high - mine.low), [&](int k) {
+        const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
+        const Box& box = world_.boxes[o];
+        if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
+        if (!may_be_inside(i, frame_.blockers[static_cast<std::size_t>(k)])) return;
+        others.push_back(o);
+      });
+      std::sort(others.begin(), others.end());
+      others.erase(std::unique(others.begin(), others.end()), others.end());
+      if (others.size() == 1) continue;  // nothing inside: the light alone
+      for (std::size_t o : others)
+        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) frame_.interior[i].push_back(&world_.curves[c]);
+    }
+  }
+
+  // Exact for round lights; others go by their boxes.
+  bool may_be_inside(std::size_t light, const PlaneBlocker& b) const {
+    if (b.body == static_cast<int>(light)) return true;
+    const Curve& curve = world_.curves[world_.first_curve[light]];
+    if (!is_full_circle(curve)) return true;
+    PlaneEmitter disk;
+    disk.a = disk.b = disk.center = curve.ellipse.center;
+    disk.radius = disk.bound = length(curve.ellipse.x);
+    return overlaps(disk, b);
+  }
+
+  void find_nearby(std::size_t index) {
+    const PlaneEmitter e = frame_.emitters[index];
+    std::vector<int>& list = frame_.nearby[index];
+    std::vector<int> overlapping;
+    // What is further from the light than its range stands behind the last lit point.
+    for_each_within(e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
+      const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(k)];
+      if (b.body == e.body) {
+        // The rest of a concave light blocks its own edges; a convex one lies behind them.
+        if (e.kind == PlaneEmitter::Kind::edge && b.count == 2) own_edge(e, b, list);
+        return;
+      }
+      if (overlaps(e, b))
+        overlapping.push_back(k);
+      else
+        list.push_back(k);
+    });
+    for (int k : overlapping)
+      if (!stand_in(e, frame_.blockers[static_cast<std::size_t>(k)], list)) {
+        frame_.general[static_cast<std::size_t>(e.body)] = 1;
+        return;
+      }
+  }
+
+  bool overlaps(const PlaneEmitter& e, const PlaneBlocker& b) const {
+    if (length(e.center - b.center) >= e.bound + b.bound) return false;
+    if (b.kind != PlaneBlocker::Kind::convex) {
+      // Round against what is round or thin: by distance; other ellipses by their bounding circle.
+      return distance_to_segment(b.center, e.a, e.b) < e.radius + b.bound - kTouching;
+    }
+    const Vec2d* v = &frame_.vertices[b.first];
+    if (e.kind == PlaneEmitter::Kind::disk) {
+      double nearest = 1e300;
+      bool inside = b.count > 2;
+      for (std::size_t k = 0; k < b.count; ++k) {
+        const Vec2d p = v[k], q = v[(k + 1) % b.count];
+        nearest = std::min(nearest, distance_to_segment(e.a, p, q));
+        inside = inside && cross(q - p, e.a - p) > 0;
+      }
+      return inside || nearest < e.radius - kTouching;
+    }
+    // Separating axes: the edges of both.
+    const auto separates = [&](Vec2d p, Vec2d q) {
+      const Vec2d n = Vec2d{q.y - p.y, p.x - q.x} / length(q - p);
+      double low = 1e300, high = -1e300;
+      for (std::size_t k = 0; k < b.count; ++k) low = std::min(low, dot(v[k] - p, n)), high = std::max(high, dot(v[k] - p, n));
+      const double s = dot(e.a - p, n), t = dot(e.b - p, n);
+      return std::min(s, t) >= high - kTouching || std::max(s, t) <= low + kTouching;
+    };
+    if (separates(e.a, e.b)) return false;
+    for (std::size_t k = 0; k < b.count; ++k)
+      if (separates(v[k], v[(k + 1) % b.count])) return false;
+    return true;
+  }
+
+  void add_private(std::vector<Vec2d> vertices, int owner, std::vector<int>& list) {
+    list.push_back(static_cast<int>(frame_.blockers.size()));
+    add_convex(std::move(vertices), owner, frame_.blockers);
+  }
+
+  // The part of p, q on the lit side of an edge.
+  void add_in_front(const PlaneEmitter& e, Vec2d p, Vec2d q, int owner, std::vector<int>& list) {
+    const Vec2d n = e.normal;
+    double hp = dot(p - e.a, n), hq = dot(q - e.a, n);
+    if (hp < hq) std::swap(p, q), std::swap(hp, hq);
+    if (hp <= kTouching) return;
+    if (hq < 0) q = p + (q - p) * (hp / (hp - hq));
+    add_private({p, q}, owner, list);
+  }
+
+  void own_edge(const PlaneEmitter& e, const PlaneBlocker& b, std::vector<int>& list) {
+    add_in_front(e, frame_.vertices[b.first], frame_.vertices[b.first + 1], b.body, list);
+  }
+
+  // Replaces a blocker that overlaps the emitter; false where no rule serves.
+  bool stand_in(const PlaneEmitter& e, PlaneBlocker b, std::vector<int>& list) {
+    if (b.kind == PlaneBlocker::Kind::convex) {
+      for (std::size_t k = 0; k < b.count; ++k) {
+        const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
+        if (e.kind == PlaneEmitter::Kind::edge)
+          add_in_front(e, p, q, b.body, list);
+        else
+          add_outside_disk(e, p, q, b.body, list);
+        if (b.count == 2) break;
+      }
+      return true;
+    }
+    const bool round = std::fabs(dot(b.x_axis, b.x_axis) - dot(b.y_axis, b.y_axis)) <= 1e-12 * dot(b.x_axis, b.x_axis);
+    if (e.kind != PlaneEmitter::Kind::disk || !round) return false;
+    return add_lens(e, b, list);
+  }
+
+  void add_outside_disk(const PlaneEmitter& e, Vec2d p, Vec2d q, int owner, std::vector<int>& list) {
+    const Vec2d d = q - p, c = p - e.a;
+    const double a = dot(d, d), h = dot(c, d), k = dot(c, c) - e.radius * e.radius, det = h * h - a * k;
+    if (det <= 0) return add_private({p, q}, owner, list);
+    const double root = std::sqrt(det), t0 = (-h - root) / a, t1 = (-h + root) / a;
+    if (t0 >= 1 || t1 <= 0) return add_private({p, q}, owner, list);
+    const double size = std::sqrt(a);
+    if (t0 * size > kTouching) add_private({p, p + d * t0}, owner, list);
+    if ((1 - t1) * size > kTouching) add_private({p + d * t1, q}, owner, list);
+  }
+
+  bool add_lens(const PlaneEmitter& e, PlaneBlocker b, std::vector<int>& list) {
+    const Vec2d to = b.center - e.a;
+    const double d = length(to), r = e.radius, s = length(b.x_axis);
+    if (d + s <= r) return true;  // within the light: seen from inside only
+    if (d + r <= s) {             // the light is within: not seen from outside. A box around it, as its own edges.
+      frame_.general[static_cast<std::size_t>(e.body)] = 1;
+      return false;
+    }
+    const double along = (d * d + r * r - s * s) / (2 * d), across = std::sqrt(std::max(r * r - along * along, 0.0));
+    const Vec2d u = to / d, v{-u.y, u.x};
+    b.kind = PlaneBlocker::Kind::lens;
+    for (int k = 0; k < 2; ++k) {
+      const Vec2d at = e.a + u * along + v * (k == 0 ? across : -across);
+      const Vec2d nl = (at - e.a) / r, nb = (at - b.center) / s;
+      const int place = cross(nl, nb) > 0 ? 0 : 1;
+      b.crossing[place] = at;
+      b.light_normal[place] = nl;
+      b.blocker_normal[place] = nb;
+    }
+    list.push_back(static_cast<int>(frame_.blockers.size()));
+    frame_.blockers.push_back(b);
+    return true;
+  }
+
+  const PlaneWorld::Impl& world_;
+  FrameScene frame_;
+  std::vector<std::size_t> first_blocker_;
+  std::vector<std::vector<int>> bins_;
+  Vec2d low_;
+  double cell_ = 1, largest_ = 0;
+};
+
+}  // namespace
+
+FrameScene prepare_frame(const PlaneWorld::Impl& world) { return Preparation(world).run(); }
+
+}  // namespace steradian

@@ -1,0 +1,129 @@
+#include "plane/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plane/emission.h"
+#include "steradian/error.h"
+
+namespace steradian {
+
+using std::numbers::pi;
+
+const char* name_of(PlaneMethod method) {
+  switch (method) {
+    case PlaneMethod::exact: return "exact";
+    case PlaneMethod::par: return "par";
+    case PlaneMethod::sampled: return "sampled";
+    case PlaneMethod::marched: return "marched";
+  }
+  return "?";
+}
+
+PlaneMethod plane_method_from_name(const std::string& name) {
+  for (PlaneMethod m : {PlaneMethod::exact, PlaneMethod::par, PlaneMethod::sampled, PlaneMethod::marched})
+    if (name == name_of(m)) return m;
+  throw Error("method", "unknown method '" + name + "' for a plane scene", "use exact, par, sampled or marched");
+}
+
+PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
+  Inside result;
+  for (int i : grid.bodies_near(p)) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    if (!boxes[k].holds(p) || !contains(scene.bodies[k], p)) continue;
+    if (!scene.bodies[k].light) return {i, true};
+    result.body = std::max(result.body, i);
+  }
+  return result;
+}
+
+namespace {
+
+template <class Counts>
+PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from, int inside,
+                        EmissionParts parts, Counts counts) {
+  PlaneLight sum;
+  for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside})) {
+    const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
+    if (!light || !counts(v.curve->body)) continue;
+    if (v.curve->body == inside)
+      add_interior(v, *light, from, sum);
+    else
+      add_emission(v, *light, from, parts, sum);
+  }
+  const double scale = 1 / (2 * pi);
+  return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
+}
+
+}  // namespace
+
+PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
+                          int inside_light, EmissionParts parts) {
+  return envelope_sum(world, curves, from, inside_light, parts, [](int) { return true; });
+}
+
+PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
+                             const std::vector<char>& only, EmissionParts parts) {
+  return envelope_sum(world, curves, from, -1, parts, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
+}
+
+namespace {
+
+double nearest_in(const Box& box, Vec2d p) {
+  return length({std::max({box.low.x - p.x, 0.0, p.x - box.high.x}), std::max({box.low.y - p.y, 0.0, p.y - box.high.y})});
+}
+double farthest_in(const Box& box, Vec2d p) {
+  return length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y)});
+}
+
+// Only what is nearer than the farthest light that reaches the point can matter.
+std::vector<const Curve*> curves_that_matter(const PlaneWorld::Impl& world, Vec2d p) {
+  double reach = 0;
+  for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
+    const auto& light = world.scene.bodies[i].light;
+    if (!light || world.first_curve[i] == world.first_curve[i + 1]) continue;
+    if (nearest_in(world.boxes[i], p) >= light->range) continue;
+    reach = std::max(reach, std::min(farthest_in(world.boxes[i], p), light->range));
+  }
+  std::vector<const Curve*> result;
+  for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
+    if (nearest_in(world.boxes[i], p) > reach) continue;
+    for (std::size_t c = world.first_curve[i]; c < world.first_curve[i + 1]; ++c) result.push_back(&world.curves[c]);
+  }
+  return result;
+}
+
+}  // namespace
+
+PlaneWorld::PlaneWorld(PlaneScene scene) : impl_(std::make_unique<Impl>()) {
+  impl_->scene = std::move(scene);
+  for (std::size_t i = 0; i < impl_->scene.bodies.size(); ++i) {
+    impl_->first_curve.push_back(impl_->curves.size());
+    const std::vector<Curve> outline = outline_of(impl_->scene.bodies[i], static_cast<int>(i));
+    impl_->curves.insert(impl_->curves.end(), outline.begin(), outline.end());
+    impl_->boxes.push_back(bounds_of(impl_->scene.bodies[i]));
+  }
+  impl_->first_curve.push_back(impl_->curves.size());
+  impl_->grid = RayGrid(impl_->curves, impl_->scene.bodies);
+}
+
+PlaneWorld::~PlaneWorld() = default;
+PlaneWorld::PlaneWorld(PlaneWorld&&) noexcept = default;
+PlaneWorld& PlaneWorld::operator=(PlaneWorld&&) noexcept = default;
+
+const PlaneScene& PlaneWorld::scene() const { return impl_->scene; }
+
+PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSampling& sampling) const {
+  if (!is_finite(position)) throw Error("position", "a coordinate is not finite");
+  if (method == PlaneMethod::par) return par_light(*impl_, position);
+  const Impl::Inside inside = impl_->inside(position);
+  if (inside.dark) return {};
+  switch (method) {
+    case PlaneMethod::sampled: return sampled_light(*impl_, position, sampling);
+    case PlaneMethod::marched: return marched_light(*impl_, position, sampling);
+    default: return envelope_light(*impl_, curves_that_matter(*impl_, position), position, inside.body);
+  }
+}
+
+}  // namespace steradian

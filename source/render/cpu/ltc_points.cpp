@@ -1,0 +1,27 @@
+#include "render/cpu/ltc_points.h"
+
+#include "steradian/ltc.h"
+
+namespace steradian {
+namespace {
+
+PackTable padded(const float* values, int size, int components) {
+  PackTable table{size, {}};
+  for (int i = 0; i < size * size; ++i)
+    for (int c = 0; c < 4; ++c) table.nodes.push_back(c < components ? values[i * components + c] : 0.0f);
+  return table;
+}
+
+}  // namespace
+
+LtcPackTables ltc_classic_pack_tables() {
+  const LtcTableView t = ltc_ggx_tables();
+  return {padded(t.matrix, t.classic_size, 4), padded(t.magnitude, t.classic_size, 4)};
+}
+
+LtcPackTables ltc_compact_pack_tables() {
+  const LtcTableView t = ltc_ggx_tables();
+  return {padded(t.shapes, t.shape_size, 4), padded(t.magnitudes, t.magnitude_size, 2)};
+}
+
+}  // namespace steradian

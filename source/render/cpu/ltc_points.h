@@ -1,0 +1,51 @@
+// Lambert and GGX from polygon lights by linearly transformed cosines, on many points at once, on packs.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/simd.h"
+#include "render/cpu/irradiance.h"
+
+namespace steradian {
+
+// A table as packs read it: nodes of four floats, so that one load takes a node.
+struct PackTable {
+  int size = 0;
+  std::vector<float> nodes;
+};
+
+// The shipped GGX tables. classic: matrix and magnitude; compact: shapes and magnitudes.
+struct LtcPackTables {
+  PackTable matrix, magnitude;
+};
+LtcPackTables ltc_classic_pack_tables();
+LtcPackTables ltc_compact_pack_tables();
+
+// Surface points that are seen from somewhere. All arrays hold at.count floats.
+struct SeenPoints {
+  SurfacePoints at;
+  const float* vx;  // unit views
+  const float* vy;
+  const float* vz;
+  const float* roughness;  // perceptual
+};
+
+// What light of radiance 1 does to every point; sums over the lights.
+struct LtcSums {
+  float* irradiance;  // in [0, pi] for one light
+  float* specular;    // for F0 = 1 and F90 = 1: n_A times the lobe's integral
+  float* grazing;     // f_A times the same: what F90 - F0 multiplies
+};
+
+struct LtcPackTable {
+  // Overwrites the sums with those of the lights, all of kind polygon. The table is read once for all lights.
+  void (*classic)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
+                  const LtcPackTables& tables, const LtcSums& sums);
+  void (*compact)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
+                  const LtcPackTables& tables, const LtcSums& sums);
+};
+
+STERADIAN_DECLARE_PACK_TABLE(LtcPackTable, ltc_pack_table)
+
+}  // namespace steradian

@@ -1,0 +1,50 @@
+#include "render/vulkan/buffer.h"
+
+#include <cstring>
+
+#include "render/vulkan/buffer_handles.h"
+
+namespace steradian::vulkan {
+namespace {
+
+std::uint32_t memory_type(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted) {
+  const auto properties = device.getMemoryProperties();
+  for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i)
+    if ((allowed >> i & 1u) != 0 && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+  throw Error("Vulkan", "the device has no memory that the host can read");
+}
+
+void check_size(std::size_t bytes, std::size_t available) {
+  if (bytes > available)
+    throw Error("Vulkan", std::to_string(bytes) + " bytes do not fit a buffer of " + std::to_string(available));
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, std::size_t bytes) : bytes_(bytes), handles_(std::make_unique<Handles>()) {
+  checked("make a buffer", [&] {
+    const Device::Handles& d = device.handles();
+    Handles& h = *handles_;
+    h.buffer = d.device.createBuffer({{}, bytes, vk::BufferUsageFlagBits::eStorageBuffer});
+    const auto needed = h.buffer.getMemoryRequirements();
+    const auto wanted = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+    h.memory = d.device.allocateMemory({needed.size, memory_type(d.physical, needed.memoryTypeBits, wanted)});
+    h.buffer.bindMemory(*h.memory, 0);
+    h.mapped = h.memory.mapMemory(0, bytes);
+  });
+}
+
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer::~Buffer() = default;
+
+void Buffer::write(const void* data, std::size_t bytes) {
+  check_size(bytes, bytes_);
+  std::memcpy(handles_->mapped, data, bytes);
+}
+
+void Buffer::read(void* data, std::size_t bytes) const {
+  check_size(bytes, bytes_);
+  std::memcpy(data, handles_->mapped, bytes);
+}
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,15 @@
+// The Vulkan objects behind Buffer, for this folder only.
+#pragma once
+
+#include "render/vulkan/buffer.h"
+#include "render/vulkan/handles.h"
+
+namespace steradian::vulkan {
+
+struct Buffer::Handles {
+  vk::raii::Buffer buffer = nullptr;
+  vk::raii::DeviceMemory memory = nullptr;
+  void* mapped = nullptr;
+};
+
+}  // namespace steradian::vulkan

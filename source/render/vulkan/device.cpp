@@ -1,0 +1,122 @@
+#include "render/vulkan/device.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "render/vulkan/handles.h"
+
+namespace steradian::vulkan {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+  static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+bool has_validation_layer(const vk::raii::Context& context) {
+  for (const auto& layer : context.enumerateInstanceLayerProperties())
+    if (std::string(layer.layerName.data()) == kValidationLayer) return true;
+  return false;
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation) {
+  const vk::ApplicationInfo application("steradian", 0, "steradian", 0, VK_API_VERSION_1_2);
+  std::vector<const char*> layers, extensions;
+  if (validation) {
+    if (!has_validation_layer(context))
+      throw Error("Vulkan", std::string("the layer ") + kValidationLayer + " is not installed",
+                  "install vulkan-validationlayers");
+    layers.push_back(kValidationLayer);
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  }
+  return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application, layers, extensions));
+}
+
+std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice& device) {
+  const auto families = device.getQueueFamilyProperties();
+  for (std::uint32_t i = 0; i < families.size(); ++i)
+    if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return i;
+  return {};
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
+  const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+  const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+  return {properties.deviceName.data(), std::string(driver.driverName.data()) + ", " + driver.driverInfo.data(),
+          properties.deviceType == vk::PhysicalDeviceType::eCpu};
+}
+
+struct Candidate {
+  vk::raii::PhysicalDevice device;
+  std::uint32_t queue_family;
+  DeviceInfo info;
+};
+
+std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
+  std::vector<Candidate> found;
+  for (const auto& device : vk::raii::PhysicalDevices(instance)) {
+    if (device.getProperties().apiVersion < VK_API_VERSION_1_2) continue;
+    if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device)});
+  }
+  std::stable_partition(found.begin(), found.end(), [](const Candidate& c) { return !c.info.software; });
+  return found;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+  std::vector<DeviceInfo> infos;
+  try {
+    const vk::raii::Context context;
+    for (const Candidate& c : candidates(make_instance(context, false))) infos.push_back(c.info);
+  } catch (const std::exception&) {
+    // No loader or no driver: an expected absence, not an error.
+    infos.clear();
+  }
+  return infos;
+}
+
+Device::Device(const DeviceOptions& options) {
+  try {
+    handles_ = std::make_unique<Handles>();
+  } catch (const std::exception& e) {  // vulkan.hpp's own when there is no library to load
+    throw Error("Vulkan", e.what(), "install libvulkan1 and a driver, such as mesa-vulkan-drivers");
+  }
+  Handles& h = *handles_;
+  checked("open a device", [&] {
+    h.instance = make_instance(h.context, options.validation);
+    if (options.validation) {
+      using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+      using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+      h.messenger = h.instance.createDebugUtilsMessengerEXT(
+          {{}, Severity::eWarning | Severity::eError, Type::eGeneral | Type::eValidation | Type::ePerformance,
+           keep_message, &h.messages});
+    }
+    std::string seen;
+    for (const Candidate& c : candidates(h.instance)) {
+      seen += (seen.empty() ? "" : ", ") + c.info.name;
+      if (c.info.name.find(options.name) == std::string::npos) continue;
+      info_ = c.info;
+      h.physical = c.device;
+      h.queue_family = c.queue_family;
+      const float priority = 1.0f;
+      const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
+      h.device = h.physical.createDevice({{}, queue});
+      h.queue = h.device.getQueue(h.queue_family, 0);
+      h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eTransient, h.queue_family});
+      return;
+    }
+    if (seen.empty()) throw Error("Vulkan", "no device with Vulkan 1.2", "install a driver, such as mesa-vulkan-drivers");
+    throw Error("Vulkan", "no device's name has '" + options.name + "' in it", "here are: " + seen);
+  });
+}
+
+Device::~Device() = default;
+
+const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
+
+}  // namespace steradian::vulkan

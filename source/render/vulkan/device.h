@@ -1,0 +1,43 @@
+// Vulkan devices for compute. The loader is opened at run time: a machine without it has no devices, and nothing else
+// changes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace steradian::vulkan {
+
+struct DeviceInfo {
+  std::string name;    // "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string driver;  // driver and its version, or the Vulkan version where the driver does not tell
+  bool software;       // runs on the CPU
+};
+
+// Every device of Vulkan 1.2 or later with a compute queue, real ones before software. Empty where there is no loader.
+std::vector<DeviceInfo> list_devices();
+
+struct DeviceOptions {
+  std::string name;         // part of the device's name; empty: the first of list_devices()
+  bool validation = false;  // demand the validation layer, and keep what it says
+};
+
+class Device {
+ public:
+  // Throws Error where there is no such device.
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();
+
+  const DeviceInfo& info() const { return info_; }
+  // Warnings and errors of the validation layer so far.
+  const std::vector<std::string>& validation_messages() const;
+
+  struct Handles;  // handles.h, for this folder only
+  const Handles& handles() const { return *handles_; }
+
+ private:
+  std::unique_ptr<Handles> handles_;
+  DeviceInfo info_;
+};
+
+}  // namespace steradian::vulkan

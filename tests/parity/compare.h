@@ -1,0 +1,41 @@
+// Runs a case on every target and compares: float with double, everything else with float and with the bound.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cases.h"
+
+namespace steradian::parity {
+
+struct Target {
+  std::string name;
+  Rounding rounding;          // whose promise its functions keep
+  bool equal_in_arithmetic;   // gives scalar float's bits where neither exp nor log is involved
+  std::function<std::vector<float>(std::size_t index, const std::vector<float>& inputs)> run;
+};
+
+// Scalar float, and every instruction set that this processor runs, strict and fast.
+std::vector<Target> cpu_targets();
+
+struct Difference {
+  std::size_t unequal = 0;  // inputs with other bits than scalar float (a zero's sign does not count)
+  double largest = 0;       // difference from scalar float, by the case's measure
+  double share = 0;         // of the bound, where that is largest: above 1 is beyond what roundings explain
+  std::size_t beyond = 0;   // inputs beyond the bound, or not finite
+  std::string first_beyond; // the first of them, in words
+};
+
+struct CaseReport {
+  const Case* which;
+  std::size_t inputs = 0;
+  double largest = 0, rms = 0;      // float against double, by the case's measure
+  double typical_bound = 0;         // median of the bound over the largest result: how sharp the check is
+  std::size_t without_bound = 0;    // inputs for which the error analysis finds none (a divisor that may be 0)
+  std::vector<Difference> targets;  // in the order of the targets
+};
+
+CaseReport compare(std::size_t index, const std::vector<Target>& targets, std::size_t count, std::uint64_t seed = 1);
+
+}  // namespace steradian::parity

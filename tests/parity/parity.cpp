@@ -1,0 +1,61 @@
+// parity [COUNT [NAME SPIRV]]: every kernel on every target this machine has, one row a kernel, on COUNT random inputs
+// (10000); and on a shader in a file, which is then shown under NAME.
+//
+// float is compared with double (largest and rms error), everything else with scalar float. "equal" means the same bits
+// for all inputs; a number is the largest difference, and what follows the colon its share of the bound that
+// running error analysis finds for that input. Exit 1 when a target goes beyond the bound, or where bits are
+// demanded and differ.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "gpu.h"
+
+namespace {
+
+std::vector<std::uint32_t> read_words(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  std::memcpy(words.data(), bytes.data(), words.size() * 4);
+  return words;
+}
+
+}  // namespace
+
+using namespace steradian;
+using namespace steradian::parity;
+
+int main(int argc, char** argv) {
+  const std::size_t count = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 10000;
+  std::vector<Target> targets = cpu_targets();
+  for (const vulkan::DeviceInfo& info : vulkan::list_devices()) {
+    const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{info.name, false});
+    targets.push_back(gpu_target(device, ShaderText::glsl));
+    targets.push_back(gpu_target(device, ShaderText::hlsl));
+    if (argc > 3) targets.push_back(gpu_target(device, argv[2], read_words(argv[3])));
+    fmt::print("{}: {}\n", targets.back().name, info.name);
+  }
+
+  fmt::print("{:34} {:>9} {:>9} {:>9}", "case", "max error", "rms error", "bound");
+  for (const Target& t : targets) fmt::print(" {:>15}", t.name);
+  fmt::print("\n");
+  bool failed = false;
+  for (std::size_t index = 0; index < cases().size(); ++index) {
+    const CaseReport report = compare(index, targets, count);
+    fmt::print("{:34} {:9.1e} {:9.1e} {:9.1e}", report.which->name, report.largest, report.rms, report.typical_bound);
+    std::string words;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const Difference& d = report.targets[t];
+      fmt::print(" {:>15}", d.unequal == 0 ? "equal" : fmt::format("{:.1e}:{:.2f}", d.largest, d.share));
+      if (d.beyond > 0) words += fmt::format("  {}: {} beyond the bound; {}\n", targets[t].name, d.beyond, d.first_beyond);
+      if (d.unequal > 0 && report.which->arithmetic && targets[t].equal_in_arithmetic)
+        words += fmt::format("  {}: {} of {} have other bits\n", targets[t].name, d.unequal, count);
+    }
+    fmt::print("  {} without bound\n{}", report.without_bound, words);
+    failed = failed || !words.empty();
+  }
+  return failed ? 1 : 0;
+}
