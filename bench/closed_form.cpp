@@ -13,7 +13,7 @@ constexpr int kSide = 128;
 
 struct Floor {
   std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, zero, alpha, plain, fresnel;
-  PreparedPolygon light;
+  PackLight light;
 
   GgxPoints points() const {
     return {{x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()},
@@ -47,7 +47,7 @@ std::shared_ptr<Floor> make_floor() {
   floor->fresnel.resize(floor->x.size());
   PolygonLight quad;
   quad.vertices = {{-1, -0.3, -0.5}, {1, -0.3, -0.5}, {1, 1.5, -0.7}, {-1, 1.5, -0.7}};
-  floor->light = prepare_polygon(quad);
+  floor->light = prepare_light(prepare_polygon(quad));
   return floor;
 }
 

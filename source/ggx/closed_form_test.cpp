@@ -266,7 +266,7 @@ TEST(GgxClosedFormPack, AgreesWithDoubleOnEveryInstructionSet) {
         const GgxPoints points = {{plane(0), plane(1), plane(2), plane(3), plane(4), plane(5), kCount},
                                   plane(6), plane(7), plane(8), plane(9), plane(10), plane(11), plane(12), plane(13)};
         std::vector<float> plain(kCount), fresnel(kCount);
-        closed_form_table_for(simd).ggx(light, points, quality, plain.data(), fresnel.data());
+        closed_form_table_for(simd).ggx(prepare_light(light), points, quality, plain.data(), fresnel.data());
         for (std::size_t i = 0; i < kCount; ++i) {
           const double value = closed_form_radiance(light, at[i], materials[i], quality).x;
           // Float's error of the closed form (1e-4 of the lobe) and that of a node count that rounding may change.

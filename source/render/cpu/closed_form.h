@@ -23,7 +23,7 @@ struct GgxPoints {
 struct ClosedFormTable {
   // Radiance towards the views for radiance 1 with shadowing: into `plain` with F = 1, into `fresnel` with
   // F = (1 - v.h)^5. A channel is f0 (plain - fresnel) + f90 fresnel.
-  void (*ggx)(const PreparedPolygon& light, const GgxPoints& points, Quality quality, float* plain, float* fresnel);
+  void (*ggx)(const PackLight& light, const GgxPoints& points, Quality quality, float* plain, float* fresnel);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(ClosedFormTable, closed_form_table)

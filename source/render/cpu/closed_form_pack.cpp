@@ -11,12 +11,11 @@ PackKernels::mat3 frame_along(const PackVec3& n, const PackVec3& tangent) {
   return k.frame_from_normal_and_view(n, tangent);
 }
 
-__attribute__((flatten)) void ggx(const PreparedPolygon& light, const GgxPoints& points, Quality quality, float* plain,
-                                  float* fresnel) {
+__attribute__((flatten)) void ggx(const PackLight& light, const GgxPoints& points, Quality quality, float* plain,
+                               float* fresnel) {
   PackKernels k;
   const SurfacePoints& surface = points.surface;
-  const PackVec3 plane_normal(light.normal.x, light.normal.y, light.normal.z);
-  const PackVec3 plane_point(light.centroid.x, light.centroid.y, light.centroid.z);
+  const PackVec3 plane_normal = broadcast(light.plane_normal), plane_point = broadcast(light.plane_point);
   GgxPackWalks walks;
   for (std::size_t i = 0; i < surface.count; i += kLanes) {
     GgxPackPoint at;
@@ -36,7 +35,7 @@ __attribute__((flatten)) void ggx(const PreparedPolygon& light, const GgxPoints&
     at.view = k.ggx_view(transform_transposed(at.frame, v), load(points.alpha_x + i), load(points.alpha_y + i));
     at.smith = PackReal(1.0);
     at.facing = select(behind, PackReal(-1.0), PackReal(1.0));
-    const auto r = ggx_closed_form(light.vertices.data(), light.contours.data(), light.contours.size() - 1, at, quality, walks);
+    const auto r = ggx_closed_form(light, at, quality, walks);
     store(plain + i, r.x);
     store(fresnel + i, r.y);
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/cpu/light_list.h"
 #include "render/cpu/polygon_pack.h"
 #include "steradian/closed_form.h"
 
@@ -27,10 +28,8 @@ struct GgxPackWalks {
   std::vector<PackKernels::ConicArc> edges;
 };
 
-// Radiance for radiance 1 with F = 1, and with F = (1 - v.h)^5, for ggx_radiance. Vertices may be Vec3f or Vec3d.
-template <class T>
-STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const Vector3<T>* vertices, const std::size_t* contours,
-                                                   std::size_t contour_count, const GgxPackPoint& at, Quality quality,
+// Radiance of a polygon for radiance 1 with F = 1, and with F = (1 - v.h)^5, for ggx_radiance.
+STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const PackLight& light, const GgxPackPoint& at, Quality quality,
                                                    GgxPackWalks& walks) {
   PackKernels k;
   // Lanes without light walk edges of no length, so that they never keep the others waiting.
@@ -38,7 +37,8 @@ STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const Vector3<T>* vertices, c
   auto& arcs = walks.arcs;
   arcs.clear();
   auto clip = k.horizon_clip_begin();
-  walk_contours(vertices, contours, contour_count, at.frame, at.position, [&](const PackVec3& a, const PackVec3& b) {
+  walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, at.frame, at.position,
+                [&](const PackVec3& a, const PackVec3& b) {
     clip = k.horizon_clip_edge(clip, select(at.lit, a, nowhere), select(at.lit, b, nowhere));
     arcs.push_back({clip.start, clip.end});
     if (any_lane(clip.closes)) arcs.push_back({clip.arc_start, clip.arc_end});

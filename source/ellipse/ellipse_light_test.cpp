@@ -1,0 +1,155 @@
+// Round lights: exact irradiance against closed forms and fine polygons; polygons for lobes against finer ones.
+#include "steradian/ellipse_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "reference/random_configurations.h"
+#include "steradian/closed_form.h"
+#include "steradian/error.h"
+#include "steradian/phong.h"
+
+namespace steradian {
+namespace {
+
+using reference::Random;
+using reference::random_direction;
+constexpr double kPi = std::numbers::pi;
+
+// An ellipsoid or a tilted ellipse, axes 0.3 to 1.1 of a size that is seen under 3 to 45 degrees.
+Ellipse random_round_light(Random& random, Vec3d direction) {
+  const double size = std::tan(random.uniform(3, 45) * kPi / 180) * 0.7;
+  const Frame f = Frame::from_normal(random_direction(random));
+  const auto axis = [&](Vec3d a) { return a * (size * random.uniform(0.3, 1.1)); };
+  if (random.uniform() < 0.6)
+    return *silhouette(direction, axis(f.x), axis(f.y), axis(f.z), {});
+  const Vec3d facing = normalized(random_direction(random) * 0.8 - direction);
+  const Frame g = Frame::from_normal(facing);
+  return {direction, axis(g.x), axis(g.y)};
+}
+
+}  // namespace
+
+TEST(EllipseIrradiance, OfASphereIsItsClosedForm) {
+  Random random(1);
+  double worst = 0, worst_float = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double radius = random.uniform(0.01, 0.95);
+    const Vec3d center = random_direction(random), normal = random_direction(random);
+    const double cosine = dot(center, normal);
+    if (cosine < radius) continue;  // all of it above the horizon
+    const double expected = kPi * radius * radius * cosine;
+    const double value = ellipsoid_irradiance(center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, {}, normal);
+    const auto outline = silhouette(center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, {});
+    worst = std::max(worst, std::fabs(value - expected));
+    worst_float = std::max(worst_float, std::fabs(static_cast<double>(ellipse_irradiance_float(*outline, {}, normal)) - expected));
+  }
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_LT(worst_float, 1e-4);
+  std::printf("largest error %.2e, in float %.2e\n", worst, worst_float);
+}
+
+TEST(EllipseIrradiance, OfADiskOnTheAxisIsItsClosedForm) {
+  for (double radius : {0.01, 0.5, 1.0, 3.0, 100.0}) {
+    const double expected = kPi * radius * radius / (1 + radius * radius);
+    EXPECT_NEAR(ellipse_irradiance({{0, 0, 1}, {0, radius, 0}, {radius, 0, 0}}, {}, {0, 0, 1}), expected, 1e-12);
+    EXPECT_EQ(ellipse_irradiance({{0, 0, 1}, {radius, 0, 0}, {0, radius, 0}}, {}, {0, 0, 1}), 0.0) << "from behind";
+    // Upright: half of it is above the horizon, and the other half looks the same.
+    const double upright = ellipse_irradiance({{0, 1, 0}, {0, 0, radius}, {radius, 0, 0}}, {}, {0, 0, 1});
+    EXPECT_NEAR(upright, ellipse_irradiance({{0, 1, 0}, {0, 0, radius}, {radius, 0, 0}}, {}, {0, 0, -1}), 1e-12);
+  }
+}
+
+TEST(EllipseIrradiance, AgreesWithFinePolygonsAcrossTheHorizon) {
+  Random random(2);
+  double worst = 0, worst_float = 0;
+  int cut = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Ellipse e = random_round_light(random, random_direction(random));
+    const Vec3d normal = random_direction(random);
+    const auto polygon = [&](int vertices) {
+      return polygon_irradiance(prepare_polygon(equal_area_polygon(e, {1, 1, 1}, vertices)), {}, normal);
+    };
+    // Of equal area, the error falls with the square of the number; two numbers give the limit to the third power.
+    const double coarse = polygon(1000), fine = polygon(2000), limit = fine + (fine - coarse) / 3;
+    const double value = ellipse_irradiance(e, {}, normal);
+    worst = std::max(worst, std::fabs(value - limit));
+    worst_float = std::max(worst_float, std::fabs(static_cast<double>(ellipse_irradiance_float(e, {}, normal)) - limit));
+    const double rise = std::hypot(dot(e.x, normal), dot(e.y, normal));
+    cut += std::fabs(dot(e.center, normal)) < rise && value > 1e-6;
+  }
+  EXPECT_LT(worst, 1e-6);  // (2 pi / 2000)^3 = 3e-8, times what a narrow ellipse magnifies
+  EXPECT_LT(worst_float, 1e-4);
+  EXPECT_GT(cut, 50);
+  std::printf("largest difference %.2e, in float %.2e, %d cut by the horizon\n", worst, worst_float, cut);
+}
+
+TEST(EllipsePolygons, PhongLobesHoldTheirError) {
+  for (double n : {10.0, 100.0, 1000.0, 5000.0}) {
+    Random random(3);
+    double worst[3] = {}, even_worst = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Vec3d direction = normalized(Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.3, 1)});
+      const Ellipse e = random_round_light(random, direction);
+      const double aside = random.uniform(0, 1);
+      const Vec3d axis = normalized(direction + random_direction(random) * aside * 0.7);
+      ShadingPoint at;
+      at.normal = {0, 0, 1};
+      at.view = {-axis.x, -axis.y, axis.z};
+      if (!(axis.z > 0.05)) continue;
+      Material m;
+      m.brdf = Brdf::phong;
+      m.exponent = n;
+      const LobeAxis lobe{axis, 1 / std::sqrt(n + 1)};
+      const auto radiance = [&](const PolygonLight& light) {
+        return phong_radiance(prepare_polygon(light), at, m, {.method = PhongMethod::exact}).x;
+      };
+      const double truth = radiance(equal_area_polygon(e, {1, 1, 1}, 512));
+      const int vertices[3] = {8, 12, 16};
+      for (int k = 0; k < 3; ++k)
+        worst[k] = std::max(worst[k], std::fabs(radiance(polygon_for_lobe(e, {}, lobe, vertices[k])) - truth));
+      even_worst = std::max(even_worst, std::fabs(radiance(equal_area_polygon(e, {1, 1, 1}, 8)) - truth));
+    }
+    std::printf("n = %4.0f: largest error of the full lobe K = 8 %.5f, 12 %.5f, 16 %.5f; 8 at equal steps %.5f\n", n, worst[0],
+                worst[1], worst[2], even_worst);
+    EXPECT_LE(worst[0], 0.0075) << "n " << n;
+    EXPECT_LE(worst[1], 0.0011) << "n " << n;
+    EXPECT_LE(worst[2], worst[0]) << "n " << n;
+  }
+}
+
+TEST(EllipsePolygons, GgxHoldsItsErrorWithTwelveVertices) {
+  Random random(4);
+  double worst = 0, sum = 0;
+  int count = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double view = random.uniform(5, 75) * kPi / 180;
+    ShadingPoint at;
+    at.normal = {0, 0, 1};
+    at.view = {-std::sin(view), 0, std::cos(view)};
+    const Vec3d mirror{std::sin(view), 0, std::cos(view)};
+    const Ellipse e = random_round_light(random, normalized(mirror + random_direction(random) * 0.4));
+    Material m;
+    m.brdf = Brdf::ggx;
+    m.alpha_x = m.alpha_y = random.uniform(0.05, 0.4);
+    const auto radiance = [&](const PolygonLight& light) {
+      return closed_form_radiance(prepare_polygon(light), at, m, Quality::high).x;
+    };
+    const double error = std::fabs(radiance(polygon_of_equal_steps(e, {}, 12)) - radiance(equal_area_polygon(e, {1, 1, 1}, 256)));
+    worst = std::max(worst, error);
+    sum += error * error;
+    ++count;
+  }
+  EXPECT_LE(worst, 0.003);
+  std::printf("K = 12: largest error %.5f, rms %.5f\n", worst, std::sqrt(sum / count));
+}
+
+TEST(EllipsePolygons, RefuseOddNumbersOfVertices) {
+  const Ellipse e{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+  EXPECT_THROW(polygon_of_equal_steps(e, {}, 7), Error);
+  EXPECT_THROW(polygon_for_lobe(e, {}, {{0, 0, 1}, 0.1}, 4), Error);
+}
+
+}  // namespace steradian
