@@ -18,7 +18,7 @@ namespace steradian::app {
 namespace {
 
 struct Options {
-  std::string scene, output, size = "1280x720", backend = "cpu", shadows = "off", stats, command;
+  std::string scene, output, size = "1280x720", backend = "cpu", shadows = "off", quality = "normal", stats, command;
   double exposure = 0;
   int max_lights = 256;
   RenderOptions render;
@@ -63,6 +63,9 @@ void run(Options& options) {
   RenderOptions& render_options = options.render;
   parse_size(options.size, render_options);
   render_options.shadows = options.shadows == "on";
+  render_options.quality = options.quality == "draft"  ? Quality::draft
+                           : options.quality == "high" ? Quality::high
+                                                       : Quality::normal;
 
   const LoadedScene loaded = load_scene(options.scene, {options.max_lights});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
@@ -98,7 +101,11 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("SCENE", options->scene, "scene file")->required();
   verb->add_option("-o,--output", options->output, "picture: .exr or .png")->required();
   verb->add_option("--method", r.method, "how specular light is done")
-      ->check(CLI::IsMember({"auto", "exact", "sampled", "reference"}))
+      ->check(CLI::IsMember({"auto", "exact", "closed-form", "ltc", "ltc-compact", "ltc-clipless", "representative-point", "series",
+                             "arvo", "lorentzian", "pearson", "ellipsoid", "half-vector", "sampled", "reference"}))
+      ->group("Light");
+  verb->add_option("--quality", options->quality, "of closed-form and series; of auto: draft takes ltc-compact for GGX")
+      ->check(CLI::IsMember({"draft", "normal", "high"}))
       ->group("Light");
   verb->add_option("--shadows", options->shadows, "cast shadows (reference methods only)")
       ->check(CLI::IsMember({"off", "on"}))

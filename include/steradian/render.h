@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "steradian/closed_form.h"
 #include "steradian/picture.h"
 #include "steradian/scene.h"
 
@@ -15,7 +16,8 @@ struct RenderOptions {
   int width = 1280;
   int height = 720;
   std::string camera;          // name; empty: the first
-  std::string method = "auto"; // of the specular lobe, see docs/methods
+  std::string method = "auto"; // of the specular lobe: a name of `render --help`
+  Quality quality = Quality::normal;  // closed-form and series; of auto: a draft takes ltc-compact for GGX
   bool shadows = false;        // reference methods only
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample

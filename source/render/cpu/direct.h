@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/simd.h"
+#include "render/cpu/closed_form.h"
 #include "render/cpu/light_list.h"
 #include "render/cpu/tile.h"
 
@@ -12,6 +13,8 @@ namespace steradian {
 struct DirectTable {
   // Adds albedo / pi times the irradiance of the lights to tile.radiance.
   void (*add_diffuse)(SurfaceTile& tile, const PackLight* const* lights, std::size_t light_count);
+  // Radiance of GGX towards the views under a punctual light of intensity 1: see ClosedFormTable.
+  void (*punctual_ggx)(const PackLight& light, const GgxPoints& points, float* plain, float* fresnel);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(DirectTable, direct_table)

@@ -29,7 +29,7 @@ struct GgxPackWalks {
 };
 
 // Radiance of a polygon for radiance 1 with F = 1, and with F = (1 - v.h)^5, for ggx_radiance.
-STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const PackLight& light, const GgxPackPoint& at, Quality quality,
+STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const SeenLight& seen, const GgxPackPoint& at, Quality quality,
                                                    GgxPackWalks& walks) {
   PackKernels k;
   // Lanes without light walk edges of no length, so that they never keep the others waiting.
@@ -37,12 +37,16 @@ STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const PackLight& light, const
   auto& arcs = walks.arcs;
   arcs.clear();
   auto clip = k.horizon_clip_begin();
-  walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, at.frame, at.position,
-                [&](const PackVec3& a, const PackVec3& b) {
-    clip = k.horizon_clip_edge(clip, select(at.lit, a, nowhere), select(at.lit, b, nowhere));
-    arcs.push_back({clip.start, clip.end});
-    if (any_lane(clip.closes)) arcs.push_back({clip.arc_start, clip.arc_end});
-  });
+  PackVec3 previous;
+  seen.walk(
+      at.frame, at.position, kOutlineCornersOfLobes, [&](const PackVec3& v) { previous = select(at.lit, v, nowhere); },
+      [&](const PackVec3& v) {
+        const PackVec3 next = select(at.lit, v, nowhere);
+        clip = k.horizon_clip_edge(clip, previous, next);
+        arcs.push_back({clip.start, clip.end});
+        if (any_lane(clip.closes)) arcs.push_back({clip.arc_start, clip.arc_end});
+        previous = next;
+      });
   clip = k.horizon_clip_finish(clip);
   if (any_lane(clip.closes)) arcs.push_back({clip.arc_start, clip.arc_end});
 

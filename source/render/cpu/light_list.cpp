@@ -111,6 +111,7 @@ bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
 
 PackLight prepare_light(const PreparedPolygon& polygon) {
   PackLight light;
+  light.polygon = polygon;
   light.radiance = single(polygon.radiance);
   for (const Vec3d& v : polygon.vertices) light.vertices.push_back(single(v));
   light.contours = polygon.contours;
@@ -125,6 +126,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene) {
   const auto shines = [](Vec3f r) { return r.x > 0 || r.y > 0 || r.z > 0; };
   for (const AreaLight& a : scene.area_lights) {
     PackLight light = a.shape == LightShape::sphere ? from_ellipsoid(a) : prepare_light(prepare_polygon(a.polygon));
+    light.area = &a;
     if (light.kind == PackLight::Kind::polygon && light.vertices.empty()) continue;
     if (!is_finite(light.unit_x) || !shines(light.radiance)) continue;
     lights.push_back(std::move(light));

@@ -11,6 +11,10 @@ namespace steradian {
 struct PackLight {
   enum class Kind { polygon, ellipsoid, point, spot, directional };
   Kind kind = Kind::polygon;
+  bool is_area() const { return kind == Kind::polygon || kind == Kind::ellipsoid; }
+  const AreaLight* area = nullptr;  // what it was made of; null for punctual lights
+  PreparedPolygon polygon;          // polygon, in double
+
   Vec3f radiance{};  // punctual lights: intensity (illuminance for directional)
 
   // polygon, in walk order

@@ -1,4 +1,5 @@
 #include "render/cpu/ltc_points.h"
+#include "render/cpu/polygon_pack.h"
 #include "render/cpu/table_pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -9,30 +10,26 @@ struct Both {
 };
 
 // One walk for both lobes: a vertex is brought into the shading frame once, and under M^-1 once.
-__attribute__((flatten, noinline)) Both integrate(const PackLight& light, const PackKernels::mat3& frame,
-                                                  const PackVec3& p, const PackKernels::LtcMatrix& m,
-                                                  const PackKernels::mask& behind) {
+__attribute__((flatten, noinline)) Both integrate(const SeenLight& seen, const PackKernels::mat3& frame,
+                                                  const PackVec3& p, const PackKernels::LtcMatrix& m) {
   PackKernels k;
   auto diffuse = k.polygon_begin();
   auto glossy = k.ltc_begin();
-  const auto direction = [&](const Vec3f& v) { return k.polygon_direction(transform_transposed(frame, broadcast(v) - p)); };
-  const std::size_t* contours = light.contours.data();
-  const std::size_t contour_count = light.contours.size() - 1;
-  const Vec3f* vertices = light.vertices.data();
-  for (std::size_t c = 0; c < contour_count; ++c) {
-    const std::size_t begin = contours[c], end = contours[c + 1];
-    PackVec3 a = direction(vertices[end - 1]);
-    PackVec3 ta = k.ltc_direction(m, a);
-    for (std::size_t i = begin; i < end; ++i) {
-      const PackVec3 b = direction(vertices[i]);
-      const PackVec3 tb = k.ltc_direction(m, b);
-      diffuse = k.polygon_add_edge(diffuse, a, b);
-      glossy = k.ltc_add_edge(glossy, m, a, b, ta, tb);
-      a = b;
-      ta = tb;
-    }
-  }
-  return {k.polygon_irradiance(diffuse, behind), k.ltc_integral(glossy, behind)};
+  PackVec3 a, ta;
+  seen.walk(
+      frame, p, kOutlineCornersOfLobes,
+      [&](const PackVec3& v) {
+        a = v;
+        ta = k.ltc_direction(m, v);
+      },
+      [&](const PackVec3& b) {
+        const PackVec3 tb = k.ltc_direction(m, b);
+        diffuse = k.polygon_add_edge(diffuse, a, b);
+        glossy = k.ltc_add_edge(glossy, m, a, b, ta, tb);
+        a = b;
+        ta = tb;
+      });
+  return {k.polygon_irradiance(diffuse, seen.behind), k.ltc_integral(glossy, seen.behind)};
 }
 
 template <class Decode>
@@ -57,15 +54,11 @@ STERADIAN_INLINE void run(const PackLight* lights, std::size_t light_count, cons
 
     PackReal irradiance(0.0), integral(0.0);
     for (std::size_t l = 0; l < light_count; ++l) {
-      const PackLight& light = lights[l];
-      const PackReal height = dot(p - broadcast(light.plane_point), broadcast(light.plane_normal));
-      const auto behind = height < PackReal(0.0);
-      const auto front = height > PackReal(0.0);
-      const auto lit = light.two_sided ? (front || behind) : front;
-      if (!any_lane(lit)) continue;
-      const Both both = integrate(light, frame, p, m, behind);
-      irradiance += select(lit, both.irradiance, PackReal(0.0));
-      integral += select(lit && seen, both.integral, PackReal(0.0));
+      const SeenLight light(lights[l], p);
+      if (!any_lane(light.lit)) continue;
+      const Both both = integrate(light, frame, p, m);
+      irradiance += select(light.lit, both.irradiance, PackReal(0.0));
+      integral += select(light.lit && seen, both.integral, PackReal(0.0));
     }
     store(sums.irradiance + i, irradiance);
     store(sums.specular + i, scale.x * integral);

@@ -1,7 +1,10 @@
 #include "render/cpu/methods.h"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "steradian/error.h"
 
@@ -11,44 +14,116 @@ namespace {
 struct SpecularLobe {
   std::string material;
   Brdf brdf;
+  bool anisotropic = false;
+  double exponent = 0;
 };
 
 bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
-// The first specular lobe that a mesh of the scene shows, by the materials' factors.
-std::optional<SpecularLobe> specular_lobe_in(const Scene& scene) {
+// The specular lobes that meshes of the scene show, by the materials' factors.
+std::vector<SpecularLobe> specular_lobes_in(const Scene& scene) {
+  std::vector<SpecularLobe> lobes;
   for (const Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
     for (const Material& lobe : m.specular_override)
-      if (lobe.brdf != Brdf::lambert) return SpecularLobe{m.name, lobe.brdf};
-    if (m.clearcoat > 0) return SpecularLobe{m.name, Brdf::ggx};
+      if (lobe.brdf != Brdf::lambert)
+        lobes.push_back({m.name, lobe.brdf, lobe.alpha_x != lobe.alpha_y, lobe.exponent});
+    if (m.clearcoat > 0) lobes.push_back({m.name, Brdf::ggx});
     const bool metal = m.metallic > 0 && weighs({m.base_color.x, m.base_color.y, m.base_color.z});
-    if (m.specular_override.empty() && (metal || m.specular > 0)) return SpecularLobe{m.name, Brdf::ggx};
+    if (m.specular_override.empty() && (metal || m.specular > 0))
+      lobes.push_back({m.name, Brdf::ggx, m.anisotropy > 0});
   }
-  return std::nullopt;
+  return lobes;
+}
+
+struct Entry {
+  const char* name;
+  LobeMethod method;
+  std::function<bool(const SpecularLobe&)> serves;
+};
+
+const std::vector<Entry>& entries() {
+  const auto ggx = [](const SpecularLobe& l) { return l.brdf == Brdf::ggx; };
+  const auto isotropic_ggx = [](const SpecularLobe& l) { return l.brdf == Brdf::ggx && !l.anisotropic; };
+  const auto phong = [](const SpecularLobe& l) { return l.brdf == Brdf::phong; };
+  const auto integer_phong = [](const SpecularLobe& l) {
+    return l.brdf == Brdf::phong && l.exponent == std::floor(l.exponent);
+  };
+  const auto half_vector = [](const SpecularLobe& l) {
+    return l.brdf == Brdf::blinn_phong || l.brdf == Brdf::beckmann;
+  };
+  static const std::vector<Entry> table = {
+      {"closed-form", LobeMethod::closed_form, ggx},
+      {"ltc", LobeMethod::ltc, isotropic_ggx},
+      {"ltc-compact", LobeMethod::ltc_compact, isotropic_ggx},
+      {"ltc-clipless", LobeMethod::ltc_clipless, isotropic_ggx},
+      {"representative-point", LobeMethod::representative_point, isotropic_ggx},
+      {"exact", LobeMethod::exact, phong},
+      {"arvo", LobeMethod::arvo, integer_phong},
+      {"lorentzian", LobeMethod::lorentzian, phong},
+      {"pearson", LobeMethod::pearson, phong},
+      {"ellipsoid", LobeMethod::ellipsoid, phong},
+      {"series", LobeMethod::series, phong},
+      {"half-vector", LobeMethod::half_vector, half_vector},
+  };
+  return table;
+}
+
+std::string describe(const SpecularLobe& lobe) {
+  return std::string(lobe.anisotropic ? "anisotropic " : "") + name_of(lobe.brdf) + " lobe of material '" + lobe.material +
+         "'";
+}
+
+// The most accurate real-time method of each lobe; a draft takes the table for GGX where it can.
+Method automatic(const std::vector<SpecularLobe>& lobes, Quality quality) {
+  Method method;
+  bool ggx = false, anisotropic = false, phong = false, other = false;
+  for (const SpecularLobe& l : lobes) {
+    ggx |= l.brdf == Brdf::ggx;
+    anisotropic |= l.brdf == Brdf::ggx && l.anisotropic;
+    phong |= l.brdf == Brdf::phong;
+    other |= l.brdf == Brdf::blinn_phong || l.brdf == Brdf::beckmann;
+  }
+  if (quality == Quality::draft && !anisotropic) method.ggx = LobeMethod::ltc_compact;
+  for (const auto& [present, name] : {std::pair{ggx, method.ggx == LobeMethod::ltc_compact ? "ltc-compact" : "closed-form"},
+                                      std::pair{phong, "series"}, std::pair{other, "half-vector"}})
+    if (present) method.name += (method.name.empty() ? "" : "+") + std::string(name);
+  if (method.name.empty()) method.name = "exact";
+  return method;
+}
+
+Method chosen(const std::vector<SpecularLobe>& lobes, const std::string& name) {
+  Method method;
+  method.name = name;
+  for (const Entry& entry : entries()) {
+    if (entry.name != name) continue;
+    for (const SpecularLobe& lobe : lobes)
+      if (!entry.serves(lobe))
+        throw UsageError("--method " + name, "does not serve the " + describe(lobe),
+                         "use auto, sampled or reference, or another material");
+    method.ggx = method.phong = method.half_vector = entry.method;
+    return method;
+  }
+  throw UsageError("--method", "unknown method '" + name + "'");
 }
 
 }  // namespace
 
 Method choose_method(const Scene& scene, const RenderOptions& options) {
-  const auto specular = specular_lobe_in(scene);
+  const std::vector<SpecularLobe> lobes = specular_lobes_in(scene);
   Method method;
-  method.name = options.method;
-  if (method.name == "auto") method.name = specular || options.shadows ? "sampled" : "exact";
-  if (method.name == "exact") {
-    if (specular)
-      throw UsageError("--method exact",
-                       std::string("no closed form without approximation for the ") + name_of(specular->brdf) +
-                           " lobe of material '" + specular->material + "'",
-                       "use auto, sampled or reference");
+  if (options.method == "sampled" || options.method == "reference" || (options.method == "auto" && options.shadows)) {
+    method.name = options.method == "auto" ? "sampled" : options.method;
+    method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
+    method.exact_diffuse = method.kind == MethodKind::sampled && !options.shadows;
+    method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
+  } else {
+    method = options.method == "auto" ? automatic(lobes, options.quality) : chosen(lobes, options.method);
     if (options.shadows)
-      throw UsageError("--shadows on", "the closed form casts no shadows", "use --method sampled or reference");
-    return method;
+      throw UsageError("--shadows on", "'" + options.method + "' casts no shadows", "use --method sampled or reference");
   }
-  method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
-  method.exact_diffuse = method.kind == MethodKind::sampled && !options.shadows;
-  method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
+  method.quality = options.quality;
   return method;
 }
 

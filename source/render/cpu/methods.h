@@ -4,19 +4,33 @@
 #include <string>
 
 #include "render/cpu/monte_carlo.h"
+#include "steradian/closed_form.h"
 #include "steradian/render.h"
 
 namespace steradian {
 
-enum class MethodKind { exact, sampled, reference };
+// How a specular lobe is integrated without sampling.
+enum class LobeMethod {
+  none, closed_form, ltc, ltc_compact, ltc_clipless, representative_point,  // ggx
+  exact, arvo, lorentzian, pearson, ellipsoid, series,                      // phong
+  half_vector                                                               // blinn-phong, beckmann
+};
+
+enum class MethodKind { analytic, sampled, reference };
 
 struct Method {
-  MethodKind kind = MethodKind::exact;
-  std::string name;                             // as asked for, `auto` resolved
-  bool exact_diffuse = true;                    // the diffuse lobe by boundary integrals
-  LobeChoice estimated_lobes = LobeChoice::all; // where kind is not exact
+  MethodKind kind = MethodKind::analytic;
+  std::string name;                              // as asked for, `auto` resolved: the lobes' methods, joined by '+'
+  bool exact_diffuse = true;                     // the diffuse lobe by boundary integrals
+  LobeChoice estimated_lobes = LobeChoice::all;  // where kind is not analytic
+  Quality quality = Quality::normal;
 
-  bool estimates() const { return kind != MethodKind::exact; }
+  // Of each lobe, where kind is analytic.
+  LobeMethod ggx = LobeMethod::closed_form;
+  LobeMethod phong = LobeMethod::series;
+  LobeMethod half_vector = LobeMethod::half_vector;
+
+  bool estimates() const { return kind != MethodKind::analytic; }
 };
 
 // Throws UsageError with lobe and material when the method does not serve a lobe of the scene, and for shadows with a

@@ -16,6 +16,7 @@
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
+#include "render/cpu/specular.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -65,6 +66,7 @@ class Renderer {
         rays_(scene),
         lights_(prepare_lights(scene)),
         direct_(direct_table_for(active_simd())),
+        specular_(method_),
         tiles_x_((options.width + kTileSide - 1) / kTileSide),
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
         samplers_([this] { return std::make_unique<DirectSampler>(scene_, options_.shadows ? &rays_ : nullptr); }),
@@ -83,7 +85,8 @@ class Renderer {
   }
 
   void report(RenderStats& stats) const {
-    stats.passes = {{"build", build_ms_}, rays_clock_.time(threads_), gbuffer_clock_.time(threads_), direct_clock_.time(threads_)};
+    stats.passes = {{"build", build_ms_}, rays_clock_.time(threads_), gbuffer_clock_.time(threads_), direct_clock_.time(threads_),
+                    specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
     stats.total_ms = ms_since(start_);
     stats.threads = threads_;
@@ -174,11 +177,10 @@ class Renderer {
     const float weight = 1.0f / static_cast<float>(options_.aa);
     for (int s = 0; s < options_.aa; ++s) {
       fill(index, s, *tile);
+      const auto reaching = lights_reaching(lights_, *tile);
       if (method_.exact_diffuse && tile->any_diffuse)
-        direct_clock_.run([&] {
-          const auto reaching = lights_reaching(lights_, *tile);
-          direct_.add_diffuse(*tile, reaching.data(), reaching.size());
-        });
+        direct_clock_.run([&] { direct_.add_diffuse(*tile, reaching.data(), reaching.size()); });
+      if (!method_.estimates()) specular_clock_.run([&] { specular_.add(*tile, reaching); });
       if (method_.estimates())
         sampling_clock_.run([&] {
           std::vector<Vec3f>& variance = picture.layers.at("variance");
@@ -209,11 +211,12 @@ class Renderer {
   const RayScene rays_;
   const std::vector<PackLight> lights_;
   const DirectTable& direct_;
+  const SpecularPass specular_;
   const int tiles_x_, tiles_y_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::task_arena arena_;
   double build_ms_ = 0;
-  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, sampling_clock_{"sampling"};
+  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

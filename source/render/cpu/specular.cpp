@@ -1,0 +1,214 @@
+#include "render/cpu/specular.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "reference/lobe.h"
+#include "render/cpu/closed_form.h"
+#include "render/cpu/direct.h"
+#include "render/cpu/gbuffer.h"
+#include "render/cpu/phong.h"
+#include "steradian/half_vector.h"
+#include "steradian/ltc.h"
+
+namespace steradian {
+
+// One GGX lobe of every pixel of a tile: widths and Fresnel's two reflectances.
+struct SpecularPass::Lobe {
+  const TilePlane &alpha_x, &alpha_y;
+  TileVector f0, f90;
+};
+
+namespace {
+
+constexpr double kCoatF0 = 0.04;
+
+SurfacePoints points_of(const SurfaceTile& tile) {
+  return {tile.position.x.data(), tile.position.y.data(), tile.position.z.data(),
+          tile.normal.x.data(),   tile.normal.y.data(),   tile.normal.z.data(),
+          kTilePixels};
+}
+
+Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+void add_to(TileVector& v, std::size_t i, Vec3f a) {
+  v.x[i] += a.x;
+  v.y[i] += a.y;
+  v.z[i] += a.z;
+}
+
+PhongMethod phong_method(LobeMethod method) {
+  switch (method) {
+    case LobeMethod::exact: return PhongMethod::exact;
+    case LobeMethod::arvo: return PhongMethod::arvo;
+    case LobeMethod::lorentzian: return PhongMethod::lorentzian;
+    case LobeMethod::pearson: return PhongMethod::pearson;
+    case LobeMethod::ellipsoid: return PhongMethod::ellipsoid;
+    default: return PhongMethod::series;
+  }
+}
+
+LtcMethod ltc_method(LobeMethod method) {
+  switch (method) {
+    case LobeMethod::ltc_compact: return LtcMethod::compact;
+    case LobeMethod::ltc_clipless: return LtcMethod::clipless;
+    case LobeMethod::representative_point: return LtcMethod::representative_point;
+    default: return LtcMethod::classic;
+  }
+}
+
+ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) {
+  return {static_cast<Vec3d>(get(tile.position, i)), normalized(static_cast<Vec3d>(get(tile.normal, i))),
+          normalized(static_cast<Vec3d>(get(tile.view, i)))};
+}
+
+// The light as the point sees it: spheres as the polygon of their outline. No vertices: it does not shine there.
+PreparedPolygon polygon_at(const PackLight& light, Vec3d position) {
+  if (light.kind == PackLight::Kind::polygon) return light.polygon;
+  const PolygonLight seen = polygon_seen_from(*light.area, position);
+  return seen.vertices.empty() ? PreparedPolygon{} : prepare_polygon(seen);
+}
+
+// One lobe of one point under an area light, by the library's float functions.
+Vec3d point_radiance(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
+  const PreparedPolygon polygon = polygon_at(light, at.position);
+  if (polygon.vertices.empty()) return {};
+  switch (material.brdf) {
+    case Brdf::lambert: return {};
+    case Brdf::phong: {
+      const PhongQuality quality = method.quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
+      return static_cast<Vec3d>(phong_radiance_float(polygon, at, material, {phong_method(method.phong), quality}));
+    }
+    case Brdf::ggx:
+      if (method.ggx != LobeMethod::closed_form && serves(ltc_method(method.ggx), material))
+        return ltc_radiance_float(ltc_method(method.ggx), polygon, at, material);
+      return closed_form_radiance_float(polygon, at, material, method.quality);
+    case Brdf::blinn_phong:
+    case Brdf::beckmann: return half_vector_radiance_float(polygon, at, material);
+  }
+  return {};
+}
+
+// The same under a punctual light: the lobe in one direction.
+Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, const Material& material) {
+  Vec3d to = -static_cast<Vec3d>(light.direction);
+  double e = 1;
+  if (light.kind != PackLight::Kind::directional) {
+    const Vec3d d = static_cast<Vec3d>(light.position) - at.position;
+    const double d2 = std::max(dot(d, d), 1e-12), q = d2 * static_cast<double>(light.inverse_range2);
+    to = d / std::sqrt(d2);
+    e = std::clamp(1 - q * q, 0.0, 1.0) / d2;
+    if (light.kind == PackLight::Kind::spot) {
+      const double f = std::clamp(-dot(static_cast<Vec3d>(light.direction), to) * static_cast<double>(light.spot_scale) +
+                                      static_cast<double>(light.spot_offset),
+                                  0.0, 1.0);
+      e *= f * f;
+    }
+  }
+  const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
+  const reference::Lobe lobe(material, frame.to_local(at.view));
+  if (!lobe.above_surface()) return {};
+  return lobe.radiance(lobe.evaluate(frame.to_local(to))) * static_cast<Vec3d>(light.radiance) * e;
+}
+
+}  // namespace
+
+SpecularPass::SpecularPass(const Method& method)
+    : method_(method),
+      tables_(method.ggx == LobeMethod::ltc           ? ltc_classic_pack_tables()
+              : method.ggx == LobeMethod::ltc_compact ? ltc_compact_pack_tables()
+                                                      : LtcPackTables{}) {}
+
+// False where the method does not run on packs.
+bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, float* plain,
+                                 float* fresnel) const {
+  const GgxPoints points = {points_of(tile),         tile.view.x.data(),    tile.view.y.data(),
+                            tile.view.z.data(),      tile.tangent.x.data(), tile.tangent.y.data(),
+                            tile.tangent.z.data(),   lobe.alpha_x.data(),   lobe.alpha_y.data()};
+  if (!light.is_area()) {
+    direct_table_for(active_simd()).punctual_ggx(light, points, plain, fresnel);
+    return true;
+  }
+  if (method_.ggx == LobeMethod::closed_form) {
+    closed_form_table_for(active_simd()).ggx(light, points, method_.quality, plain, fresnel);
+    return true;
+  }
+  if (method_.ggx != LobeMethod::ltc && method_.ggx != LobeMethod::ltc_compact) return false;
+  alignas(64) TilePlane roughness, irradiance;
+  for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(lobe.alpha_x[i]);
+  const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
+  const LtcPackTable& table = ltc_pack_table_for(active_simd());
+  const LtcSums sums = {irradiance.data(), plain, fresnel};
+  (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(&light, 1, seen, tables_, sums);
+  return true;
+}
+
+void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const {
+  alignas(64) TilePlane plain, fresnel;
+  for (const PackLight* light : lights) {
+    if (integrate_ggx(tile, lobe, *light, plain.data(), fresnel.data())) {
+      for (std::size_t i = 0; i < kTilePixels; ++i) {
+        const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
+        add_to(tile.radiance, i, light->radiance * (f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i]));
+      }
+      continue;
+    }
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
+      if (tile.material[i] == nullptr || !(f0.x + f0.y + f0.z + f90.x > 0)) continue;
+      Material m;
+      m.brdf = Brdf::ggx;
+      m.alpha_x = m.alpha_y = static_cast<double>(lobe.alpha_x[i]);
+      m.f0 = static_cast<Vec3d>(f0);
+      m.f90 = static_cast<Vec3d>(f90);
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(method_, *light, shading_point(tile, i), m)));
+    }
+  }
+}
+
+void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
+  const std::set<const SurfaceMaterial*> materials(tile.material.begin(), tile.material.end());
+  for (const SurfaceMaterial* surface : materials) {
+    if (surface == nullptr) continue;
+    for (const Material& material : surface->specular_override) {
+      if (material.brdf == Brdf::lambert) continue;
+      for (const PackLight* light : lights) {
+        if (material.brdf == Brdf::phong && light->kind == PackLight::Kind::polygon) {
+          alignas(64) TilePlane result;
+          const ViewedPoints points = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data()};
+          const PhongQuality quality = method_.quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
+          phong_table_for(active_simd())
+              .radiance(light->polygon, points, material.exponent, {phong_method(method_.phong), quality}, result.data());
+          const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
+          for (std::size_t i = 0; i < kTilePixels; ++i)
+            if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);
+          continue;
+        }
+        for (std::size_t i = 0; i < kTilePixels; ++i) {
+          if (tile.material[i] != surface) continue;
+          const ShadingPoint at = shading_point(tile, i);
+          Material m = material;
+          if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
+          const Vec3d r = light->is_area() ? point_radiance(method_, *light, at, m) : point_radiance_punctual(*light, at, m);
+          add_to(tile.radiance, i, static_cast<Vec3f>(r));
+        }
+      }
+    }
+  }
+}
+
+void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
+  if (tile.any_specular) add_ggx(tile, {tile.alpha_x, tile.alpha_y, tile.f0, tile.f90}, lights);
+  if (tile.any_coat) {
+    Lobe coat = {tile.coat_alpha, tile.coat_alpha, {}, {}};
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      coat.f0.x[i] = coat.f0.y[i] = coat.f0.z[i] = tile.coat[i] * static_cast<float>(kCoatF0);
+      coat.f90.x[i] = coat.f90.y[i] = coat.f90.z[i] = tile.coat[i];
+    }
+    add_ggx(tile, coat, lights);
+  }
+  if (tile.any_override) add_overrides(tile, lights);
+}
+
+}  // namespace steradian

@@ -1,0 +1,33 @@
+// Direct specular light of a tile without sampling.
+#pragma once
+
+#include <vector>
+
+#include "render/cpu/light_list.h"
+#include "render/cpu/ltc_points.h"
+#include "render/cpu/methods.h"
+#include "render/cpu/tile.h"
+
+namespace steradian {
+
+// The lobes of metallic-roughness surfaces and their coats run on packs; so do Phong lobes under flat lights. Other
+// lobes, and the methods that exist for comparison only, run point by point in float.
+class SpecularPass {
+ public:
+  explicit SpecularPass(const Method& method);
+
+  // Adds the specular light of the lights to tile.radiance.
+  void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+
+ private:
+  struct Lobe;
+  void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
+  void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+  bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, float* plain,
+                     float* fresnel) const;
+
+  const Method method_;
+  const LtcPackTables tables_;
+};
+
+}  // namespace steradian
