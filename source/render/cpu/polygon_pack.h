@@ -101,8 +101,9 @@ struct SeenLight {
   }
 };
 
-// Irradiance of radiance 1, in [0, pi].
-STERADIAN_INLINE PackReal area_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
+// Irradiance of radiance 1, in [0, pi]. A function of its own: g++ flattens nothing that reaches it through a caller
+// that is itself always inlined.
+__attribute__((flatten, noinline)) inline PackReal area_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
                                                 const PackVec3& p) {
   PackKernels k;
   auto walk = k.polygon_begin();
