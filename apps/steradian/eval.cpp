@@ -198,6 +198,7 @@ void add_eval(CLI::App& app, Exit& exit) {
       if (!answer_stream(options->input, options->output, point)) exit.code = 1;
       return;
     }
+    if (!eval::method_of(options->method)) throw CLI::ValidationError("--method", options->method + " needs --plane");
     const eval::QueryDefaults defaults = {*eval::method_of(options->method), options->spp, options->seed};
     eval::QueryReader reader(defaults);
     const auto answer = [&](std::string_view line, std::string& out) { return eval::answer_line(reader, line, out); };
