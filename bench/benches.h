@@ -11,6 +11,7 @@ void add_eval(BenchList& list);
 void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
 void add_closed_form(BenchList& list);
+void add_plane(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
@@ -20,6 +21,7 @@ inline BenchList all_benches() {
   add_derivatives(list);
   add_phong(list);
   add_closed_form(list);
+  add_plane(list);
   return list;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.h"
 #include "core/progress.h"
+#include "eval_plane.h"
 #include "steradian/error.h"
 #include "verbs.h"
 
@@ -124,12 +125,12 @@ struct Input {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
-// True when every line was answered.
-bool answer_stream(const std::string& in, const std::string& out, eval::QueryDefaults defaults) {
+// True when every line was answered; `answer` appends to the output.
+template <class Answer>
+bool answer_stream(const std::string& in, const std::string& out, Answer answer) {
   const Input input(in);
   Output output(out);
   LineReader lines(input.descriptor, input.name);
-  eval::QueryReader reader(defaults);
   Progress progress("eval", 0);
   bool all_answered = true;
   std::string_view line;
@@ -141,7 +142,7 @@ bool answer_stream(const std::string& in, const std::string& out, eval::QueryDef
       eval::write_error(output.text, "the line is longer than 64 MiB (split it)");
       all_answered = false;
     } else if (!is_blank(line)) {
-      all_answered &= eval::answer_line(reader, line, output.text);
+      all_answered &= answer(line, output.text);
     }
     progress.add();
     if (output.text.size() >= kWriteSize) output.flush();
@@ -154,6 +155,7 @@ struct Options {
   std::string input, output, method = "auto";
   int spp = 256;
   std::uint64_t seed = 1;
+  bool plane = false;
 };
 
 }  // namespace
@@ -172,11 +174,14 @@ void add_eval(CLI::App& app, Exit& exit) {
   verb->add_option("-o,--output", options->output, "File of answers (default: standard output)")
       ->group("Input and output")
       ->default_str("");
+  verb->add_flag("--plane", options->plane,
+                 "Light at points of SVG scenes: {\"scene\": \"file.svg\", \"position\": [x, y]}; methods exact, par, sampled, marched")
+      ->group("Input and output");
   verb->add_option("--method", options->method, "For queries that name none: " + eval::method_names())
       ->group("Defaults for queries that do not say")
       ->check(CLI::Validator(
           [](std::string& name) {
-            return eval::method_of(name) ? std::string() : "unknown method " + name + ", use " + eval::method_names();
+            return eval::method_of(name) || name == "par" || name == "marched" ? std::string() : "unknown method " + name + ", use " + eval::method_names();
           },
           ""));
   verb->add_option("--spp", options->spp, "Pairs of samples of method sampled")
@@ -184,8 +189,20 @@ void add_eval(CLI::App& app, Exit& exit) {
       ->check(CLI::Range(1, std::numeric_limits<int>::max()).description("1.."));
   verb->add_option("--seed", options->seed, "Seed of method sampled")->group("Defaults for queries that do not say");
   verb->callback([options, &exit] {
+    if (options->plane) {
+      PlaneQueryDefaults plane;
+      if (options->method != "auto") plane.method = plane_method_from_name(options->method);
+      plane.sampling = {options->spp, options->seed};
+      PlaneAnswers answers(plane);
+      const auto point = [&](std::string_view line, std::string& out) { return answers.answer_line(line, out); };
+      if (!answer_stream(options->input, options->output, point)) exit.code = 1;
+      return;
+    }
+    if (!eval::method_of(options->method)) throw CLI::ValidationError("--method", options->method + " needs --plane");
     const eval::QueryDefaults defaults = {*eval::method_of(options->method), options->spp, options->seed};
-    if (!answer_stream(options->input, options->output, defaults)) exit.code = 1;
+    eval::QueryReader reader(defaults);
+    const auto answer = [&](std::string_view line, std::string& out) { return eval::answer_line(reader, line, out); };
+    if (!answer_stream(options->input, options->output, answer)) exit.code = 1;
   });
 }
 

@@ -8,6 +8,7 @@
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/simd.h"
+#include "render_plane.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
@@ -17,10 +18,13 @@
 namespace steradian::app {
 namespace {
 
+constexpr const char* kDefaultSize = "1280x720";
+
 struct Options {
-  std::string scene, output, size = "1280x720", backend = "cpu", shadows = "off", quality = "normal", stats, command;
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", stats, command;
   double exposure = 0;
   int max_lights = 256;
+  bool moments = false, spp_given = false;
   RenderOptions render;
 };
 
@@ -59,8 +63,31 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
+// A plane scene has its own size, one unit a pixel, and its own methods; what belongs to three dimensions is refused.
+void run_plane(Options& options) {
+  PlaneRender job;
+  job.scene = options.scene;
+  job.output = options.output;
+  job.method = options.render.method;
+  job.stats = options.stats;
+  job.exposure = static_cast<float>(options.exposure);
+  if (options.size != kDefaultSize) {
+    parse_size(options.size, options.render);
+    job.frame.width = options.render.width;
+    job.frame.height = options.render.height;
+  }
+  job.frame.aa = options.render.aa;
+  job.frame.threads = options.render.threads;
+  job.frame.moments = options.moments;
+  job.frame.sampling = {options.spp_given ? options.render.spp : 64, options.render.seed};
+  render_plane_scene(job);
+}
+
 void run(Options& options) {
   RenderOptions& render_options = options.render;
+  if (is_plane_scene(options.scene)) return run_plane(options);
+  if (render_options.method == "par" || render_options.method == "marched")
+    throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   render_options.shadows = options.shadows == "on";
   render_options.quality = options.quality == "draft"  ? Quality::draft
@@ -96,13 +123,13 @@ void run(Options& options) {
 
 void add_render(CLI::App& app, Exit&) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("render", "Render a scene (.gltf, .glb) to a picture (.exr linear, .png tone mapped)");
+  CLI::App* verb = app.add_subcommand("render", "Render a scene (.gltf, .glb, .svg) to a picture (.exr linear, .png tone mapped)");
   RenderOptions& r = options->render;
   verb->add_option("SCENE", options->scene, "scene file")->required();
   verb->add_option("-o,--output", options->output, "picture: .exr or .png")->required();
-  verb->add_option("--method", r.method, "how specular light is done")
+  verb->add_option("--method", r.method, "how specular light is done; plane scenes: auto, exact, par, sampled, marched")
       ->check(CLI::IsMember({"auto", "exact", "closed-form", "ltc", "ltc-compact", "ltc-clipless", "representative-point", "series",
-                             "arvo", "lorentzian", "pearson", "ellipsoid", "half-vector", "sampled", "reference"}))
+                             "arvo", "lorentzian", "pearson", "ellipsoid", "half-vector", "sampled", "reference", "par", "marched"}))
       ->group("Light");
   verb->add_option("--quality", options->quality, "of closed-form and series; of auto: draft takes ltc-compact for GGX")
       ->check(CLI::IsMember({"draft", "normal", "high"}))
@@ -117,7 +144,7 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
   verb->add_option("--exposure", options->exposure, "stops, of .png")->check(CLI::Range(-30.0, 30.0))->group("Picture");
   verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
-  verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample")
+  CLI::Option* spp = verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
       ->check(CLI::Range(1, 1 << 20))
       ->group("Sampling");
   verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
@@ -128,7 +155,12 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
   verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")
       ->group("Machine");
-  verb->callback([options] { run(*options); });
+  verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")
+      ->group("Picture");
+  verb->callback([options, spp] {
+    options->spp_given = spp->count() > 0;
+    run(*options);
+  });
 }
 
 }  // namespace steradian::app

@@ -26,14 +26,14 @@ constexpr int kSides[] = {256, 128, 64, 32, kTileSide};
 constexpr int kLevels = 5;
 
 struct Grid {
-  Vec2d origin, step;  // of pixel centres
+  Vec2d origin, step;  // the picture's corner, a pixel's size
   int width, height;
-  Vec2d at(int x, int y) const { return {origin.x + step.x * x, origin.y + step.y * y}; }
+  Vec2d at(int x, int y) const { return {origin.x + step.x * (x + 0.5), origin.y + step.y * (y + 0.5)}; }
 };
 
 Grid grid_of(const PlaneScene& scene, int width, int height) {
   const Vec2d step{scene.width / width, scene.height / height};
-  return {scene.origin + step * 0.5, step, width, height};
+  return {scene.origin, step, width, height};
 }
 
 // Does the convex blocker hide the emitter from all of the tile? Its chord between the vertices furthest to either side
@@ -49,7 +49,8 @@ bool hides(const Vec2d* v, std::size_t count, const PlaneEmitter& e, const TileA
   const double size = length(chord);
   if (size == 0) return false;
   for (Vec2d end : {e.a, e.b})
-    if (cross(chord, end - left) < e.radius * size) return false;  // the light beyond the chord
+    // The light beyond the chord, not on it: of coincident edges the light's is seen.
+    if (cross(chord, end - left) <= (e.radius + 1e-9) * size) return false;
   for (double sx : {-1.0, 1.0})
     for (double sy : {-1.0, 1.0}) {
       const Vec2d corner{tile.center.x + sx * tile.half.x, tile.center.y + sy * tile.half.y};

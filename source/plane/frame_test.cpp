@@ -114,6 +114,14 @@ TEST(PlaneFrame, EqualsTheQueryWithOverlappingShapesOfEveryKind) {
   }
 }
 
+TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
+  for (const char* name : {"lamps", "room", "city", "logo"}) {
+    const PlaneScene scene = load_plane_scene(std::string(STERADIAN_SOURCE_DIR "/scenes/plane/") + name + ".svg").scene;
+    // A size that puts no pixel's centre on a line of no thickness, where either side may be meant.
+    expect_query(scene, 97, 61, 7, name);
+  }
+}
+
 TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   const PlaneWorld world(make_plane_family(8, 2));
   PlaneFrameOptions options;

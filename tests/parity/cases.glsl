@@ -14,7 +14,7 @@
 //   log(low, high)                 positive, its logarithm uniform
 //   signed_log(low, high)          the same with either sign
 //   integer(low, high)             whole numbers
-// Needs: inverse_trig.glsl, frame.glsl, polygon.glsl, lambert.glsl, phong.glsl, microfacet.glsl, ellipsoid.glsl
+// Needs: inverse_trig.glsl, frame.glsl, polygon.glsl, lambert.glsl, phong.glsl, microfacet.glsl, ellipsoid.glsl, plane.glsl
 // Topics: case
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -263,3 +263,40 @@ vec4 case_ellipsoid_outline_plane(CaseInput i) {
     EllipsoidOutline outline = case_outline(i);
     return case_of_vec3(cross(outline.axis_a, outline.axis_b));
 }
+
+// plane, edge of constant radiance under a range window: uniform, Lambert, and their first moments
+//   a.x    range(-3, 3)
+//   a.y    range(0, 0.09)
+// Values: 4
+vec4 case_plane_edge_constant(CaseInput i) {
+    real f = trig_atan2(i.a.x, 1.0);
+    return vec4(plane_edge_integral(0, 0, i.a.x, f, i.a.y), plane_edge_integral(0, 1, i.a.x, f, i.a.y),
+                plane_edge_integral(1, 1, i.a.x, f, i.a.y), plane_edge_integral(1, 2, i.a.x, f, i.a.y));
+}
+
+// plane, edge of linear radiance under a range window, and its first moments
+//   a.x    range(-3, 3)
+//   a.y    range(0, 0.09)
+// Values: 4
+vec4 case_plane_edge_linear(CaseInput i) {
+    real f = trig_atan2(i.a.x, 1.0);
+    return vec4(plane_edge_integral(1, 0, i.a.x, f, i.a.y), plane_edge_integral(0, 2, i.a.x, f, i.a.y),
+                plane_edge_integral(2, 1, i.a.x, f, i.a.y), plane_edge_integral(2, 2, i.a.x, f, i.a.y));
+}
+
+// plane, disk under a range window, between two rays; squared distance and radius in units of the range
+//   a.x    range(0, 0.9)
+//   a.y    range(-0.9, 0)
+//   b.x    range(0.02, 0.9)
+//   b.y    range(0.01, 0.95)
+vec4 case_plane_disk_window(CaseInput i) {
+    real rho2 = i.b.x * i.b.y * i.b.y;
+    real tangent = sqrt(rho2) * inversesqrt(i.b.x - rho2);
+    return case_of_real(plane_disk_window(i.a.y * tangent, i.a.x * tangent, i.b.x, rho2));
+}
+
+// plane, slope of a point in front of a pixel or behind it
+//   a.x    signed_log(0.001, 1000)
+//   a.y    signed_log(0.001, 1000)
+// Error: relative
+vec4 case_plane_slope(CaseInput i) { return case_of_real(plane_slope(i.a.x, i.a.y, 1.0e9)); }

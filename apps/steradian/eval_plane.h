@@ -1,0 +1,32 @@
+// eval --plane: light at points of SVG scenes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "steradian/plane.h"
+
+namespace steradian::app {
+
+struct PlaneQueryDefaults {
+  PlaneMethod method = PlaneMethod::exact;
+  PlaneSampling sampling;
+};
+
+// Reads a scene once, however many queries name it.
+class PlaneAnswers {
+ public:
+  explicit PlaneAnswers(const PlaneQueryDefaults& defaults) : defaults_(defaults) {}
+  // Appends the answer and a newline; false where it is an error.
+  bool answer_line(std::string_view line, std::string& out);
+
+ private:
+  const PlaneWorld& world(const std::string& path);
+  std::string answer(std::string_view line);
+
+  PlaneQueryDefaults defaults_;
+  std::map<std::string, PlaneWorld> worlds_;
+};
+
+}  // namespace steradian::app

@@ -1,0 +1,72 @@
+#include "render_plane.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/progress.h"
+#include "core/simd.h"
+#include "steradian/version.h"
+
+namespace steradian::app {
+
+bool is_plane_scene(const std::string& path) {
+  return path.size() > 4 && (path.ends_with(".svg") || path.ends_with(".SVG"));
+}
+
+void render_plane_scene(const PlaneRender& job) {
+  PlaneSvg loaded = load_plane_scene(job.scene);
+  if (!loaded.ignored.empty()) {
+    std::string names;
+    for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;
+    fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);
+  }
+  PlaneFrameOptions options = job.frame;
+  options.method = plane_method_from_name(job.method == "auto" ? "exact" : job.method);
+  const PlaneWorld world(std::move(loaded.scene));
+
+  std::unique_ptr<Progress> progress;
+  std::once_flag once;
+  options.progress = [&](std::uint64_t, std::uint64_t total) {
+    std::call_once(once, [&] { progress = std::make_unique<Progress>("render", total); });
+    progress->add();
+  };
+  PlaneFrameStats stats;
+  Picture picture = render_plane(world, options, &stats);
+  progress.reset();
+  picture.metadata = {{"steradian.version", version()},
+                      {"steradian.scene", job.scene},
+                      {"steradian.method", name_of(options.method)},
+                      {"steradian.size", fmt::format("{}x{}", picture.width, picture.height)},
+                      {"steradian.aa", std::to_string(options.aa)},
+                      {"steradian.spp", std::to_string(options.sampling.spp)},
+                      {"steradian.seed", std::to_string(options.sampling.seed)},
+                      {"steradian.exposure", fmt::format("{}", job.exposure)}};
+  write_picture(picture, job.output, job.exposure);
+  if (job.stats.empty()) return;
+  const nlohmann::ordered_json passes = {{{"name", "prepare"}, {"ms", stats.prepare_ms}}, {{"name", "frame"}, {"ms", stats.frame_ms}}};
+  const nlohmann::ordered_json json = {{"version", version()},
+                                       {"command", "render " + job.scene},
+                                       {"backend", "cpu"},
+                                       {"device", "cpu"},
+                                       {"simd", name_of(active_simd())},
+                                       {"threads", stats.threads},
+                                       {"width", picture.width},
+                                       {"height", picture.height},
+                                       {"seed", options.sampling.seed},
+                                       {"lights", stats.lights},
+                                       {"occluders", stats.occluders},
+                                       {"tile_lights", stats.tile_lights},
+                                       {"tile_blockers", stats.tile_blockers},
+                                       {"method", name_of(options.method)},
+                                       {"passes", passes},
+                                       {"total_ms", stats.prepare_ms + stats.frame_ms}};
+  AtomicFile file(job.stats);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+}  // namespace steradian::app

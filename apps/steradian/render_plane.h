@@ -1,0 +1,20 @@
+// render SCENE.svg: a picture of the plane.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "steradian/plane.h"
+
+namespace steradian::app {
+
+struct PlaneRender {
+  std::string scene, output, method, stats;  // method "auto" is exact
+  PlaneFrameOptions frame;
+  float exposure = 0;
+};
+
+bool is_plane_scene(const std::string& path);  // by its ending, .svg
+void render_plane_scene(const PlaneRender& job);
+
+}  // namespace steradian::app

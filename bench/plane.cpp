@@ -1,0 +1,65 @@
+// plane/frame/LxB: 1080p frames of the plane, cold; plane/warm/LxB: with the scene prepared; plane/rays/LxB: 64 rays a
+// pixel over the grid, on every 97th pixel of a frame.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "benches.h"
+#include "plane/light_field.h"
+#include "steradian/plane.h"
+
+namespace steradian::bench {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr int kStride = 97;
+
+std::string suffix(const LightField& field) { return fmt::format("{}x{}", field.lights, field.boxes); }
+
+std::size_t pixels(const LightField& field) { return static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.height); }
+
+PlaneFrameOptions one_thread() {
+  PlaneFrameOptions options;
+  options.threads = 1;
+  return options;
+}
+
+Bench cold(const LightField& field, const BenchOptions& options) {
+  auto scene = std::make_shared<PlaneScene>(make_light_field(field, kSeed));
+  return {"plane/frame/" + suffix(field), pixels(field), name_of(options.simd), [scene] {
+            const PlaneWorld world(*scene);
+            keep(render_plane(world, one_thread()).pixels.front());
+          }};
+}
+
+Bench warm(const LightField& field, const BenchOptions& options) {
+  auto world = std::make_shared<PlaneWorld>(make_light_field(field, kSeed));
+  return {"plane/warm/" + suffix(field), pixels(field), name_of(options.simd),
+          [world] { keep(render_plane(*world, one_thread()).pixels.front()); }};
+}
+
+Bench rays(const LightField& field) {
+  auto world = std::make_shared<PlaneWorld>(make_light_field(field, kSeed));
+  const std::size_t count = pixels(field) / kStride;
+  return {"plane/rays/" + suffix(field), count, "scalar", [world, field] {
+            double sum = 0;
+            for (std::size_t i = 0; i < pixels(field); i += kStride) {
+              const auto width = static_cast<std::size_t>(field.width);
+              const Vec2d p{static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5};
+              sum += world->query(p, PlaneMethod::sampled, {64, 1}).radiance.x;
+            }
+            keep(sum);
+          }};
+}
+
+}  // namespace
+
+void add_plane(BenchList& list) {
+  for (const LightField& field : kLightFields) {
+    list.add("plane/frame/" + suffix(field), [field](const BenchOptions& o) { return cold(field, o); });
+    list.add("plane/warm/" + suffix(field), [field](const BenchOptions& o) { return warm(field, o); });
+    list.add("plane/rays/" + suffix(field), [field](const BenchOptions&) { return rays(field); });
+  }
+}
+
+}  // namespace steradian::bench

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Writes the plane scenes beside this file: lamps, room, city, logo. The same bytes on every machine."""
+import math
+import pathlib
+
+FOLDER = pathlib.Path(__file__).parent
+
+
+class Random:
+    """splitmix64: the same numbers in every version of Python."""
+
+    def __init__(self, seed):
+        self.state = seed
+
+    def uniform(self, low=0.0, high=1.0):
+        mask = (1 << 64) - 1
+        self.state = (self.state + 0x9E3779B97F4A7C15) & mask
+        x = self.state
+        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & mask
+        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & mask
+        return low + (high - low) * ((x ^ (x >> 31)) >> 11) * 2.0**-53
+
+
+def write(name, title, width, height, body):
+    text = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}">\n'
+        f"<!-- Made by make_scenes.py. SPDX-License-Identifier: CC0-1.0 -->\n<title>{title}</title>\n{body}</svg>\n"
+    )
+    (FOLDER / name).write_text(text)
+
+
+def polygon(points):
+    return " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+
+
+def turned_box(x, y, half_x, half_y, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in
+            ((-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y))]
+
+
+def lamps():
+    rng = Random(4)
+    out = '<g class="light">\n'
+    out += '<circle cx="130" cy="120" r="22" fill="#ffd9a0" data-intensity="2.2"/>\n'
+    out += '<rect x="500" y="70" width="60" height="16" fill="#9cc8ff" data-intensity="2.6" transform="rotate(25 530 78)"/>\n'
+    out += '<ellipse cx="330" cy="330" rx="34" ry="12" fill="#ff7f9f" data-intensity="1.6"/>\n'
+    out += '<line x1="70" y1="330" x2="120" y2="300" stroke="#b8ffb0" stroke-width="10" stroke-linecap="round" data-intensity="1.6"/>\n</g>\n<g class="occluder">\n'
+    taken = [(130, 120, 60), (530, 78, 70), (330, 330, 70), (95, 315, 60)]
+    while len(taken) < 24:
+        x, y, r = rng.uniform(20, 620), rng.uniform(20, 380), rng.uniform(9, 19)
+        if any(math.hypot(x - a, y - b) < r + s + 4 for a, b, s in taken):
+            continue
+        taken.append((x, y, r))
+        kind = len(taken) % 3
+        if kind == 0:
+            out += f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{r:.2f}"/>\n'
+        else:
+            n = 4 if kind == 1 else 6
+            turn = rng.uniform(0, 6.28)
+            points = [(x + r * math.cos(turn + 2 * math.pi * k / n), y + r * math.sin(turn + 2 * math.pi * k / n)) for k in range(n)]
+            out += f'<polygon points="{polygon(points)}"/>\n'
+    write("lamps.svg", "Lamps among convex bodies", 640, 400, out + "</g>\n")
+
+
+def room():
+    # A lamp in a niche of the left wall, one half in the upper wall, one flush with the right wall.
+    body = """<path d="M10 10H630V390H10Z M30 30V150H18V230H30V370H300V300H312V370H610V30Z" fill-rule="evenodd" fill="#444"/>
+<circle id="niche" class="light" cx="22" cy="190" r="4" fill="#ffb46b" data-intensity="26"/>
+<circle id="embedded" class="light" cx="330" cy="30" r="12" fill="#fff1d0" data-intensity="7"/>
+<rect id="flush" class="light" x="610" y="220" width="12" height="60" fill="#86b6ff" data-intensity="5"/>
+<g class="occluder"><rect x="120" y="230" width="90" height="12"/><rect x="124" y="242" width="6" height="60"/><rect x="200" y="242" width="6" height="60"/>
+<rect x="430" y="120" width="70" height="70" rx="16"/><path d="M420 300 l60 -24 l8 20 l-60 24 z"/>
+<polyline points="250,90 290,130 270,180" fill="none" stroke="#444"/><circle cx="540" cy="320" r="18"/>
+<line x1="90" y1="90" x2="160" y2="120" stroke="#444" stroke-width="8" stroke-linecap="round"/></g>
+"""
+    write("room.svg", "A room with lamps in its walls", 640, 400, body)
+
+
+def city():
+    rng = Random(11)
+    boxes, blocks = [], '<g class="occluder">\n'
+    for row in range(12):
+        for column in range(20):
+            x, y = 48 + column * 48 + rng.uniform(-7, 7), 45 + row * 46 + rng.uniform(-7, 7)
+            if rng.uniform() < 0.12:
+                continue
+            hx, hy, a = rng.uniform(6, 14), rng.uniform(6, 14), rng.uniform(-0.25, 0.25)
+            boxes.append((x, y, math.hypot(hx, hy)))
+            blocks += f'<polygon points="{polygon(turned_box(x, y, hx, hy, a))}"/>\n'
+    lights, colors, count = '<g class="light" data-range="170">\n', ("#ffcf87", "#ffe9c4", "#8fb8ff", "#ff9d6e"), 0
+    while count < 48:
+        x, y = rng.uniform(10, 1014), rng.uniform(10, 566)
+        if any(math.hypot(x - a, y - b) < r + 4 for a, b, r in boxes):
+            continue
+        lights += f'<circle cx="{x:.2f}" cy="{y:.2f}" r="4" fill="{colors[count % 4]}" data-intensity="5"/>\n'
+        count += 1
+    write("city.svg", "A city by night", 1024, 576, blocks + "</g>\n" + lights + "</g>\n")
+
+
+def logo():
+    rays = ""
+    for k in range(16):
+        a = 2 * math.pi * k / 16
+        x, y = 320 + 168 * math.cos(a), 200 + 168 * math.sin(a)
+        rays += f'<polygon points="{polygon(turned_box(x, y, 10, 3, a))}"/>\n'
+    body = f"""<defs><linearGradient id="sun" x1="0" y1="0" x2="1" y2="1"><stop offset="0" stop-color="#ffe08a"/><stop offset="0.55" stop-color="#ff6a3d"/>
+<stop offset="1" stop-color="#c81d77"/></linearGradient>
+<linearGradient id="sea" gradientUnits="userSpaceOnUse" x1="60" y1="0" x2="580" y2="0"><stop offset="0" stop-color="#39d0ff"/><stop offset="1" stop-color="#6a5cff"/></linearGradient></defs>
+<path id="ring" class="light" fill="url(#sun)" data-intensity="1.5" fill-rule="evenodd"
+ d="M320 110 A90 90 0 1 1 319.9 110 Z M320 140 C353 140 380 167 380 200 S353 260 320 260 S260 233 260 200 S287 140 320 140 Z"/>
+<path id="wave" class="light" fill="url(#sea)" data-intensity="1.6" d="M60 352 C140 322 200 382 320 352 S500 322 580 352 L580 360 C500 330 440 390 320 360 S140 330 60 360 Z"/>
+<path class="occluder" d="M300 180 q20 -26 40 0 q26 20 0 40 q-20 26 -40 0 q-26 -20 0 -40 z"/>
+<g class="occluder">
+{rays}</g>
+"""
+    write("logo.svg", "A ring with a gradient and holes", 640, 400, body)
+
+
+lamps()
+room()
+city()
+logo()
