@@ -92,7 +92,7 @@ void draw_warp(const std::string& name) {
 
     // Right: the edge in the plane of tau, the poles, and the angles under which they see it.
     const double px = 520 + 230.0 * static_cast<double>(n % 2), py = 60 + 230.0 * static_cast<double>(n / 2), w = 210, h = 190;
-    const double span = 3.2, x0 = px + w / 2, y0 = py + h - 25, scale = w / span;
+    const double span = 4.6, x0 = px + w / 2, y0 = py + h - 25, scale = w / span;
     const auto plane = [&](double x, double y) { return std::array<double, 2>{x0 + scale * x, y0 - scale * y}; };
     svg.body << format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#f4f6f7\" stroke=\"#bdc3c7\"/>\n", px, py, w, h);
     svg.path({plane(-span / 2, 0), plane(span / 2, 0)}, "stroke:#7f8c8d");
@@ -121,7 +121,7 @@ void draw_warp(const std::string& name) {
   }
   const auto c = place(centre);
   svg.dot(c[0], c[1], 5, "#17202a");
-  svg.text(520, 28, "Each edge in the plane of tau: its two poles and what they see", "font-size:15px;font-weight:bold");
+  svg.text(520, 28, "Each edge over tau: two poles and their angles", "font-size:15px;font-weight:bold");
   svg.text(30, 500, "dashed: great circles between the corners; violet: nodes of the cubature; black: the centre E/|E|, and poles");
   svg.save(name, 990, 520);
 }
