@@ -101,6 +101,29 @@ TEST(Eval, PhongMethodsAgreeWithTheReference) {
   EXPECT_NEAR(high, truth, 0.5 * 4.5e-4);
 }
 
+TEST(Eval, MicrofacetMethodsAgreeWithTheReference) {
+  struct Bound {
+    const char* material;
+    const char* method;
+    double error;  // docs/accuracy.md, "GGX with shadowing and Fresnel" and "Half vectors": the largest rms is far below
+  };
+  for (const Bound& b : {Bound{R"({"brdf":"ggx","roughness":0.5,"f0":[1,0.04,0.5]})", R"("method":"closed-form")", 0.005},
+                         Bound{R"({"brdf":"ggx","roughness":0.5})", R"("method":"closed-form","quality":"high")", 0.002},
+                         Bound{R"({"brdf":"ggx","roughness":0.5})", R"("method":"closed-form","quality":"draft")", 0.05},
+                         Bound{R"({"brdf":"ggx","alpha":0.3,"shadowing":"none"})", R"("method":"exact")", 1e-6},
+                         Bound{R"({"brdf":"ggx","alpha":0.3,"shadowing":"none"})", R"("method":"half-vector")", 0.01},
+                         Bound{R"({"brdf":"blinn-phong","exponent":20})", R"("method":"half-vector")", 0.01},
+                         Bound{R"({"brdf":"beckmann","alpha":0.3})", R"("method":"half-vector","quality":"high")", 0.003}}) {
+    const std::string material = std::string(R"("material":)") + b.material;
+    const double truth = red(query(kLight, kPlace, material, R"("method":"reference")"));
+    for (const char* precision : {R"("precision":"double")", R"("precision":"float")"}) {
+      const double value = red(query(kLight, kPlace, material, std::string(b.method) + "," + precision));
+      EXPECT_NEAR(value, truth, b.error) << material << b.method << precision;
+      EXPECT_GT(truth, 0.01);
+    }
+  }
+}
+
 TEST(Eval, AgreesWithTheReferenceOnLambert) {
   const std::string line = query(kLight, kPlace, kLambert);
   const json reference = answer(query(kLight, kPlace, kLambert, R"("method":"reference")"));
@@ -118,6 +141,7 @@ TEST(Eval, MaterialsOfAListAdd) {
   const json both = answer(with_material("[" + a + "," + b + "]"));
   EXPECT_DOUBLE_EQ(both["radiance"][0].get<double>(), red(with_material(a)) + red(with_material(b)));
   EXPECT_EQ(both["method"], "exact+half-vector");
+  EXPECT_TRUE(answer(with_material("[" + a + "," + b + "]", R"("method":"reference")")).contains("bound"));
   EXPECT_EQ(answer(with_material("[" + a + "," + a + "]"))["method"], "exact");
 }
 

@@ -8,5 +8,7 @@ namespace steradian::accuracy {
 // Each writes Markdown that begins with its own `## heading`, from numbers that it measures there and then.
 void write_functions(std::ostream& out);  // every kernel: float against double
 void write_targets(std::ostream& out);    // every kernel: packs and GPUs against scalar float
+void write_ggx(std::ostream& out);         // GGX by every real-time method against the reference
+void write_half_vector(std::ostream& out); // edge splitting against the reference
 
 }  // namespace steradian::accuracy
