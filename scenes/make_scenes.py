@@ -304,6 +304,26 @@ def plane():
     return g
 
 
+def floor(material):
+    """A floor under a rectangle that leans over it, seen from 20 degrees up: what methods are compared on."""
+    g = Gltf()
+    g.node("floor", mesh=g.mesh("floor", plate((-20, 0, 20), (20, 0, 20), (20, 0, -20), (-20, 0, -20)), material(g)))
+    g.area_light("panel", {"type": "rect", "intensity": 4.0, "size": 1.2, "rect": {"aspect": 2.0}},
+                 matrix=looking([0.0, 1.4, -2.0], [0.0, 0.4, 0.0]))
+    angle, distance = math.radians(20), 6.0
+    g.camera("main", [0.0, distance * math.sin(angle), distance * math.cos(angle)], [0.0, 0.0, 0.0], 0.7)
+    return g
+
+
+def diffuse_floor():
+    return floor(lambda g: g.diffuse("white", (0.8, 0.8, 0.8)))
+
+
+def glossy_floor():
+    # alpha 0.09, F = 1
+    return floor(lambda g: g.material("mirror", (1.0, 1.0, 1.0), 1.0, 0.3))
+
+
 def ring():
     g = Gltf()
     g.node("floor", mesh=g.mesh("floor", plate((-9, 0, 6), (9, 0, 6), (9, 0, -9), (-9, 0, -9)), g.diffuse("floor", (0.7, 0.68, 0.65))))
@@ -382,7 +402,7 @@ def arcade():
     return g
 
 
-SCENES = {"gallery": gallery, "plane": plane, "ring": ring, "arcade": arcade}
+SCENES = {"gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "ring": ring, "arcade": arcade}
 
 
 def main():

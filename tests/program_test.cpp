@@ -1,75 +1,18 @@
 // The program as a process: streams, exit codes, help.
-#include <fcntl.h>
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "program.h"
 
 namespace steradian {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Outcome {
-  int status = -1;
-  long peak_kib = 0;
-  std::string out, err;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+std::string query(int i) {
+  return R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1],"radiance":)" + std::to_string(i) +
+         R"(},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})";
 }
-
-class Program : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "steradian-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  // Runs the program on the file `in` of the folder (made of `input`), out and err to files.
-  Outcome run(std::vector<std::string> arguments, const std::string& input = {}) {
-    if (!input.empty() || !fs::exists(folder / "in")) std::ofstream(folder / "in", std::ios::binary) << input;
-    arguments.insert(arguments.begin(), STERADIAN_PROGRAM);
-    std::vector<char*> argv;
-    for (std::string& a : arguments) argv.push_back(a.data());
-    argv.push_back(nullptr);
-    const std::string in = folder / "in", out = folder / "out", err = folder / "err";
-    const pid_t child = fork();
-    if (child == 0) {
-      dup2(open(in.c_str(), O_RDONLY), 0);
-      dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
-      dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
-      execv(argv[0], argv.data());
-      _exit(127);
-    }
-    Outcome r;
-    int status = 0;
-    rusage usage{};
-    wait4(child, &status, 0, &usage);
-    r.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    r.peak_kib = usage.ru_maxrss;
-    r.out = contents(out);
-    r.err = contents(err);
-    return r;
-  }
-
-  static std::string query(int i) {
-    return R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1],"radiance":)" + std::to_string(i) +
-           R"(},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})";
-  }
-  fs::path folder;
-};
 
 TEST_F(Program, EvalKeepsTheOrderSkipsBlankLinesAndExitsOneAfterAWrongLine) {
   const Outcome good = run({"eval"}, query(1) + "\n\n" + query(2) + "\r\n  \t\n" + query(3));

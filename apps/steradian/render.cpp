@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "command_line.h"
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/simd.h"
@@ -21,7 +22,7 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", stats, command;
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", stats;
   double exposure = 0;
   int max_lights = 256;
   bool moments = false, spp_given = false;
@@ -42,7 +43,7 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
   nlohmann::ordered_json passes = nlohmann::ordered_json::array();
   for (const PassTime& pass : stats.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
   return {{"version", version()},
-          {"command", options.command},
+          {"command", command_line()},
           {"backend", options.backend},
           {"device", "cpu"},
           {"simd", name_of(active_simd())},

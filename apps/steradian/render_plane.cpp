@@ -1,3 +1,4 @@
+#include "command_line.h"
 #include "render_plane.h"
 
 #include <fmt/format.h>
@@ -49,7 +50,7 @@ void render_plane_scene(const PlaneRender& job) {
   if (job.stats.empty()) return;
   const nlohmann::ordered_json passes = {{{"name", "prepare"}, {"ms", stats.prepare_ms}}, {{"name", "frame"}, {"ms", stats.frame_ms}}};
   const nlohmann::ordered_json json = {{"version", version()},
-                                       {"command", "render " + job.scene},
+                                       {"command", command_line()},
                                        {"backend", "cpu"},
                                        {"device", "cpu"},
                                        {"simd", name_of(active_simd())},
