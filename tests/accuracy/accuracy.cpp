@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
   page << "# Accuracy\n\nWritten by `./dev accuracy`. Every number was measured by that command; nothing here is typed by hand.\n";
   write_functions(page);
   write_targets(page);
+  write_lambert(page);
+  write_phong(page);
   write_ggx(page);
   write_half_vector(page);
   std::ofstream file(argv[1], std::ios::binary);
