@@ -17,7 +17,7 @@ const kSliders = [  // name, label, unit, low, high, start, step, methods that h
   ["tilt", "Tilt", "°", 0, 90, 35, 1],
   ["intensity", "Intensity", "", 0.5, 20, 5, 0.1],
   ["exposure", "Exposure", "EV", -3, 3, 0, 0.1],
-  ["gain", "Difference", "times", 1, 64, 16, 1],
+  ["gain", "Difference shown", "times", 1, 64, 16, 1],
 ];
 const query = new URLSearchParams(location.search);
 const state = { orbit: Number(query.get("orbit") ?? 0.45), method: query.get("method") ?? "ltc-compact",
@@ -100,7 +100,7 @@ function redraw() {
 }
 
 function add_choices(rows) {
-  for (const [name, label, none] of [["method", "Method"], ["other", "Difference to", "none"]]) {
+  for (const [name, label, none] of [["method", "Method"], ["other", "Compare with", "nothing"]]) {
     const row = document.createElement("label");
     row.innerHTML = `<span>${label}</span><select></select>`;
     const select = row.lastChild;

@@ -198,7 +198,7 @@ vec3 display(vec3 radiance) {
 }
 
 void main() {
-    vec3 target = vec3(0.0, 0.55, 0.0);
+    vec3 target = vec3(0.0, 0.3, 0.0);
     vec3 eye = vec3(5.2 * sin(orbit), 1.7, 5.2 * cos(orbit));
     vec3 forward = normalize(target - eye);
     vec3 right = normalize(cross(forward, vec3(0.0, 1.0, 0.0)));

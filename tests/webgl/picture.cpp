@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
   const std::string method = argv[13], other = argc > 14 ? argv[14] : "";
   const Scene scene(setup);
   const Vec3d eye{5.2 * std::sin(setup.orbit), 1.7, 5.2 * std::cos(setup.orbit)};
-  const Vec3d forward = normalized(Vec3d{0.0, 0.55, 0.0} - eye);
+  const Vec3d forward = normalized(Vec3d{0.0, 0.3, 0.0} - eye);
   const Vec3d right = normalized(cross(forward, Vec3d{0, 1, 0})), up = cross(right, forward);
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {

@@ -30,6 +30,7 @@ CASES = [  # setup, method, the other method of a difference
     ((*AFAR, 0.3, 0.5, 60, 1), "series", ""),
     ((*HALF_BELOW, 0.3, 0.5, 12, 1), "series", ""),
     ((*AFAR, 0.5, 0.5, 60, 16), "ltc-compact", "closed-form"),
+    ((*HALF_BELOW, 0.5, 0.04, 60, 16), "closed-form-draft", "closed-form"),
 ]
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking",
