@@ -2949,7 +2949,16 @@ fn plane_slope(w: f32, t: f32, beyond: f32) -> f32 {
 
 // The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
 // the mirror direction, on a lobe widened to make up for it.
-// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon.
+//
+// Assumes that the light is small against the lobe, or the lobe against the light; between the two it is off by a third and more.
+//   1. The light is a point light of the light's solid angle, in the direction nearest to the mirror's.
+//   2. The lobe's peak falls by (alpha/alpha')^2, alpha' = alpha + radius/(2 distance). A sphere of that radius and distance
+//      has the solid angle W = pi (radius/distance)^2; of half vectors it covers W/(4 v.h), a disk of radius sqrt(W/(4 pi v.h)),
+//      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
+//      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
+// Walk the outline clipped to the horizon (horizon_clip.glsl).
+// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
+// radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
 
 // The state of a walk.
 //   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
@@ -3003,18 +3012,19 @@ fn representative_direction(walk: RepresentativeWalk, mirror: vec3f, reversed: b
 // Radiance towards the view, per radiance of the light, without Fresnel.
 //
 //   view, mirror  unit, in the shading frame
-//   solid_angle   of the light [sr]
+//   solid_angle   of the light's part above the horizon [sr]
 //   alpha         of the GGX lobe
 //   reversed      true where the light is seen from behind
 //
-// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside a small light the widening
-// is too little: 9/4 of the light's radiance.
+// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
+// towards alpha = 0 it is 1.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
 fn representative_radiance(walk: RepresentativeWalk, view: vec3f, mirror: vec3f, solid_angle: f32, alpha: f32, reversed: bool) -> f32 {
     let l = representative_direction(walk, mirror, reversed);
-    // The radius of the disk of that solid angle widens the lobe; the lobe's peak falls by the square.
-    let wider = clamp(alpha + sqrt(solid_angle * 0.318309886183790672) / 3.0, 0.0, 1.0);
-    let fall = alpha / max(wider, 1.0e-4);
-    return ggx_lobe(l, view, alpha, alpha) * fall * fall * solid_angle;
+    let h = microfacet_half_vector(l, view);
+    let wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
+    let fall = alpha / wider;
+    return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
 // The half vector's cosine for Fresnel. Arguments as above.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ltc/ggx_tables.h"
+#include "moment/clipped_edges.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 #include "steradian/ltc.h"
@@ -84,10 +85,13 @@ struct Evaluation : Kernels<S> {
   Vec3d representative_point(const Material& material) {
     const vec3 mirror(-view.x, 0.0, view.z);
     auto walk = this->representative_begin();
-    auto solid_angle = this->solid_angle_begin(direction(0));
-    walk_edges([&](vec3 a, vec3 b) {
+    // Any apex serves: the walk is closed by clipping.
+    auto solid_angle = this->solid_angle_begin(vec3(0.0, 0.0, 1.0));
+    const auto to = [&](const Vec3d& v) { return this->polygon_direction(transform_transposed(frame, vector(v - position))); };
+    sum_over_clipped_edges<S>(light, to, [&](const auto& a, const auto& b) {
       walk = this->representative_add_edge(walk, mirror, a, b);
       solid_angle = this->solid_angle_add_edge(solid_angle, a, b);
+      return real(0.0);
     });
     const real sr = this->solid_angle_finish(solid_angle, reversed);
     const real lobe = this->representative_radiance(walk, view, mirror, sr, material.alpha_x, reversed);
