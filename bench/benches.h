@@ -12,6 +12,7 @@ void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
 void add_closed_form(BenchList& list);
 void add_plane(BenchList& list);
+void add_frame(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
@@ -22,6 +23,7 @@ inline BenchList all_benches() {
   add_phong(list);
   add_closed_form(list);
   add_plane(list);
+  add_frame(list);
   return list;
 }
 

@@ -70,9 +70,11 @@ std::string against_scalar(const std::vector<BenchResult>& results, const BenchR
 
 void print_table(const std::vector<BenchResult>& results) {
   fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd");
-  for (const BenchResult& r : results)
+  for (const BenchResult& r : results) {
     fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms,
                r.runs, r.simd, against_scalar(results, r));
+    for (const BenchPass& pass : r.passes) fmt::print("  {:<61} {:>13.4f}\n", pass.name, pass.ms);
+  }
 }
 
 void print_json(const std::vector<BenchResult>& results) {
@@ -81,6 +83,7 @@ void print_json(const std::vector<BenchResult>& results) {
     nlohmann::ordered_json one = {{"name", r.name},           {"items", r.items}, {"ns_per_item", r.ns_per_item},
                                   {"median_ms", r.median_ms}, {"runs", r.runs},   {"fastest_ms", r.fastest_ms}};
     if (!r.simd.empty()) one["simd"] = r.simd;
+    for (const BenchPass& pass : r.passes) one["passes"][pass.name] = pass.ms;
     all.push_back(std::move(one));
   }
   fmt::print("{}\n", all.dump(1));

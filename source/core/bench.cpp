@@ -72,6 +72,7 @@ BenchResult measure(const Bench& bench, const BenchOptions& options) {
   result.fastest_ms = 1e3 * times.front();
   result.runs = static_cast<int>(times.size());
   result.simd = bench.simd;
+  if (bench.passes) result.passes = bench.passes();
   return result;
 }
 

@@ -16,6 +16,12 @@ struct BenchOptions {
   Simd simd = active_simd();  // for what follows the active set
 };
 
+// A part of a call.
+struct BenchPass {
+  std::string name;
+  double ms = 0;
+};
+
 // Anything that is to be measured: the closure holds the prepared data, a call does the work on all items once.
 struct Bench {
   std::string name;         // "kernel/lambert/quad"
@@ -23,6 +29,7 @@ struct Bench {
   std::string simd;         // the instruction set that runs, "scalar", or empty where none is chosen
   std::function<void()> body;
   bool one_core = true;     // pinned; false for frames on all threads
+  std::function<std::vector<BenchPass>()> passes = {};  // medians of the calls so far; none: a call has no parts
 };
 
 // What `steradian bench` can run. Data is made only when a bench is chosen by its name.
@@ -49,6 +56,7 @@ struct BenchResult {
   double fastest_ms = 0;
   int runs = 0;
   std::string simd;
+  std::vector<BenchPass> passes;
 };
 
 // Warms up, pins the thread to the core it is on, runs for at least min_time and min_runs; the pin is undone after.

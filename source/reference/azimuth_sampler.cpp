@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace steradian::reference {
@@ -22,7 +23,7 @@ void AzimuthSampler::prepare(const SphericalRegion& region, SphericalMeasure mea
   total_ = 0;
   sides_.clear();
   slices_.clear();
-  slice_sides_.clear();
+  pieces_.clear();
   ends_.clear();
   if (region.arcs.empty()) return;
 
@@ -39,14 +40,20 @@ void AzimuthSampler::prepare(const SphericalRegion& region, SphericalMeasure mea
     ends_.push_back(side.end);
   }
   std::sort(ends_.begin(), ends_.end());
+  Vec3d next_across = ends_.empty() ? Vec3d{} : across_at(ends_[0] + zero_azimuth_);
   for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
     if (!(ends_[i + 1] > ends_[i])) continue;
-    Slice slice{ends_[i], ends_[i + 1], 0, slice_sides_.size(), 0};
-    for (std::size_t s = 0; s < sides_.size(); ++s)
-      if (sides_[s].begin <= slice.begin && sides_[s].end >= slice.end) slice_sides_.push_back(s);
-    slice.last = slice_sides_.size();
+    Slice slice{ends_[i], ends_[i + 1], 0, pieces_.size(), 0};
+    const Vec3d across = next_across;
+    next_across = across_at(slice.end + zero_azimuth_);
+    for (const Side& side : sides_)
+      if (side.begin <= slice.begin && side.end >= slice.end) {
+        const Vec3d begin = side.begin < slice.begin ? meet(side.normal, across) : side.a;
+        pieces_.push_back({begin, side.normal, cross(side.normal, begin), side.sign});
+      }
+    slice.last = pieces_.size();
     if (slice.first == slice.last) continue;
-    total_ += std::max(slice_measure(slice, slice.end), 0.0);
+    total_ += std::max(sweep(slice, next_across).measure, 0.0);
     slice.share = total_;
     slices_.push_back(slice);
   }
@@ -71,38 +78,36 @@ void AzimuthSampler::add_side(Vec3d a, Vec3d b, Vec3d normal, double sign) {
   if (end > 0) sides_.push_back({meet(normal, across_at(zero_azimuth_)), normal, 0, end, sign});
 }
 
-double AzimuthSampler::sector(const Side& side, double azimuth) const {
-  const Vec3d q = meet(side.normal, across_at(azimuth + zero_azimuth_));
-  if (measure_ == SphericalMeasure::projected_solid_angle)
-    return 0.5 * side.normal.z * std::atan2(dot(side.normal, cross(side.a, q)), dot(side.a, q));
-  // Van Oosterom, Strackee 1983, eq. 8, of the triangle z, a, q.
-  return 2 * std::atan2(side.a.x * q.y - side.a.y * q.x, 1 + side.a.z + q.z + dot(side.a, q));
-}
-
-double AzimuthSampler::extent(const Side& side, Vec3d across) const {
-  const double along = dot(side.normal, across);
-  const double sine2 = side.normal.z * side.normal.z / (side.normal.z * side.normal.z + along * along);
+double AzimuthSampler::extent(const Piece& piece, Vec3d across) const {
+  const double along = dot(piece.normal, across);
+  const double sine2 = piece.normal.z * piece.normal.z / (piece.normal.z * piece.normal.z + along * along);
   if (measure_ == SphericalMeasure::projected_solid_angle) return 0.5 * sine2;
-  const double cosine = std::max(-along, 0.0) / std::hypot(side.normal.z, along);
+  const double cosine = std::max(-along, 0.0) / std::hypot(piece.normal.z, along);
   return sine2 / (1 + cosine);
 }
 
-double AzimuthSampler::slice_measure(const Slice& slice, double azimuth) const {
-  double sum = 0;
+// Newton's steps spend their time here: one arctangent a piece, and q, where the piece meets the azimuth, not normalised.
+AzimuthSampler::Sweep AzimuthSampler::sweep(const Slice& slice, Vec3d across) const {
+  Sweep sum;
   for (std::size_t i = slice.first; i < slice.last; ++i) {
-    const Side& side = sides_[slice_sides_[i]];
-    const double before = side.begin < slice.begin ? sector(side, slice.begin) : 0;
-    sum += side.sign * (sector(side, azimuth) - before);
-  }
-  return sum;
-}
-
-double AzimuthSampler::slice_density(const Slice& slice, double azimuth) const {
-  const Vec3d across = across_at(azimuth + zero_azimuth_);
-  double sum = 0;
-  for (std::size_t i = slice.first; i < slice.last; ++i) {
-    const Side& side = sides_[slice_sides_[i]];
-    sum += side.sign * extent(side, across);
+    const auto& [begin, normal, turned, sign] = pieces_[i];
+    const double along = normal.x * across.x + normal.y * across.y;
+    const Vec3d q = {across.x * normal.z, across.y * normal.z, -along};
+    const double length2 = normal.z * normal.z + along * along;
+    const double sine2 = normal.z * normal.z / length2;
+    double sector, extent;
+    if (measure_ == SphericalMeasure::projected_solid_angle) {
+      sector = 0.5 * normal.z * std::atan2(dot(turned, q), dot(begin, q));
+      extent = 0.5 * sine2;
+    } else {
+      // Van Oosterom, Strackee 1983, eq. 8, of the triangle z, begin, q.
+      const double length = std::sqrt(length2);
+      sector = 2 * std::atan2(begin.x * q.y - begin.y * q.x, length * (1 + begin.z) + q.z + dot(begin, q));
+      extent = sine2 / (1 + std::max(-along, 0.0) / length);
+    }
+    sum.measure += sign * sector;
+    sum.magnitude += std::fabs(sector);
+    sum.density += sign * extent;
   }
   return sum;
 }
@@ -120,9 +125,11 @@ Vec3d AzimuthSampler::sample(double u, double v) const {
   double low = slice->begin, high = slice->end;
   double azimuth = low + (high - low) * std::clamp(target / (slice->share - before), 0.0, 1.0);
   for (int i = 0; i < 60; ++i) {
-    const double error = slice_measure(*slice, azimuth) - target;
+    const Sweep at = sweep(*slice, across_at(azimuth + zero_azimuth_));
+    const double error = at.measure - target;
+    if (std::fabs(error) <= std::numeric_limits<double>::epsilon() * at.magnitude) break;  // all else is rounding
     (error > 0 ? high : low) = azimuth;
-    double next = azimuth - error / slice_density(*slice, azimuth);
+    double next = azimuth - error / at.density;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::fabs(next - azimuth);
     azimuth = next;
@@ -144,8 +151,8 @@ Vec3d AzimuthSampler::sample(double u, double v) const {
     crossings = many.data();
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const Side& side = sides_[slice_sides_[slice->first + i]];
-    crossings[i] = {extent(side, across), side.sign};
+    const Piece& piece = pieces_[slice->first + i];
+    crossings[i] = {extent(piece, across), piece.sign};
   }
   std::sort(crossings, crossings + count, [](const Crossing& a, const Crossing& b) { return a.extent > b.extent; });
   const auto walk = [&](double stop) {  // returns the extent at which `stop` of the intervals' lengths is used up
@@ -170,10 +177,9 @@ Vec3d AzimuthSampler::sample(double u, double v) const {
 }
 
 bool AzimuthSampler::contains(Vec3d l) const {
-  double winding = 0;
+  double winding = 0, azimuth = std::atan2(l.y, l.x) - zero_azimuth_;
+  if (azimuth < 0) azimuth += kTurn;
   for (const Side& side : sides_) {
-    double azimuth = std::atan2(l.y, l.x) - zero_azimuth_;
-    if (azimuth < 0) azimuth += kTurn;
     // Inside of the side: det(a, b, l) > 0.
     if (azimuth >= side.begin && azimuth < side.end && dot(side.normal, l) > 0) winding += side.sign;
   }

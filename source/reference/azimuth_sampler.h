@@ -41,21 +41,29 @@ class AzimuthSampler {
   };
   struct Slice {  // between two neighbouring ends of sides
     double begin, end, share;  // share: of all slices up to this one's end
-    std::size_t first, last;   // its sides in slice_sides_
+    std::size_t first, last;   // its pieces in pieces_
+  };
+  struct Piece {  // a side's part within a slice
+    Vec3d begin, normal;
+    Vec3d turned;  // begin, a quarter turn on along the side
+    double sign;
+  };
+  struct Sweep {  // from a slice's begin to an azimuth
+    double measure = 0;
+    double magnitude = 0;  // sum of the measure's terms without their signs: what its rounding is relative to
+    double density = 0;    // the measure per azimuth there
   };
 
   void add_side(Vec3d a, Vec3d b, Vec3d normal, double sign);
-  double sector(const Side& side, double azimuth) const;  // its measure from the side's begin
-  double extent(const Side& side, Vec3d across) const;    // the measure per azimuth
-  double slice_measure(const Slice& slice, double azimuth) const;
-  double slice_density(const Slice& slice, double azimuth) const;
+  double extent(const Piece& piece, Vec3d across) const;  // the measure per azimuth
+  Sweep sweep(const Slice& slice, Vec3d across) const;
 
   SphericalMeasure measure_ = SphericalMeasure::solid_angle;
   double total_ = 0;
   double zero_azimuth_ = 0;
   std::vector<Side> sides_;
   std::vector<Slice> slices_;
-  std::vector<std::size_t> slice_sides_;
+  std::vector<Piece> pieces_;
   std::vector<double> ends_;
 };
 

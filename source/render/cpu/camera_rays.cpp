@@ -1,6 +1,7 @@
 #include "render/cpu/camera_rays.h"
 
 #include <cmath>
+#include <xsimd/xsimd.hpp>
 
 #include "steradian/error.h"
 
@@ -19,6 +20,23 @@ CameraRays::CameraRays(const Camera& camera, int width, int height) {
   corner_ = static_cast<Vec3f>(-camera.z - camera.x * w + camera.y * h);
   right_ = static_cast<Vec3f>(camera.x * (2 * w / width));
   down_ = static_cast<Vec3f>(camera.y * (-2 * h / height));
+}
+
+void CameraRays::block_directions(float x, float y, float (&dx)[16], float (&dy)[16], float (&dz)[16]) const {
+  using Row = xsimd::batch<float, xsimd::sse2>;  // what every x86-64 has; the order of operations is direction()'s
+  static_assert(Row::size == 4);
+  constexpr float kSteps[] = {0, 1, 2, 3};
+  const Row across = Row(x) + Row::load_unaligned(kSteps);
+  for (unsigned row = 0; row < 4; ++row) {
+    const Row down(y + static_cast<float>(row));
+    const Row wx = Row(corner_.x) + Row(right_.x) * across + Row(down_.x) * down;
+    const Row wy = Row(corner_.y) + Row(right_.y) * across + Row(down_.y) * down;
+    const Row wz = Row(corner_.z) + Row(right_.z) * across + Row(down_.z) * down;
+    const Row length = xsimd::sqrt(wx * wx + wy * wy + wz * wz);
+    (wx / length).store_unaligned(dx + 4 * row);
+    (wy / length).store_unaligned(dy + 4 * row);
+    (wz / length).store_unaligned(dz + 4 * row);
+  }
 }
 
 const Camera& find_camera(const Scene& scene, const std::string& name) {

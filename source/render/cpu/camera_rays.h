@@ -19,6 +19,8 @@ class CameraRays {
   Vec3f origin() const { return origin_; }
   // Unit direction through a place in the picture, in pixels from its upper left corner.
   Vec3f direction(float x, float y) const { return normalized(corner_ + right_ * x + down_ * y); }
+  // The same, of the 4 x 4 places at distances 0 to 3 from (x, y), row by row.
+  void block_directions(float x, float y, float (&dx)[16], float (&dy)[16], float (&dz)[16]) const;
 
  private:
   Vec3f origin_, corner_, right_, down_;

@@ -67,31 +67,26 @@ Surface surface_in(const SurfaceTile& tile, std::size_t i) {
 }
 
 void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits) {
+  alignas(64) RTCRayHit16 packet;
+  alignas(64) int valid[16];
   const Vec3f origin = camera.origin();
+  std::fill_n(packet.ray.org_x, 16, origin.x);
+  std::fill_n(packet.ray.org_y, 16, origin.y);
+  std::fill_n(packet.ray.org_z, 16, origin.z);
+  std::fill_n(packet.ray.tnear, 16, 0.0f);
+  std::fill_n(packet.ray.time, 16, 0.0f);
+  std::fill_n(packet.ray.mask, 16, 1u);
+  std::fill_n(packet.ray.id, 16, 0u);
+  std::fill_n(packet.ray.flags, 16, 0u);
   for (int by = 0; by < kTileSide; by += 4)
     for (int bx = 0; bx < kTileSide; bx += 4) {
-      alignas(64) RTCRayHit16 packet;
-      alignas(64) int valid[16];
       const std::size_t first = tile_slot(bx, by);
-      for (int i = 0; i < 16; ++i) {
-        const int x = bx + i % 4, y = by + i / 4;
-        valid[i] = x < area.width && y < area.height ? -1 : 0;
-        const Vec3f d = camera.direction(static_cast<float>(area.x + x) + place.x, static_cast<float>(area.y + y) + place.y);
-        packet.ray.org_x[i] = origin.x;
-        packet.ray.org_y[i] = origin.y;
-        packet.ray.org_z[i] = origin.z;
-        packet.ray.dir_x[i] = d.x;
-        packet.ray.dir_y[i] = d.y;
-        packet.ray.dir_z[i] = d.z;
-        packet.ray.tnear[i] = 0;
-        packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-        packet.ray.time[i] = 0;
-        packet.ray.mask[i] = 1;
-        packet.ray.id[i] = 0;
-        packet.ray.flags[i] = 0;
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      }
+      for (int i = 0; i < 16; ++i) valid[i] = bx + i % 4 < area.width && by + i / 4 < area.height ? -1 : 0;
+      camera.block_directions(static_cast<float>(area.x + bx) + place.x, static_cast<float>(area.y + by) + place.y,
+                              packet.ray.dir_x, packet.ray.dir_y, packet.ray.dir_z);
+      std::fill_n(packet.ray.tfar, 16, std::numeric_limits<float>::infinity());
+      std::fill_n(packet.hit.geomID, 16, RTC_INVALID_GEOMETRY_ID);
+      std::fill_n(packet.hit.instID[0], 16, RTC_INVALID_GEOMETRY_ID);
       rays.intersect(valid, packet);
       std::copy_n(packet.hit.geomID, 16, &hits.geometry[first]);
       std::copy_n(packet.hit.primID, 16, &hits.triangle[first]);

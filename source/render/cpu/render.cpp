@@ -135,6 +135,9 @@ class Renderer {
       }
   }
 
+  // A thread's own: memory fresh from the system for every tile would cost more than its rays.
+  SurfaceTile* workspace() { return tiles_.local().get(); }
+
   void fill(int index, int sample, SurfaceTile& tile) {
     TileHits hits;
     rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits); });
@@ -146,7 +149,7 @@ class Renderer {
     steps_ *= 2;
     std::vector<Pilot> pilots(static_cast<std::size_t>(tile_count()));
     each_tile([&](int index) {
-      const auto tile = std::make_unique<SurfaceTile>();
+      SurfaceTile* tile = workspace();
       fill(index, 0, *tile);
       Pilot& pilot = pilots[static_cast<std::size_t>(index)];
       sampling_clock_.run([&] {
@@ -172,7 +175,7 @@ class Renderer {
   }
 
   void render_tile(int index, int pairs, Picture& picture) {
-    const auto tile = std::make_unique<SurfaceTile>();
+    SurfaceTile* tile = workspace();
     const TileArea a = area(index);
     const float weight = 1.0f / static_cast<float>(options_.aa);
     for (int s = 0; s < options_.aa; ++s) {
@@ -214,6 +217,7 @@ class Renderer {
   const SpecularPass specular_;
   const int tiles_x_, tiles_y_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
+  tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
   double build_ms_ = 0;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"};

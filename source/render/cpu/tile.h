@@ -18,7 +18,9 @@ constexpr std::size_t tile_slot(int x, int y) {
   return static_cast<std::size_t>(block * 16 + (y % 4) * 4 + x % 4);
 }
 
-using TilePlane = std::array<float, kTilePixels>;
+// A line longer than its pixels: planes a multiple of 4 KB apart would fight for the same few lines of the cache when a
+// pixel's values are written to all of them.
+using TilePlane = std::array<float, kTilePixels + 16>;
 
 struct TileVector {
   alignas(64) TilePlane x, y, z;
