@@ -80,21 +80,24 @@ Answer evaluate(const Query& query) {
   const bool seen = dot(at.normal, at.view) > 0.0;
   MethodOptions options = {query.precision, query.quality, query.spp, query.seed};
 
+  const auto* round = std::get_if<RoundLight>(&query.light);
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
   if (query.derivatives && polygon == nullptr)
-    throw Error("derivatives", "a point light has no vertices", "leave the key out");
+    throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
   LightDerivatives irradiance;
   if (query.derivatives) irradiance = polygon_irradiance_derivatives(*polygon, at.position, at.normal);
   if (!seen) irradiance.vertices.assign(irradiance.vertices.size(), Vec3d{});
   Sum sum;
   for (const Material& material : query.materials) {
-    const MethodEntry& entry = resolve(query.method, material, query.precision);
+    const MethodEntry& entry = resolve(query.method, material, query.precision, query.quality);
     if (query.derivatives) add_derivatives(sum.answer(), irradiance, *polygon, material, entry.method);
     if (!seen)
       sum.add(entry, LobeAnswer{});
     else if (polygon != nullptr)
       sum.add(entry, entry.polygon(prepared, at, material, options));
+    else if (round != nullptr)
+      sum.add(entry, round_light_answer(*round, at, material, entry, options));
     else
       sum.add(entry, point_answer(std::get<PointLight>(query.light), at, material, entry.method));
     options.seed += 0x9e3779b97f4a7c15u;  // far from the seeds that people choose

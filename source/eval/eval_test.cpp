@@ -239,8 +239,14 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
              R"("material":{"brdf":"lambert","exponent":2})", R"("extra":{})"),
        {"light.centre: unknown", "light.center: missing", "material.exponent: unknown", "extra: unknown"}},
       {with_light("7"), {"light: expected an object"}},
-      {with_light("{}"), {"light.type: missing", "polygon, rect, point"}},
-      {with_light(R"({"type":"disk"})"), {"light.type: 'disk' is not supported", "polygon, rect, point"}},
+      {with_light("{}"), {"light.type: missing", "polygon, rect, disk, sphere, ellipsoid, point"}},
+      {with_light(R"({"type":"tube"})"), {"light.type: 'tube' is not supported", "polygon, rect, disk, sphere, ellipsoid, point"}},
+      {with_light(R"({"type":"disk"})"), {"light.center: missing", "light.x: missing", "light.y: missing"}},
+      {with_light(R"({"type":"sphere","center":[0,1,0],"radius":-1})"), {"light.radius: must not be negative"}},
+      {with_light(R"({"type":"sphere","center":[0,1,0],"radius":1,"two_sided":true})"), {"light.two_sided: unknown"}},
+      {with_light(R"({"type":"ellipsoid","center":[0,1,0],"x":[1,0,0],"y":[0,1,0]})"), {"light.z: missing"}},
+      {query(R"("light":{"type":"disk","center":[1e308,2,0],"x":[1,0,0],"y":[0,0,1]})", R"("position":[-1e308,0,0],"normal":[0,1,0])", kLambert),
+       {"light: is not finite"}},
       {with_light(R"({"type":["rect"]})"), {"light.type: expected a string"}},
       {polygon("[[0,1,0],[1,1,0]]"), {"light.vertices: ", "at least 3 vertices", "2"}},
       {polygon("[]"), {"light.vertices: ", "at least 3 vertices"}},
@@ -296,6 +302,10 @@ TEST(Eval, SurvivesMutatedLines) {
             kPlace, R"("material":[{"brdf":"lambert","albedo":[0.1,0.2,0.3]},{"brdf":"lambert"}])"),
       query(R"("light":{"type":"point","position":[1,2,0],"intensity":1e3})", kPlace,
             R"("material":{"brdf":"ggx","alpha_x":0.2,"alpha_y":0.4,"tangent":[1,0,1],"f0":0.04})"),
+      query(R"("light":{"type":"ellipsoid","center":[1,2,0],"x":[0.5,0,0],"y":[0,0.1,0],"z":[0,1,1]})", kPlace,
+            R"("material":[{"brdf":"lambert"},{"brdf":"phong","exponent":20}])"),
+      query(R"("light":{"type":"disk","center":[1,2,0],"x":[0.5,0,0],"y":[0,0.1,0.5],"two_sided":true})", kPlace,
+            R"("material":{"brdf":"ggx","roughness":0.5})"),
   };
   std::mt19937 random(20260101);
   const auto below = [&](std::size_t n) { return random() % n; };

@@ -135,7 +135,11 @@ std::string method_names() {
   return names;
 }
 
-const MethodEntry& resolve(Method method, const Material& material, Precision precision) {
+const MethodEntry& resolve(Method asked_for, const Material& material, Precision precision, Quality quality) {
+  // The rule of source/render/cpu/methods.cpp.
+  const bool table = asked_for == Method::automatic && quality == Quality::draft && material.brdf == Brdf::ggx &&
+                     !exact_lobes(material) && ltc_serves(material);
+  const Method method = table ? Method::ltc_compact : asked_for;
   const std::string brdf = name_of(material.brdf);
   std::string serving;
   for (const MethodEntry& entry : kMethods) {

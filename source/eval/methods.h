@@ -15,7 +15,7 @@ namespace steradian::eval {
 
 enum class Precision { double_, float_ };
 
-// `automatic` stands for the first method of the table that serves the lobe.
+// `automatic` stands for the first method of the table that serves the lobe; a draft takes the table for GGX where it can.
 enum class Method {
   automatic, exact, arvo, lorentzian, pearson, ellipsoid, series, closed_form, ltc, ltc_compact, ltc_clipless,
   representative_point, half_vector, reference, sampled
@@ -52,6 +52,6 @@ std::string method_names();  // "auto, series, exact, ..."
 
 // The method that a query's method comes down to for one lobe.
 // Throws Error where it does not serve the lobe or the precision.
-const MethodEntry& resolve(Method method, const Material& material, Precision precision);
+const MethodEntry& resolve(Method method, const Material& material, Precision precision, Quality quality);
 
 }  // namespace steradian::eval

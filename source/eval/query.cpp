@@ -13,7 +13,8 @@ namespace {
 // What the keys of any light type say, before it is known to be whole.
 struct LightKeys {
   PolygonLight polygon;
-  Vec3d center, x, y;
+  Vec3d center, x, y, z;
+  double radius = 0;
   PointLight point_light;
 };
 
@@ -29,6 +30,10 @@ constexpr LightField kHalfAxisX = {
     "x", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.x = read_vector(p, at, v); }, true};
 constexpr LightField kHalfAxisY = {
     "y", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.y = read_vector(p, at, v); }, true};
+constexpr LightField kHalfAxisZ = {
+    "z", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.z = read_vector(p, at, v); }, true};
+constexpr LightField kRadius = {
+    "radius", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radius = read_not_negative(p, at, v); }, true};
 
 constexpr LightField kPolygonFields[] = {
     {"vertices",
@@ -44,6 +49,8 @@ constexpr LightField kPolygonFields[] = {
     kTwoSided,
 };
 constexpr LightField kRectFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kRadiance, kTwoSided};
+constexpr LightField kSphereFields[] = {kCenter, kRadius, kRadiance};
+constexpr LightField kEllipsoidFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kHalfAxisZ, kRadiance};
 constexpr LightField kPointFields[] = {
     {"position",
      [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
@@ -56,6 +63,18 @@ Light rect_of(LightKeys&& k) {
   k.polygon.vertices = {k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y};
   return std::move(k.polygon);
 }
+Light disk_of(LightKeys&& k) {
+  return RoundLight{LightShape::disk, k.center, k.x, k.y, {}, k.polygon.radiance, k.polygon.two_sided};
+}
+Light ellipsoid_of(LightKeys&& k) {
+  return RoundLight{LightShape::sphere, k.center, k.x, k.y, k.z, k.polygon.radiance, false};
+}
+Light sphere_of(LightKeys&& k) {
+  k.x = {k.radius, 0, 0};
+  k.y = {0, k.radius, 0};
+  k.z = {0, 0, k.radius};
+  return ellipsoid_of(std::move(k));
+}
 Light point_of(LightKeys&& k) { return k.point_light; }
 
 struct LightRow {
@@ -66,6 +85,9 @@ struct LightRow {
 constexpr LightRow kLights[] = {
     {"polygon", kPolygonFields, polygon_of},
     {"rect", kRectFields, rect_of},
+    {"disk", kRectFields, disk_of},
+    {"sphere", kSphereFields, sphere_of},
+    {"ellipsoid", kEllipsoidFields, ellipsoid_of},
     {"point", kPointFields, point_of},
 };
 

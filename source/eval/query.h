@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "eval/methods.h"
+#include "eval/round_light.h"
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
 
@@ -19,7 +20,7 @@ struct PointLight {
   Vec3d intensity{1, 1, 1};  // W/sr or candela, linear RGB
 };
 
-using Light = std::variant<PolygonLight, PointLight>;
+using Light = std::variant<PolygonLight, RoundLight, PointLight>;
 
 struct Query {
   Light light;

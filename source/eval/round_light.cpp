@@ -1,0 +1,112 @@
+#include "eval/round_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/point_light.h"
+#include "steradian/ellipse_light.h"
+#include "steradian/error.h"
+
+namespace steradian::eval {
+namespace {
+
+constexpr double kPi = 3.14159265358979324;
+constexpr int kFineVertices = 1024;
+
+// The light from the point, in units in which its largest number is 1: no square leaves the range of double.
+RoundLight seen_from(const RoundLight& light, Vec3d position) {
+  RoundLight seen = light;
+  seen.center = light.center - position;
+  double largest = 0;
+  for (const Vec3d& v : {seen.center, seen.x, seen.y, seen.z})
+    largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (!std::isfinite(largest))
+    throw Error("light", "is not finite as seen from the position", "scale the query down");
+  if (!(largest > 0)) return seen;
+  for (Vec3d* v : {&seen.center, &seen.x, &seen.y, &seen.z}) *v = *v / largest;
+  return seen;
+}
+
+// Angular width [rad] of a lobe, as polygon_for_lobe counts it: that of Phong's exponent n is 1/sqrt(n + 1). A turned
+// half vector turns the reflected direction by twice the angle.
+double width_of(const Material& m) {
+  switch (m.brdf) {
+    case Brdf::lambert: return 1;
+    case Brdf::phong: return 1 / std::sqrt(m.exponent + 1);
+    case Brdf::blinn_phong: return 2 / std::sqrt(m.exponent + 1);
+    case Brdf::ggx:
+    case Brdf::beckmann: return 2 * std::max(m.alpha_x, m.alpha_y);
+  }
+  return 1;
+}
+
+PolygonLight polygon_of(const Ellipse& outline, const RoundLight& light, const ShadingPoint& at, const Material& m,
+                        const MethodOptions& options) {
+  const Vec3d mirrored = at.normal * (2 * dot(at.normal, at.view)) - at.view;
+  const int vertices = options.quality == Quality::high ? 16 : 12;
+  PolygonLight polygon = polygon_for_lobe(outline, {}, {normalized(mirrored), width_of(m)}, vertices);
+  polygon.radiance = light.radiance;
+  return polygon;
+}
+
+LobeAnswer form_factor(const Ellipse& outline, const RoundLight& light, const ShadingPoint& at, const Material& m,
+                       const MethodOptions& options) {
+  const double irradiance = options.precision == Precision::float_
+                                ? static_cast<double>(ellipse_irradiance_float(outline, {}, at.normal))
+                                : ellipse_irradiance(outline, {}, at.normal);
+  LobeAnswer answer;
+  answer.radiance = light.radiance * m.albedo * (irradiance / kPi);
+  return answer;
+}
+
+// 0 as the method says it.
+LobeAnswer nothing(Method method) {
+  LobeAnswer answer;
+  if (method == Method::reference) answer.bound = 0.0;
+  if (method == Method::sampled) answer.standard_error = 0.0;
+  return answer;
+}
+
+}  // namespace
+
+std::optional<Ellipse> outline_of(const RoundLight& light) {
+  if (light.shape == LightShape::sphere) return silhouette(light.center, light.x, light.y, light.z, {});
+  const double height = -dot(light.center, cross(light.x, light.y));
+  if (height > 0) return Ellipse{light.center, light.x, light.y};
+  if (height < 0 && light.two_sided) return Ellipse{light.center, light.y, light.x};
+  return {};
+}
+
+LobeAnswer round_light_answer(const RoundLight& light, const ShadingPoint& there, const Material& m,
+                              const MethodEntry& entry, const MethodOptions& options) {
+  const RoundLight seen = seen_from(light, there.position);
+  const ShadingPoint at = {{}, there.normal, there.view};
+  const std::optional<Ellipse> outline = outline_of(seen);
+  if (!outline) return nothing(entry.method);
+  if (m.brdf == Brdf::lambert && entry.method == Method::exact) return form_factor(*outline, light, at, m, options);
+
+  // A light of a billionth of its distance is one direction; the vertices of its polygon would be rounded to one place.
+  if (length(outline->x) + length(outline->y) < 1e-9 * length(outline->center)) {
+    const Vec3d projected = cross(outline->x, outline->y) * kPi;
+    const double area = -dot(projected, outline->center) / length(outline->center);
+    LobeAnswer answer = nothing(entry.method);
+    answer.radiance = point_light_radiance({outline->center, light.radiance * area}, at, m);
+    return answer;
+  }
+
+  const auto by_fine_polygon = [&](int vertices) {
+    return entry.polygon(prepare_polygon(equal_area_polygon(*outline, light.radiance, vertices)), at, m, options);
+  };
+  if (entry.method == Method::reference) {
+    LobeAnswer answer = by_fine_polygon(kFineVertices);
+    // The error falls with the square of the number at least: what is left is at most a third of the difference.
+    const Vec3d change = answer.radiance - by_fine_polygon(kFineVertices / 2).radiance;
+    const double largest = std::max({std::fabs(change.x), std::fabs(change.y), std::fabs(change.z)});
+    answer.bound = answer.bound.value_or(0.0) + largest;
+    return answer;
+  }
+  if (entry.method == Method::exact || entry.method == Method::sampled) return by_fine_polygon(kFineVertices);
+  return entry.polygon(prepare_polygon(polygon_of(*outline, light, at, m, options)), at, m, options);
+}
+
+}  // namespace steradian::eval
