@@ -3,6 +3,8 @@
 #pragma once
 
 #include "steradian/area_light.h"  // Ellipse, silhouette
+#include "steradian/material.h"
+#include "steradian/reference.h"  // ShadingPoint
 
 namespace steradian {
 
@@ -20,6 +22,9 @@ struct LobeAxis {
   Vec3d axis;        // unit, from the shading point: the mirrored view
   double width = 1;  // [rad]: 1/sqrt(n + 1) of Phong
 };
+
+// Of a material's lobe at a point.
+LobeAxis lobe_axis(const Material& material, const ShadingPoint& at);
 
 // The polygon with that many vertices (even, 6 to 64) that stands in for an ellipse seen from a point, its corners
 // gathered where the lobe is sharp. 8 serve a Phong lobe to 0.75 % of it, 12 to 0.1 %.

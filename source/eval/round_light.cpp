@@ -27,24 +27,10 @@ RoundLight seen_from(const RoundLight& light, Vec3d position) {
   return seen;
 }
 
-// Angular width [rad] of a lobe, as polygon_for_lobe counts it: that of Phong's exponent n is 1/sqrt(n + 1). A turned
-// half vector turns the reflected direction by twice the angle.
-double width_of(const Material& m) {
-  switch (m.brdf) {
-    case Brdf::lambert: return 1;
-    case Brdf::phong: return 1 / std::sqrt(m.exponent + 1);
-    case Brdf::blinn_phong: return 2 / std::sqrt(m.exponent + 1);
-    case Brdf::ggx:
-    case Brdf::beckmann: return 2 * std::max(m.alpha_x, m.alpha_y);
-  }
-  return 1;
-}
-
 PolygonLight polygon_of(const Ellipse& outline, const RoundLight& light, const ShadingPoint& at, const Material& m,
                         const MethodOptions& options) {
-  const Vec3d mirrored = at.normal * (2 * dot(at.normal, at.view)) - at.view;
   const int vertices = options.quality == Quality::high ? 16 : 12;
-  PolygonLight polygon = polygon_for_lobe(outline, {}, {normalized(mirrored), width_of(m)}, vertices);
+  PolygonLight polygon = polygon_for_lobe(outline, {}, lobe_axis(m, at), vertices);
   polygon.radiance = light.radiance;
   return polygon;
 }

@@ -38,8 +38,11 @@ STERADIAN_INLINE PackKernels::vec2 ggx_closed_form(const SeenLight& seen, const 
   arcs.clear();
   auto clip = k.horizon_clip_begin();
   PackVec3 previous;
+  const PackVec3& view = at.view.v;
+  const PackLobe lobe = {PackVec3(-view.x, -view.y, view.z), PackReal(2.0) * max(at.view.ax, at.view.ay),
+                         quality == Quality::high ? 16 : 12};
   seen.walk(
-      at.frame, at.position, kOutlineCornersOfLobes, [&](const PackVec3& v) { previous = select(at.lit, v, nowhere); },
+      at.frame, at.position, lobe, [&](const PackVec3& v) { previous = select(at.lit, v, nowhere); },
       [&](const PackVec3& v) {
         const PackVec3 next = select(at.lit, v, nowhere);
         clip = k.horizon_clip_edge(clip, previous, next);

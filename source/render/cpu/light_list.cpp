@@ -25,6 +25,28 @@ PackLight from_ellipsoid(const AreaLight& a) {
   return light;
 }
 
+PackLight from_disk(const AreaLight& a) {
+  PackLight light;
+  light.kind = PackLight::Kind::ellipse;
+  light.radiance = single(a.polygon.radiance);
+  light.two_sided = a.polygon.two_sided;
+  light.center = light.plane_point = single(a.center);
+  light.axis_x = single(a.x);
+  light.axis_y = single(a.y);
+  const Vec3d normal = cross(a.x, a.y);
+  light.plane_normal = single(normal / length(normal));  // not a number where it has no area
+  return light;
+}
+
+PackLight from_area_light(const AreaLight& a) {
+  switch (a.shape) {
+    case LightShape::disk: return from_disk(a);
+    case LightShape::sphere: return from_ellipsoid(a);
+    case LightShape::polygon: break;
+  }
+  return prepare_light(prepare_polygon(a.polygon));
+}
+
 PackLight from_punctual(const PunctualLight& p) {
   PackLight light;
   light.kind = p.kind == PunctualKind::point  ? PackLight::Kind::point
@@ -90,6 +112,9 @@ bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
       return std::any_of(light.vertices.begin(), light.vertices.end(),
                          [&](Vec3f v) { return largest_height(v, positions, normals) > 0; });
     }
+    case PackLight::Kind::ellipse:
+      if (!light.two_sided && heights(positions, light.plane_normal, light.plane_point).high <= 0) return false;
+      [[fallthrough]];  // axis_z is 0
     case PackLight::Kind::ellipsoid:
       for (int i = 0; i < 8; ++i) {  // corners of the box around the ellipsoid
         const Vec3f v = light.center + light.axis_x * ((i & 1) != 0 ? 1.0f : -1.0f) +
@@ -125,10 +150,10 @@ std::vector<PackLight> prepare_lights(const Scene& scene) {
   std::vector<PackLight> lights;
   const auto shines = [](Vec3f r) { return r.x > 0 || r.y > 0 || r.z > 0; };
   for (const AreaLight& a : scene.area_lights) {
-    PackLight light = a.shape == LightShape::sphere ? from_ellipsoid(a) : prepare_light(prepare_polygon(a.polygon));
+    PackLight light = from_area_light(a);
     light.area = &a;
     if (light.kind == PackLight::Kind::polygon && light.vertices.empty()) continue;
-    if (!is_finite(light.unit_x) || !shines(light.radiance)) continue;
+    if (!is_finite(light.unit_x) || !is_finite(light.plane_normal) || !shines(light.radiance)) continue;
     lights.push_back(std::move(light));
   }
   for (const PunctualLight& p : scene.punctual_lights) {

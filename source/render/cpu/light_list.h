@@ -9,9 +9,10 @@
 namespace steradian {
 
 struct PackLight {
-  enum class Kind { polygon, ellipsoid, point, spot, directional };
+  enum class Kind { polygon, ellipse, ellipsoid, point, spot, directional };
   Kind kind = Kind::polygon;
-  bool is_area() const { return kind == Kind::polygon || kind == Kind::ellipsoid; }
+  bool is_area() const { return kind == Kind::polygon || is_round(); }
+  bool is_round() const { return kind == Kind::ellipse || kind == Kind::ellipsoid; }
   const AreaLight* area = nullptr;  // what it was made of; null for punctual lights
   PreparedPolygon polygon;          // polygon, in double
 
@@ -20,10 +21,10 @@ struct PackLight {
   // polygon, in walk order
   std::vector<Vec3f> vertices;
   std::vector<std::size_t> contours;
-  Vec3f plane_normal{}, plane_point{};
+  Vec3f plane_normal{}, plane_point{};  // of an ellipse too
   bool two_sided = false;
 
-  // ellipsoid: centre, half axes, and the rows of the matrix that takes it to the unit sphere
+  // ellipse: centre and half axes. ellipsoid: the same, and the rows of the matrix that takes it to the unit sphere
   Vec3f center{}, axis_x{}, axis_y{}, axis_z{};
   Vec3f unit_x{}, unit_y{}, unit_z{};
 

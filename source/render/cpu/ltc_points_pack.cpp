@@ -11,13 +11,14 @@ struct Both {
 
 // One walk for both lobes: a vertex is brought into the shading frame once, and under M^-1 once.
 __attribute__((flatten, noinline)) Both integrate(const SeenLight& seen, const PackKernels::mat3& frame,
-                                                  const PackVec3& p, const PackKernels::LtcMatrix& m) {
+                                                  const PackVec3& p, const PackKernels::LtcMatrix& m,
+                                                  const PackLobe& lobe) {
   PackKernels k;
   auto diffuse = k.polygon_begin();
   auto glossy = k.ltc_begin();
   PackVec3 a, ta;
   seen.walk(
-      frame, p, kOutlineCornersOfLobes,
+      frame, p, lobe,
       [&](const PackVec3& v) {
         a = v;
         ta = k.ltc_direction(m, v);
@@ -52,11 +53,12 @@ STERADIAN_INLINE void run(const PackLight* lights, std::size_t light_count, cons
     const auto scale = look_up(magnitude, tables.magnitude.size, coordinates.x, coordinates.y);
     const auto seen = c > PackReal(0.0);
 
+    const PackLobe lobe = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
     PackReal irradiance(0.0), integral(0.0);
     for (std::size_t l = 0; l < light_count; ++l) {
       const SeenLight light(lights[l], p);
       if (!any_lane(light.lit)) continue;
-      const Both both = integrate(light, frame, p, m);
+      const Both both = integrate(light, frame, p, m, lobe);
       irradiance += select(light.lit, both.irradiance, PackReal(0.0));
       integral += select(light.lit && seen, both.integral, PackReal(0.0));
     }

@@ -22,47 +22,37 @@ STERADIAN_INLINE void walk_contours(const Vec3f* vertices, const std::size_t* co
   }
 }
 
-// Corners of a regular polygon inscribed in the unit circle, 64 of them; fewer by leaving out.
-inline constexpr int kOutlineCorners = 64;
-struct OutlineCorners {
-  float cosine[kOutlineCorners], sine[kOutlineCorners];
-};
-constexpr OutlineCorners outline_corners() {
-  OutlineCorners t{};
-  const double step_cosine = 0.99518472667219693, step_sine = 0.098017140329560604;  // of 2 pi / 64
-  double c = 1, s = 0;
-  for (int i = 0; i < kOutlineCorners; ++i) {
-    t.cosine[i] = static_cast<float>(c);
-    t.sine[i] = static_cast<float>(s);
-    const double next = c * step_cosine - s * step_sine;
-    s = c * step_sine + s * step_cosine;
-    c = next;
-  }
-  return t;
-}
-
-// The outline of an ellipsoid as a polygon of its area, in walk order. corners: 64 or 16.
-template <class Start, class Edge>
-STERADIAN_INLINE void walk_outline(const PackKernels::EllipsoidOutline& outline, int corners,
-                                   const PackKernels::mat3& frame, Start start, Edge edge) {
-  static constexpr OutlineCorners kCorners = outline_corners();
+// An outline in the shading frame, in units of its distance: squares of squares stay in the range of float.
+STERADIAN_INLINE PackKernels::Ellipse outline_in_frame(const PackKernels::EllipsoidOutline& outline,
+                                                       const PackKernels::mat3& frame) {
   PackKernels k;
-  // What gives a regular polygon the area of its circle: sqrt(2 pi / (K sin(2 pi / K))).
-  const double scale = corners == kOutlineCorners ? 1.000803771517661 : 1.0130015562559769;
-  const int stride = kOutlineCorners / corners;
-  const PackVec3 c = transform_transposed(frame, outline.center);
-  const PackVec3 a = transform_transposed(frame, outline.axis_a) * PackReal(scale);
-  const PackVec3 b0 = transform_transposed(frame, outline.axis_b) * PackReal(scale);
-  const PackVec3 b = select(dot(c, cross(a, b0)) < PackReal(0.0), -b0, b0);
-  const auto corner = [&](int i) {
-    return k.polygon_direction(c + a * broadcast(kCorners.cosine[i]) + b * broadcast(kCorners.sine[i]));
-  };
-  start(corner(kOutlineCorners - stride));
-  for (int i = 0; i < kOutlineCorners; i += stride) edge(corner(i));
+  const PackReal size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) +
+                         dot(outline.axis_b, outline.axis_b);
+  const PackReal unit = inversesqrt(max(size2, PackReal(1.0e-30)));
+  return k.ellipse_prepare(transform_transposed(frame, outline.center) * unit,
+                           transform_transposed(frame, outline.axis_a) * unit,
+                           transform_transposed(frame, outline.axis_b) * unit);
 }
 
-// For glossy lobes: 16 corners leave 0.06 % of the full GGX lobe (docs/ggx.md).
-inline constexpr int kOutlineCornersOfLobes = 16;
+// The outline as a polygon of its area whose corners gather where the lobe is sharp, in walk order.
+//
+//   axis, width  of the lobe, in the frame: see kernels/ellipse.glsl, ellipse_fan_concentrated
+template <class Start, class Edge>
+STERADIAN_INLINE void walk_outline_about(const PackKernels::EllipsoidOutline& outline, int corners,
+                                         const PackKernels::mat3& frame, const PackVec3& axis, const PackReal& width,
+                                         Start start, Edge edge) {
+  PackKernels k;
+  const auto fan = k.ellipse_fan_concentrated(outline_in_frame(outline, frame), axis, width);
+  start(k.polygon_direction(k.ellipse_fan_corner(fan, corners - 1, corners)));
+  for (int i = 0; i < corners; ++i) edge(k.polygon_direction(k.ellipse_fan_corner(fan, i, corners)));
+}
+
+// A lobe as the polygons of round lights need it: its axis in the shading frame, and its width [rad].
+struct PackLobe {
+  PackVec3 axis;
+  PackReal width;
+  int corners;  // of the polygon: 12, or 16 for high quality (docs/ggx.md)
+};
 
 // An area light from the points of a pack.
 struct SeenLight {
@@ -84,32 +74,46 @@ struct SeenLight {
       lit = outline.outside;
       behind = !(p.x <= p.x);  // nowhere
     } else {
+      outline.center = broadcast(light.center) - p;
+      outline.axis_a = broadcast(light.axis_x);
+      outline.axis_b = broadcast(light.axis_y);
       const PackReal height = dot(p - broadcast(light.plane_point), broadcast(light.plane_normal));
       behind = height < PackReal(0.0);
       lit = light.two_sided ? behind || height > PackReal(0.0) : height > PackReal(0.0);
+      if (light.kind == PackLight::Kind::ellipse) behind = !(p.x <= p.x);  // its outline is walked as it is seen
     }
   }
 
-  // corners: of the polygon that stands for an ellipsoid, 64 or 16.
+  // Contours of a polygon; of a round light, the polygon that stands in for it under the lobe.
   template <class Start, class Edge>
-  STERADIAN_INLINE void walk(const PackKernels::mat3& frame, const PackVec3& p, int corners, Start start,
+  STERADIAN_INLINE void walk(const PackKernels::mat3& frame, const PackVec3& p, const PackLobe& lobe, Start start,
                              Edge edge) const {
-    if (light.kind == PackLight::Kind::ellipsoid)
-      walk_outline(outline, corners, frame, start, edge);
+    if (light.is_round())
+      walk_outline_about(outline, lobe.corners, frame, lobe.axis, lobe.width, start, edge);
     else
       walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, frame, p, start, edge);
   }
 };
 
+// Irradiance of a round light: the form factor of its ellipse, exact.
+__attribute__((flatten, noinline)) inline PackReal round_light_irradiance(const SeenLight& seen,
+                                                                          const PackKernels::mat3& frame) {
+  PackKernels k;
+  return select(seen.lit, k.ellipse_irradiance_vector(outline_in_frame(seen.outline, frame)).z, PackReal(0.0));
+}
+
 // Irradiance of radiance 1, in [0, pi]. A function of its own: g++ flattens nothing that reaches it through a caller
 // that is itself always inlined.
 __attribute__((flatten, noinline)) inline PackReal area_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
                                                 const PackVec3& p) {
+  if (seen.light.is_round()) return round_light_irradiance(seen, frame);
   PackKernels k;
   auto walk = k.polygon_begin();
   PackVec3 previous;
-  seen.walk(
-      frame, p, kOutlineCorners, [&](const PackVec3& v) { previous = v; },
+  const PackLight& light = seen.light;
+  walk_contours(
+      light.vertices.data(), light.contours.data(), light.contours.size() - 1, frame, p,
+      [&](const PackVec3& v) { previous = v; },
       [&](const PackVec3& v) {
         walk = k.polygon_add_edge(walk, previous, v);
         previous = v;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "reference/lobe.h"
@@ -9,6 +10,7 @@
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/phong.h"
+#include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
 #include "steradian/ltc.h"
 
@@ -63,16 +65,28 @@ ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) {
           normalized(static_cast<Vec3d>(get(tile.view, i)))};
 }
 
-// The light as the point sees it: spheres as the polygon of their outline. No vertices: it does not shine there.
-PreparedPolygon polygon_at(const PackLight& light, Vec3d position) {
+// The ellipse that a point sees of a round light, if it shines there.
+std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
+  if (light.shape == LightShape::sphere) return silhouette(light.center, light.x, light.y, light.z, position);
+  const double height = dot(position - light.center, cross(light.x, light.y));
+  if (height > 0 || (height < 0 && light.polygon.two_sided)) return Ellipse{light.center, light.x, light.y};
+  return {};
+}
+
+// The light as the point sees it: round ones as a polygon about the lobe. No vertices: it does not shine there.
+PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const Material& material, Quality quality) {
   if (light.kind == PackLight::Kind::polygon) return light.polygon;
-  const PolygonLight seen = polygon_seen_from(*light.area, position);
-  return seen.vertices.empty() ? PreparedPolygon{} : prepare_polygon(seen);
+  const std::optional<Ellipse> outline = outline_at(*light.area, at.position);
+  if (!outline) return {};
+  PolygonLight seen =
+      polygon_for_lobe(*outline, at.position, lobe_axis(material, at), quality == Quality::high ? 16 : 12);
+  seen.radiance = light.area->polygon.radiance;
+  return prepare_polygon(seen);
 }
 
 // One lobe of one point under an area light, by the library's float functions.
 Vec3d point_radiance(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
-  const PreparedPolygon polygon = polygon_at(light, at.position);
+  const PreparedPolygon polygon = polygon_at(light, at, material, method.quality);
   if (polygon.vertices.empty()) return {};
   switch (material.brdf) {
     case Brdf::lambert: return {};
