@@ -9,8 +9,6 @@
 namespace steradian::eval {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
-
 // The light made ready, whatever its type; the errors are placed at the query's key.
 PreparedPolygon prepare(const PolygonLight& light) {
   try {
@@ -30,19 +28,18 @@ LobeAnswer point_answer(const PointLight& light, const ShadingPoint& at, const M
 }
 
 // Adds what one material contributes to the derivatives. Throws Error for lobes and methods that have none.
-void add_derivatives(Answer& answer, const LightDerivatives& irradiance, const PolygonLight& light, const Material& m,
-                     Method method) {
-  if (m.brdf != Brdf::lambert || method != Method::exact)
+void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoint& at, const Material& m, Method method,
+                     Quality quality) {
+  const bool served = (m.brdf == Brdf::lambert && method == Method::exact) ||
+                      (m.brdf == Brdf::phong && method == Method::series) ||
+                      (m.brdf == Brdf::ggx && method == Method::closed_form);
+  if (!served)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by this method",
-                "so far: lambert with method exact");
-  const Vec3d scale = m.albedo * light.radiance / kPi;
-  answer.by_vertex.resize(irradiance.vertices.size());
-  for (std::size_t i = 0; i < irradiance.vertices.size(); ++i) {
-    const Vec3d d = irradiance.vertices[i];
-    answer.by_vertex[i][0] += d * scale.x;
-    answer.by_vertex[i][1] += d * scale.y;
-    answer.by_vertex[i][2] += d * scale.z;
-  }
+                "served are lambert with exact, phong with series and ggx with closed-form");
+  const RadianceDerivatives d = radiance_derivatives(light, at, m, quality);
+  answer.by_vertex.resize(d.size());
+  for (std::size_t i = 0; i < d.size(); ++i)
+    for (std::size_t channel = 0; channel < 3; ++channel) answer.by_vertex[i][channel] += d[i][channel];
 }
 
 class Sum {
@@ -84,6 +81,7 @@ Answer evaluate(const Query& query) {
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
   if (query.derivatives && polygon == nullptr)
+<<<<<<< HEAD
     throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
   LightDerivatives irradiance;
   if (query.derivatives) irradiance = polygon_irradiance_derivatives(*polygon, at.position, at.normal);
@@ -92,6 +90,13 @@ Answer evaluate(const Query& query) {
   for (const Material& material : query.materials) {
     const MethodEntry& entry = resolve(query.method, material, query.precision, query.quality);
     if (query.derivatives) add_derivatives(sum.answer(), irradiance, *polygon, material, entry.method);
+=======
+    throw Error("derivatives", "a point light has no vertices", "leave the key out");
+  Sum sum;
+  for (const Material& material : query.materials) {
+    const MethodEntry& entry = resolve(query.method, material, query.precision);
+    if (query.derivatives) add_derivatives(sum.answer(), *polygon, at, material, entry.method, query.quality);
+>>>>>>> parity
     if (!seen)
       sum.add(entry, LobeAnswer{});
     else if (polygon != nullptr)

@@ -1,6 +1,11 @@
 #include "steradian/polygon_derivatives.h"
 
+#include <numbers>
+
+#include "ggx/clipped_walk.h"
+#include "moment/phong_lobe.h"
 #include "steradian/dual.h"
+#include "steradian/error.h"
 
 namespace steradian {
 namespace {
@@ -63,26 +68,80 @@ VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d pos
   return result;
 }
 
-VertexDerivatives solid_angle_by_vertices(const PreparedPolygon& light, Vec3d position, bool reversed) {
+// Of any integral over the whole outline, in walk order, in the frame's coordinates turned back to the world's.
+//
+//   integral  operator()<S>(direction): Real<S>; direction(v) is that of the light's own vertex v, told by its address
+template <class Integral>
+VertexDerivatives by_vertices(const PreparedPolygon& light, Vec3d position, const Frame& frame, const Integral& integral) {
   std::vector<double> x;
-  for (const Vec3d& v : light.vertices) x.insert(x.end(), {v.x - position.x, v.y - position.y, v.z - position.z});
+  for (const Vec3d& v : light.vertices) {
+    const Vec3d local = frame.to_local(v - position);
+    x.insert(x.end(), {local.x, local.y, local.z});
+  }
   const Gradient g = gradient(x, [&]<class S>(const std::vector<Real<S>>& coordinates) {
+    return integral.template operator()<S>([&](const Vec3d& v) {
+      const std::size_t i = 3 * static_cast<std::size_t>(&v - light.vertices.data());
+      return Kernels<S>().polygon_direction({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+    });
+  });
+  VertexDerivatives result;
+  for (std::size_t i = 0; i < g.derivative.size(); i += 3)
+    result.push_back(frame.to_world({g.derivative[i], g.derivative[i + 1], g.derivative[i + 2]}));
+  return result;
+}
+
+VertexDerivatives solid_angle_by_vertices(const PreparedPolygon& light, Vec3d position, bool reversed) {
+  const auto solid_angle = [&]<class S>(const auto& direction) {
     Kernels<S> k;
-    const auto direction = [&](std::size_t i) {
-      return k.polygon_direction({coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
-    };
-    auto walk = k.solid_angle_begin(direction(0));
+    const Vec3d* v = light.vertices.data();
+    auto walk = k.solid_angle_begin(direction(v[0]));
     for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
       std::size_t a = light.contours[c + 1] - 1;
       for (std::size_t b = light.contours[c]; b < light.contours[c + 1]; a = b++)
-        walk = k.solid_angle_add_edge(walk, direction(a), direction(b));
+        walk = k.solid_angle_add_edge(walk, direction(v[a]), direction(v[b]));
     }
     return k.solid_angle_finish(walk, Mask<S>(reversed));
-  });
-  VertexDerivatives result;
-  for (std::size_t i = 0; i < light.vertices.size(); ++i)
-    result.push_back({g.derivative[3 * i], g.derivative[3 * i + 1], g.derivative[3 * i + 2]});
-  return result;
+  };
+  return by_vertices(light, position, Frame::from_normal({0, 0, 1}), solid_angle);
+}
+
+VertexDerivatives phong_by_vertices(const PreparedPolygon& light, const ShadingPoint& at, double n, int side,
+                                    PhongQuality quality) {
+  const Frame frame = Frame::from_normal(at.normal);
+  const auto series = [&]<class S>(const auto& direction) {
+    Kernels<S> k;
+    const PhongLobe<S> lobe(n, 0.0);
+    const auto r = k.phong_mirror(to_kernel<S>(frame.to_local(at.view)));
+    const Real<S> sum = sum_over_clipped_edges<S>(light, direction, [&](const auto& a, const auto& b) {
+      return quality == PhongQuality::high ? lobe.template share<PhongMethod::series, PhongQuality::high>(a, b, r)
+                                           : lobe.template share<PhongMethod::series, PhongQuality::normal>(a, b, r);
+    });
+    return k.moment_phong_radiance(sum, Mask<S>(side < 0));
+  };
+  return by_vertices(light, at.position, frame, series);
+}
+
+// Of one channel with the reflectances f0 and f90, for radiance 1.
+VertexDerivatives ggx_by_vertices(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, int side,
+                                  Quality quality, double f0, double f90) {
+  const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
+  const auto closed_form = [&]<class S>(const auto& direction) {
+    Kernels<S> k;
+    const auto view = k.ggx_view(to_kernel<S>(frame.to_local(at.view)), m.alpha_x, m.alpha_y);
+    std::vector<typename Kernels<S>::ConicArc> edges;
+    typename Kernels<S>::vec3 e(0.0, 0.0, 0.0);
+    sum_over_clipped_edges<S>(light, direction, [&](const auto& a, const auto& b) {
+      edges.push_back(k.ggx_edge(view, a, b));
+      e = e + k.conic_vector(edges.back());
+      return Real<S>(0.0);
+    });
+    const Real<S> smith(m.shadowing ? 1.0 : 0.0), facing(side);
+    if (quality == Quality::draft) return k.ggx_radiance(k.ggx_draft(view, e, smith, facing), f0, f90);
+    auto c = k.ggx_cubature_begin(view, e, smith, facing);
+    for (const auto& edge : edges) c = k.ggx_cubature_edge(c, edge, quality == Quality::high ? 2 : 0);
+    return k.ggx_radiance(k.ggx_cubature_finish(c), f0, f90);
+  };
+  return by_vertices(light, at.position, frame, closed_form);
 }
 
 // Point and normal move as the vertices do the other way: the integral sees only vertices relative to the point, turned
@@ -132,6 +191,37 @@ LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec
   if (side == 0) return no_light(stored);
   return gather(stored, light, position, {}, polygon_solid_angle(light, position),
                 solid_angle_by_vertices(light, position, side < 0), 1);
+}
+
+RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& m,
+                                         Quality quality) {
+  if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
+    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
+  RadianceDerivatives result(stored_count(stored));
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = lit_side(light, at.position);
+  if (side == 0 || !(dot(at.view, at.normal) > 0)) return result;
+  const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
+  const auto add = [&](std::size_t channel, const VertexDerivatives& by_vertex, double scale) {
+    for (std::size_t i = 0; i < by_vertex.size(); ++i) result[stored_index[i]][channel] += by_vertex[i] * scale;
+  };
+  const Vec3d& radiance = light.radiance;
+  if (m.brdf == Brdf::ggx) {
+    add(0, ggx_by_vertices(light, at, m, side, quality, m.f0.x, m.f90.x), radiance.x);
+    add(1, ggx_by_vertices(light, at, m, side, quality, m.f0.y, m.f90.y), radiance.y);
+    add(2, ggx_by_vertices(light, at, m, side, quality, m.f0.z, m.f90.z), radiance.z);
+    return result;
+  }
+  const bool lambert = m.brdf == Brdf::lambert;
+  const PhongQuality series = quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
+  const VertexDerivatives by_vertex =
+      lambert ? irradiance_by_vertices(light, at.position, Frame::from_normal(at.normal))
+              : phong_by_vertices(light, at, m.exponent, side, series);
+  const Vec3d scale = m.albedo * radiance * (lambert ? side / std::numbers::pi : 1.0);
+  add(0, by_vertex, scale.x);
+  add(1, by_vertex, scale.y);
+  add(2, by_vertex, scale.z);
+  return result;
 }
 
 }  // namespace steradian
