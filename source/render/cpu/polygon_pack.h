@@ -74,13 +74,15 @@ struct SeenLight {
       lit = outline.outside;
       behind = !(p.x <= p.x);  // nowhere
     } else {
-      outline.center = broadcast(light.center) - p;
-      outline.axis_a = broadcast(light.axis_x);
-      outline.axis_b = broadcast(light.axis_y);
       const PackReal height = dot(p - broadcast(light.plane_point), broadcast(light.plane_normal));
       behind = height < PackReal(0.0);
       lit = light.two_sided ? behind || height > PackReal(0.0) : height > PackReal(0.0);
-      if (light.kind == PackLight::Kind::ellipse) behind = !(p.x <= p.x);  // its outline is walked as it is seen
+      if (light.kind == PackLight::Kind::ellipse) {
+        outline.center = broadcast(light.center) - p;
+        outline.axis_a = broadcast(light.axis_x);
+        outline.axis_b = broadcast(light.axis_y);
+        behind = !(p.x <= p.x);  // its outline is walked as it is seen
+      }
     }
   }
 
