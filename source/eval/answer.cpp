@@ -81,22 +81,11 @@ Answer evaluate(const Query& query) {
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
   if (query.derivatives && polygon == nullptr)
-<<<<<<< HEAD
     throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
-  LightDerivatives irradiance;
-  if (query.derivatives) irradiance = polygon_irradiance_derivatives(*polygon, at.position, at.normal);
-  if (!seen) irradiance.vertices.assign(irradiance.vertices.size(), Vec3d{});
   Sum sum;
   for (const Material& material : query.materials) {
     const MethodEntry& entry = resolve(query.method, material, query.precision, query.quality);
-    if (query.derivatives) add_derivatives(sum.answer(), irradiance, *polygon, material, entry.method);
-=======
-    throw Error("derivatives", "a point light has no vertices", "leave the key out");
-  Sum sum;
-  for (const Material& material : query.materials) {
-    const MethodEntry& entry = resolve(query.method, material, query.precision);
     if (query.derivatives) add_derivatives(sum.answer(), *polygon, at, material, entry.method, query.quality);
->>>>>>> parity
     if (!seen)
       sum.add(entry, LobeAnswer{});
     else if (polygon != nullptr)
