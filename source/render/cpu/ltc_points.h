@@ -33,7 +33,7 @@ struct SeenPoints {
 
 // What light of radiance 1 does to every point; sums over the lights.
 struct LtcSums {
-  float* irradiance;  // in [0, pi] for one light
+  float* irradiance;  // in [0, pi] for one light; null: not wanted
   float* specular;    // for F0 = 1 and F90 = 1: n_A times the lobe's integral
   float* grazing;     // f_A times the same: what F90 - F0 multiplies
 };

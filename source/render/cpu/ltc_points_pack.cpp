@@ -9,31 +9,50 @@ struct Both {
   PackReal irradiance, integral;
 };
 
-// One walk for both lobes: a vertex is brought into the shading frame once, and under M^-1 once.
-__attribute__((flatten, noinline)) Both integrate(const SeenLight& seen, const PackKernels::mat3& frame,
-                                                  const PackVec3& p, const PackKernels::LtcMatrix& m,
-                                                  const PackLobe& lobe) {
+// One walk for both lobes: a vertex is brought into the shading frame once, and under M^-1 once. walk(start, edge) calls
+// back as walk_contours does.
+template <bool with_diffuse, class Walk>
+STERADIAN_INLINE Both integrate(const PackKernels::LtcMatrix& m, const PackKernels::mask& behind, Walk walk) {
   PackKernels k;
   auto diffuse = k.polygon_begin();
   auto glossy = k.ltc_begin();
   PackVec3 a, ta;
-  seen.walk(
-      frame, p, lobe,
+  walk(
       [&](const PackVec3& v) {
         a = v;
         ta = k.ltc_direction(m, v);
       },
       [&](const PackVec3& b) {
         const PackVec3 tb = k.ltc_direction(m, b);
-        diffuse = k.polygon_add_edge(diffuse, a, b);
+        if constexpr (with_diffuse) diffuse = k.polygon_add_edge(diffuse, a, b);
         glossy = k.ltc_add_edge(glossy, m, a, b, ta, tb);
         a = b;
         ta = tb;
       });
-  return {k.polygon_irradiance(diffuse, seen.behind), k.ltc_integral(glossy, seen.behind)};
+  return {with_diffuse ? k.polygon_irradiance(diffuse, behind) : PackReal(0.0), k.ltc_integral(glossy, behind)};
 }
 
-template <class Decode>
+// Two functions of their own, so that each holds one walk in registers.
+template <bool with_diffuse>
+__attribute__((flatten, noinline)) Both integrate_polygon(const SeenLight& seen, const PackKernels::mat3& frame,
+                                                          const PackVec3& p, const PackKernels::LtcMatrix& matrix) {
+  const PackLight& light = seen.light;
+  const PackKernels::LtcMatrix m = matrix;
+  return integrate<with_diffuse>(m, seen.behind, [&](auto start, auto edge) {
+    walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, frame, p, start, edge);
+  });
+}
+
+template <bool with_diffuse>
+__attribute__((flatten, noinline)) Both integrate_round(const SeenLight& seen, const PackKernels::mat3& frame,
+                                                        const PackKernels::LtcMatrix& matrix, const PackLobe& lobe) {
+  const PackKernels::LtcMatrix m = matrix;
+  return integrate<with_diffuse>(m, seen.behind, [&](auto start, auto edge) {
+    walk_outline_about(seen.outline, lobe.corners, frame, lobe.axis, lobe.width, start, edge);
+  });
+}
+
+template <bool with_diffuse, class Decode>
 STERADIAN_INLINE void run(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
                           const LtcPackTables& tables, const LtcSums& sums, Decode decode) {
   PackKernels k;
@@ -58,11 +77,12 @@ STERADIAN_INLINE void run(const PackLight* lights, std::size_t light_count, cons
     for (std::size_t l = 0; l < light_count; ++l) {
       const SeenLight light(lights[l], p);
       if (!any_lane(light.lit)) continue;
-      const Both both = integrate(light, frame, p, m, lobe);
+      const Both both = light.light.is_round() ? integrate_round<with_diffuse>(light, frame, m, lobe)
+                                               : integrate_polygon<with_diffuse>(light, frame, p, m);
       irradiance += select(light.lit, both.irradiance, PackReal(0.0));
       integral += select(light.lit && seen, both.integral, PackReal(0.0));
     }
-    store(sums.irradiance + i, irradiance);
+    if (with_diffuse) store(sums.irradiance + i, irradiance);
     store(sums.specular + i, scale.x * integral);
     store(sums.grazing + i, scale.y * integral);
   }
@@ -70,15 +90,24 @@ STERADIAN_INLINE void run(const PackLight* lights, std::size_t light_count, cons
 
 __attribute__((flatten)) void classic(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
                                       const LtcPackTables& tables, const LtcSums& sums) {
-  run(lights, light_count, points, tables, sums,
-      [](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
+  const auto decode = [](const PackKernels::vec4& t, PackReal, const PackVec3&) {
+    return PackKernels{}.ltc_from_classic(t);
+  };
+  if (sums.irradiance != nullptr)
+    run<true>(lights, light_count, points, tables, sums, decode);
+  else
+    run<false>(lights, light_count, points, tables, sums, decode);
 }
 
 __attribute__((flatten)) void compact(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
                                       const LtcPackTables& tables, const LtcSums& sums) {
-  run(lights, light_count, points, tables, sums, [](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
+  const auto decode = [](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
     return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
-  });
+  };
+  if (sums.irradiance != nullptr)
+    run<true>(lights, light_count, points, tables, sums, decode);
+  else
+    run<false>(lights, light_count, points, tables, sums, decode);
 }
 
 }  // namespace

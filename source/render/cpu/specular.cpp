@@ -149,11 +149,11 @@ bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, cons
     return true;
   }
   if (method_.ggx != LobeMethod::ltc && method_.ggx != LobeMethod::ltc_compact) return false;
-  alignas(64) TilePlane roughness, irradiance;
+  alignas(64) TilePlane roughness;
   for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(lobe.alpha_x[i]);
   const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
   const LtcPackTable& table = ltc_pack_table_for(active_simd());
-  const LtcSums sums = {irradiance.data(), plain, fresnel};
+  const LtcSums sums = {nullptr, plain, fresnel};
   (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(&light, 1, seen, tables_, sums);
   return true;
 }
