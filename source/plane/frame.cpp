@@ -72,7 +72,7 @@ struct Entry {
 
 struct Level {
   std::vector<Entry> entries;
-  std::vector<int> blockers;
+  BlockerList blockers;
   std::vector<int> bodies;  // whose boxes touch the tile
   std::vector<int> general; // general lights in range
 };
@@ -99,7 +99,7 @@ class Worker {
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
       const PlaneEmitter& emitter = frame_.emitters[e];
       if (frame_.general[static_cast<std::size_t>(emitter.body)] != 0) continue;
-      filter(static_cast<int>(e), frame_.nearby[e].data(), frame_.nearby[e].size(), tile, top);
+      filter(static_cast<int>(e), frame_.nearby, frame_.first_nearby[e], frame_.first_nearby[e + 1], tile, top);
     }
     for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
       if (touches(world_.boxes[i], tile)) top.bodies.push_back(static_cast<int>(i));
@@ -126,8 +126,8 @@ class Worker {
     return length(gap) < world_.scene.bodies[body].light->range;
   }
 
-  // Appends the emitter with the blockers that touch the hull of it and the tile, unless it cannot be seen.
-  void filter(int index, const int* blockers, std::size_t count, const TileArea& tile, Level& to) const {
+  // Appends the emitter with those of from[begin, end) that touch the hull of it and the tile, unless it cannot be seen.
+  void filter(int index, const BlockerList& from, std::size_t begin, std::size_t end, const TileArea& tile, Level& to) {
     const PlaneEmitter& e = frame_.emitters[static_cast<std::size_t>(index)];
     const double half = tile.radius, bound = e.bound;
     const Vec2d axis = e.center - tile.center;
@@ -137,27 +137,30 @@ class Worker {
       const Vec2d n = e.normal;
       if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return;
     }
-    // The hull of two circles, seen across the axis at the share t of the way: its slanted sides are (half + t growth)
-    // over the cosine of their slope away, and a circle's distance to them shrinks by that cosine too.
+    // The hull's slanted sides are (half + t growth) over the cosine of their slope away from the axis, and a circle's
+    // distance to them shrinks by that cosine too. Where one circle nearly holds the other: the larger one's width.
     const double growth = bound - half;
     const double cosine2 = length2 > growth * growth ? 1 - growth * growth / length2 : 0;
-    const double widen = cosine2 > 0.04 ? 1 / std::sqrt(cosine2) : 0, widest = std::max(half, bound);
-    const double inverse = length2 > 0 ? 1 / length2 : 0;
-    const std::size_t begin = to.blockers.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const BlockerBound& b = frame_.bounds[static_cast<std::size_t>(blockers[i])];
-      const Vec2d v = Vec2d{b.x, b.y} - tile.center;
-      const double t = std::clamp(dot(v, axis) * inverse, 0.0, 1.0);
-      const Vec2d off = v - axis * t;
-      const double limit = widen > 0 ? (half + t * growth + b.radius) * widen : widest + b.radius;
-      if (dot(off, off) > limit * limit) continue;
-      if (b.convex && b.radius > 0.7 * (half + t * growth) && hides(blockers[i], e, tile)) {
-        to.blockers.resize(begin);
+    HullOfCircles hull;
+    hull.x = static_cast<float>(tile.center.x - world_.scene.origin.x);
+    hull.y = static_cast<float>(tile.center.y - world_.scene.origin.y);
+    hull.axis_x = static_cast<float>(axis.x);
+    hull.axis_y = static_cast<float>(axis.y);
+    hull.inverse_length2 = length2 > 0 ? static_cast<float>(1 / length2) : 0;
+    const bool slanted = cosine2 > 0.04;
+    hull.base = static_cast<float>(slanted ? half : std::max(half, bound));
+    hull.growth = slanted ? static_cast<float>(growth) : 0;
+    hull.widen = slanted ? static_cast<float>(1 / std::sqrt(cosine2)) : 1;
+
+    to.blockers.reserve_more(end - begin);
+    if (hiders_.size() < end - begin) hiders_.resize(2 * (end - begin));
+    const std::size_t first = to.blockers.size, hiders = cull_.cull(hull, from, begin, end, to.blockers, hiders_.data());
+    for (std::size_t i = 0; i < hiders; ++i)
+      if (hides(hiders_[i], e, tile)) {
+        to.blockers.size = first;
         return;
       }
-      to.blockers.push_back(blockers[i]);
-    }
-    to.entries.push_back({index, begin, to.blockers.size()});
+    to.entries.push_back({index, first, to.blockers.size});
   }
 
   bool hides(int blocker, const PlaneEmitter& e, const TileArea& tile) const {
@@ -180,7 +183,7 @@ class Worker {
         to.blockers.clear();
         to.bodies.clear();
         to.general.clear();
-        for (const Entry& e : from.entries) filter(e.emitter, from.blockers.data() + e.begin, e.end - e.begin, tile, to);
+        for (const Entry& e : from.entries) filter(e.emitter, from.blockers, e.begin, e.end, tile, to);
         for (int i : from.bodies)
           if (touches(world_.boxes[static_cast<std::size_t>(i)], tile)) to.bodies.push_back(i);
         for (int i : from.general)
@@ -197,7 +200,7 @@ class Worker {
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
     for (const Entry& e : level.entries) {
-      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.data() + e.begin, e.end - e.begin, tile);
+      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin, tile);
       if (!visible) continue;
       table_.add_light(light, buffer_);
       ++tile_lights;
@@ -283,6 +286,8 @@ class Worker {
   const TileTable& table_;
   Picture& picture_;
   LeafBuilder leaf_;
+  const CullTable& cull_ = cull_table_for(active_simd());
+  std::vector<int> hiders_;
   Level levels_[kLevels];
   TileBuffer buffer_;
   int inside_[kTilePixels];

@@ -43,10 +43,11 @@ class Preparation {
       if (world_.scene.bodies[i].light) add_emitters(i);
     build_bins();
     interior();
-    frame_.nearby.resize(frame_.emitters.size());
-    for (std::size_t e = 0; e < frame_.emitters.size(); ++e) find_nearby(e);
-    for (const PlaneBlocker& b : frame_.blockers)
-      frame_.bounds.push_back({b.center.x, b.center.y, b.bound, b.kind == PlaneBlocker::Kind::convex});
+    frame_.first_nearby.push_back(0);
+    for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
+      find_nearby(e);
+      frame_.first_nearby.push_back(frame_.nearby.size);
+    }
     for (char g : frame_.general) frame_.any_general = frame_.any_general || g != 0;
     return std::move(frame_);
   }
@@ -178,6 +179,10 @@ class Preparation {
     for (const PlaneBlocker& b : frame_.blockers) box.add(b.center), largest_ = std::max(largest_, b.bound);
     if (frame_.blockers.empty()) box.add({0, 0});
     low_ = box.low;
+    const Vec2d origin = world_.scene.origin;
+    const double extent = std::max({std::fabs(box.low.x - origin.x), std::fabs(box.low.y - origin.y), std::fabs(box.high.x - origin.x),
+                                    std::fabs(box.high.y - origin.y), world_.scene.width, world_.scene.height});
+    slack_ = 32 * 0x1p-24 * extent;
     cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
     bins_.resize(33 * 33);
     for (std::size_t i = 0; i < frame_.blockers.size(); ++i) bins_[bin(frame_.blockers[i].center)].push_back(static_cast<int>(i));
@@ -233,8 +238,7 @@ class Preparation {
 
   void find_nearby(std::size_t index) {
     const PlaneEmitter e = frame_.emitters[index];
-    std::vector<int>& list = frame_.nearby[index];
-    std::vector<int> overlapping;
+    std::vector<int> list, overlapping;
     // What is further from the light than its range stands behind the last lit point.
     for_each_within(e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
       const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(k)];
@@ -253,6 +257,13 @@ class Preparation {
         frame_.general[static_cast<std::size_t>(e.body)] = 1;
         return;
       }
+    for (int k : list) {
+      const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(k)];
+      const Vec2d center = b.center - world_.scene.origin;
+      const auto radius = static_cast<float>(b.bound + slack_);
+      frame_.nearby.add(static_cast<float>(center.x), static_cast<float>(center.y), radius,
+                        b.kind == PlaneBlocker::Kind::convex ? radius : -1.0f, k);
+    }
   }
 
   bool overlaps(const PlaneEmitter& e, const PlaneBlocker& b) const {
@@ -364,6 +375,7 @@ class Preparation {
   std::vector<std::vector<int>> bins_;
   Vec2d low_;
   double cell_ = 1, largest_ = 0;
+  double slack_ = 0;  // of circles in float: a few roundings of the scene's size
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "plane/cull.h"
 #include "plane/world.h"
 
 namespace steradian {
@@ -23,12 +24,6 @@ struct PlaneEmitter {
   double bound = 0;
   Vec2d normal;            // edge: unit, to the lit side
   double range = 0;
-};
-
-// What culling reads of a blocker, packed tight: most of a frame's list work is this.
-struct BlockerBound {
-  double x, y, radius;
-  bool convex;
 };
 
 struct PlaneBlocker {
@@ -51,9 +46,9 @@ struct FrameScene {
   std::vector<char> general;              // by body: lights that only the general method serves
   bool any_general = false;
   std::vector<PlaneBlocker> blockers;     // of all bodies, then those that stand in for overlapping ones
-  std::vector<BlockerBound> bounds;       // by blocker
   std::vector<Vec2d> vertices;
-  std::vector<std::vector<int>> nearby;   // by emitter: blockers within its range, private ones too
+  BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
+  std::vector<std::size_t> first_nearby;  // by emitter, and one more
   std::vector<std::vector<const Curve*>> interior;  // by body, for lights: their own curves and those that may be inside
 };
 
