@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 namespace steradian {
 namespace {
@@ -123,55 +124,70 @@ void LeafBuilder::add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const
   }
   if (side == Side::behind) return;
   const Vec2d* v = &frame_.vertices[b.first];
-  const auto emit = [&](Vec2d p, Vec2d q, bool in_order) {
-    const bool p_low = hull_.beyond_low(p), q_low = hull_.beyond_low(q);
-    const bool p_high = hull_.beyond_high(p), q_high = hull_.beyond_high(q);
-    if ((p_low && q_low) || (p_high && q_high)) return;  // passes the hull by
-    const Vec2d pl = p - tile.center, ql = q - tile.center;
-    if (in_order && side == Side::front) {
-      // In front of the light and seen in order: where its begin lies beyond the hull, only its end counts.
-      if (p_low && q_high) {
-        hidden_ = true;
-        return;
-      }
-      if (p_low && ahead(e, q, tile)) return lows_.push_back({f(ql.x), f(ql.y)});
-      if (q_high && ahead(e, p, tile)) return highs_.push_back({f(pl.x), f(pl.y)});
-    }
-    TileItem item{f(pl.x), f(pl.y), f(ql.x), f(ql.y), f(depth.normal.x), f(depth.normal.y),
-                  f(depth.offset + dot(depth.normal, tile.center))};
-    if (side == Side::mixed)
-      deep_.push_back(item);
-    else if (in_order && ahead(e, p, tile) && ahead(e, q, tile))
-      ordered_.push_back(item);
-    else
-      chords_.push_back(item);
-  };
   // How much of the tile sees an edge's outer face: 1 all, -1 nothing, 0 a part.
   const auto facing = [&](std::size_t k) {
     const Vec2d p = v[k], q = v[(k + 1) % b.count], out{q.y - p.y, p.x - q.x};
     const double at = dot(out, tile.center - p), reach = extent(out, tile);
     return at > reach ? 1 : at < -reach ? -1 : 0;
   };
-  if (b.count == 2) {
-    const int face = facing(0);
-    if (face >= 0)
-      emit(v[1], v[0], face > 0);
-    else
-      emit(v[0], v[1], true);
-    return;
-  }
   int faces[8];
-  for (std::size_t k = 0; k < b.count; ++k) faces[k] = facing(k);
-  // The chord under the edges that all of the tile sees, and each edge that only a part of it does: their union is
-  // the silhouette from everywhere in the tile.
+  for (std::size_t k = 0; k < b.count; ++k) faces[k] = b.count == 2 && k == 1 ? -faces[0] : facing(k);
+  if (side == Side::front && add_front(e, v, faces, b.count, tile)) return;
+
+  // As chords: the one under the edges that all of the tile sees, and each edge that only a part of it does. Their
+  // union is the silhouette from everywhere in the tile.
+  const auto emit = [&](Vec2d p, Vec2d q) {
+    if ((hull_.beyond_low(p) && hull_.beyond_low(q)) || (hull_.beyond_high(p) && hull_.beyond_high(q))) return;
+    const Vec2d pl = p - tile.center, ql = q - tile.center;
+    const TileItem item{f(pl.x), f(pl.y), f(ql.x), f(ql.y), f(depth.normal.x), f(depth.normal.y),
+                        f(depth.offset + dot(depth.normal, tile.center))};
+    (side == Side::mixed ? deep_ : chords_).push_back(item);
+  };
+  if (b.count == 2) return emit(v[0], v[1]);
   for (std::size_t k = 0; k < b.count; ++k) {
     const std::size_t before = (k + b.count - 1) % b.count;
-    if (faces[k] == 0) emit(v[k], v[(k + 1) % b.count], false);
+    if (faces[k] == 0) emit(v[k], v[(k + 1) % b.count]);
     if (faces[k] != 1 || faces[before] == 1) continue;
     std::size_t last = k;
     while (faces[(last + 1) % b.count] == 1 && (last + 1) % b.count != k) last = (last + 1) % b.count;
-    emit(v[(last + 1) % b.count], v[k], true);
+    emit(v[(last + 1) % b.count], v[k]);
   }
+}
+
+// A convex blocker that is nearer than the light from all of the tile: by the vertices in which it may begin and end,
+// seen counter-clockwise. False where one of those that matter lies beside or behind some pixel's axis.
+bool LeafBuilder::add_front(const PlaneEmitter& e, const Vec2d* v, const int* faces, std::size_t count, const TileArea& tile) {
+  Vec2d begins[8], ends[8];
+  std::size_t begin_count = 0, end_count = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const int before = faces[(k + count - 1) % count], after = faces[k];
+    if (before >= 0 && after <= 0) begins[begin_count++] = v[k];
+    if (before <= 0 && after >= 0) ends[end_count++] = v[k];
+  }
+  if (begin_count == 0 || end_count == 0) return false;
+  const auto all = [](const Vec2d* p, std::size_t n, auto test) { return std::all_of(p, p + n, test); };
+  const auto low = [&](Vec2d p) { return hull_.beyond_low(p); };
+  const auto high = [&](Vec2d p) { return hull_.beyond_high(p); };
+  const bool from_low = all(begins, begin_count, low), to_high = all(ends, end_count, high);
+  if ((from_low && all(ends, end_count, low)) || (to_high && all(begins, begin_count, high))) return true;  // passes by
+  if (from_low && to_high) {
+    hidden_ = true;
+    return true;
+  }
+  const auto in_front = [&](Vec2d p) { return ahead(e, p, tile); };
+  const auto local = [&](Vec2d p) { return TileVertex{f(p.x - tile.center.x), f(p.y - tile.center.y)}; };
+  if (!from_low && !all(begins, begin_count, in_front)) return false;
+  if (!to_high && !all(ends, end_count, in_front)) return false;
+  if (from_low) {
+    std::transform(ends, ends + end_count, std::back_inserter(lows_), local);
+  } else if (to_high) {
+    std::transform(begins, begins + begin_count, std::back_inserter(highs_), local);
+  } else {
+    spans_.push_back({static_cast<int>(span_vertices_.size()), static_cast<int>(begin_count), static_cast<int>(end_count)});
+    std::transform(begins, begins + begin_count, std::back_inserter(span_vertices_), local);
+    std::transform(ends, ends + end_count, std::back_inserter(span_vertices_), local);
+  }
+  return true;
 }
 
 void LeafBuilder::add_round(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile) {
@@ -212,12 +228,45 @@ void LeafBuilder::add_round(const PlaneEmitter& e, const PlaneBlocker& b, const 
   lenses_.push_back(l);
 }
 
+// Drops what others of the list cover from all of the tile. False where nothing of the light is left: a blocker that
+// begins before the light ends behind where one that ends behind the light begins.
+//
+// Whether b is seen counter-clockwise of a from a point is the sign of a function affine in the point, so that the
+// tile's corners answer for all of it.
+bool LeafBuilder::merge_ends(const TileArea& tile) {
+  const auto follows = [&](float ax, float ay, float bx, float by) {
+    const double dx = static_cast<double>(bx - ax), dy = static_cast<double>(by - ay);
+    const double at = static_cast<double>(ax) * static_cast<double>(by) - static_cast<double>(ay) * static_cast<double>(bx);
+    // cross(a - p, b - p) = cross(a, b) - cross(p, b - a)
+    return at >= std::fabs(dy) * tile.half.x + std::fabs(dx) * tile.half.y;
+  };
+  for (const TileVertex& low : lows_)
+    for (const TileVertex& high : highs_)
+      if (follows(high.x, high.y, low.x, low.y)) return false;
+  const auto covered = [&](const TileVertex* v, int count) {
+    for (const TileVertex& low : lows_)
+      if (std::all_of(v, v + count, [&](const TileVertex& p) { return follows(p.x, p.y, low.x, low.y); })) return true;
+    for (const TileVertex& high : highs_)
+      if (std::all_of(v, v + count, [&](const TileVertex& p) { return follows(high.x, high.y, p.x, p.y); })) return true;
+    return false;
+  };
+  const auto chord_covered = [&](const TileItem& item) {
+    const TileVertex ends[] = {{item.px, item.py}, {item.qx, item.qy}};
+    return covered(ends, 2);
+  };
+  std::erase_if(spans_, [&](const TileSpan& s) { return covered(&span_vertices_[static_cast<std::size_t>(s.first)], s.begins + s.ends); });
+  std::erase_if(chords_, chord_covered);
+  std::erase_if(deep_, chord_covered);
+  return true;
+}
+
 LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blockers, std::size_t count, const TileArea& tile) {
   hull_ = hull_of(e, tile);
   hidden_ = false;
   lows_.clear();
   highs_.clear();
-  ordered_.clear();
+  spans_.clear();
+  span_vertices_.clear();
   chords_.clear();
   deep_.clear();
   rounds_.clear();
@@ -230,6 +279,7 @@ LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blocker
       add_round(e, b, tile);
     if (hidden_) return {{}, false};
   }
+  if (!merge_ends(tile)) return {{}, false};
   const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
   TileLight light{};
   light.inverse_range = emission.range < 1e300 ? f(1 / emission.range) : 0;
@@ -268,8 +318,9 @@ LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blocker
   light.low_count = items(lows_);
   light.highs = highs_.data();
   light.high_count = items(highs_);
-  light.ordered = ordered_.data();
-  light.ordered_count = items(ordered_);
+  light.spans = spans_.data();
+  light.span_count = items(spans_);
+  light.span_vertices = span_vertices_.data();
   light.chords = chords_.data();
   light.chord_count = items(chords_);
   light.deep = deep_.data();
@@ -278,7 +329,7 @@ LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blocker
   light.round_count = items(rounds_);
   light.lenses = lenses_.data();
   light.lens_count = items(lenses_);
-  const std::size_t needed = 32 * (ordered_.size() + chords_.size() + deep_.size() + rounds_.size() + 2 * lenses_.size());
+  const std::size_t needed = 32 * (spans_.size() + chords_.size() + deep_.size() + rounds_.size() + 2 * lenses_.size());
   if (scratch_.size() < needed) scratch_.resize(2 * needed);
   light.scratch = scratch_.data();
   return {light, true};

@@ -42,15 +42,18 @@ class LeafBuilder {
   bool separate(const PlaneEmitter& e, const PlaneBlocker& b, Depth& depth) const;
   Side side_of(const Depth& depth, const TileArea& tile) const;
   void add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile);
+  bool add_front(const PlaneEmitter& e, const Vec2d* vertices, const int* faces, std::size_t count, const TileArea& tile);
   void add_round(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile);
   static Hull hull_of(const PlaneEmitter& e, const TileArea& tile);
   bool ahead(const PlaneEmitter& e, Vec2d v, const TileArea& tile) const;
+  bool merge_ends(const TileArea& tile);
 
   const FrameScene& frame_;
   Hull hull_;
   bool hidden_ = false;
-  std::vector<TileVertex> lows_, highs_;
-  std::vector<TileItem> ordered_, chords_, deep_;
+  std::vector<TileVertex> lows_, highs_, span_vertices_;
+  std::vector<TileSpan> spans_;
+  std::vector<TileItem> chords_, deep_;
   std::vector<TileRound> rounds_;
   std::vector<TileLens> lenses_;
   std::vector<float> scratch_;

@@ -8,13 +8,19 @@ namespace steradian {
 inline constexpr int kTileSide = 16, kTilePixels = kTileSide * kTileSide;
 
 struct TileItem {
-  float px, py, qx, qy;            // chord: p first as seen counter-clockwise, where ordered
+  float px, py, qx, qy;            // chord, in any order
   float depth_x, depth_y, depth_c; // the blocker is nearer where depth . (x, y, 1) > 0; only in deep items
 };
 
-// A blocker that reaches past the light on one side for all of the tile ends in one vertex.
+// A blocker that reaches past the light on one side for all of the tile ends in a vertex.
 struct TileVertex {
   float x, y;
+};
+
+// A convex blocker in front of the light and of every pixel's axis: it is seen from the least of its first vertices to
+// the greatest of its others.
+struct TileSpan {
+  int first, begins, ends;         // its vertices: where in TileLight::span_vertices, how many may begin and end it
 };
 
 struct TileRound {
@@ -44,8 +50,9 @@ struct TileLight {
   int low_count;
   const TileVertex* highs;         // begins of blockers that end behind it
   int high_count;
-  const TileItem* ordered;         // p, q in order and in front of every pixel's axis
-  int ordered_count;
+  const TileSpan* spans;
+  int span_count;
+  const TileVertex* span_vertices;
   const TileItem* chords;          // any chord in front of the light
   int chord_count;
   const TileItem* deep;            // any chord, with a depth line

@@ -77,10 +77,11 @@ STERADIAN_INLINE PackReal slope_to(const TileVertex& v, const Axis& axis) {
   return axis.t(x, y) / axis.w(x, y);
 }
 
-STERADIAN_INLINE void take_ordered(const TileItem& item, const Axis& axis, Cut& cut) {
-  const PackReal px = broadcast(item.px) - axis.px, py = broadcast(item.py) - axis.py;
-  const PackReal qx = broadcast(item.qx) - axis.px, qy = broadcast(item.qy) - axis.py;
-  const PackReal from = axis.t(px, py) / axis.w(px, py), to = axis.t(qx, qy) / axis.w(qx, qy);
+STERADIAN_INLINE void take_blocker(const TileSpan& span, const TileVertex* vertices, const Axis& axis, Cut& cut) {
+  const TileVertex* v = vertices + span.first;
+  PackReal from = slope_to(v[0], axis), to = slope_to(v[span.begins], axis);
+  for (int i = 1; i < span.begins; ++i) from = min(from, slope_to(v[i], axis));
+  for (int i = 1; i < span.ends; ++i) to = max(to, slope_to(v[span.begins + i], axis));
   cut.take(from, to, from < to);
 }
 
@@ -163,8 +164,8 @@ STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut
   for (int i = 0; i < light.low_count; ++i) cut.low = max(cut.low, slope_to(light.lows[i], axis));
   for (int i = 0; i < light.high_count; ++i) cut.high = min(cut.high, slope_to(light.highs[i], axis));
   if (cut.dark()) return false;
-  for (int i = 0; i < light.ordered_count; ++i) {
-    take_ordered(light.ordered[i], axis, cut);
+  for (int i = 0; i < light.span_count; ++i) {
+    take_blocker(light.spans[i], light.span_vertices, axis, cut);
     if (cut.dark()) return false;
   }
   for (int i = 0; i < light.chord_count; ++i) {
