@@ -204,7 +204,7 @@ class Worker {
       if (!visible) continue;
       table_.add_light(light, buffer_);
       ++tile_lights;
-      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.span_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
+      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
     }
     if (level.bodies.empty() && level.general.empty()) {
       copy_out(x0, y0);

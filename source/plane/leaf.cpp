@@ -87,6 +87,10 @@ LeafBuilder::Side LeafBuilder::side_of(const Depth& depth, const TileArea& tile)
   return at < -reach ? Side::behind : Side::mixed;
 }
 
+float LeafBuilder::depth_at(const Depth& depth, const TileArea& tile) {
+  return f(depth.offset + dot(depth.normal, tile.center));
+}
+
 // The lines that touch the circles about tile and emitter, moved in to touch the rectangle and the emitter themselves.
 LeafBuilder::Hull LeafBuilder::hull_of(const PlaneEmitter& e, const TileArea& tile) {
   const Vec2d axis = e.center - tile.center;
@@ -132,31 +136,14 @@ void LeafBuilder::add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const
   };
   int faces[8];
   for (std::size_t k = 0; k < b.count; ++k) faces[k] = b.count == 2 && k == 1 ? -faces[0] : facing(k);
-  if (side == Side::front && add_front(e, v, faces, b.count, tile)) return;
-
-  // As chords: the one under the edges that all of the tile sees, and each edge that only a part of it does. Their
-  // union is the silhouette from everywhere in the tile.
-  const auto emit = [&](Vec2d p, Vec2d q) {
-    if ((hull_.beyond_low(p) && hull_.beyond_low(q)) || (hull_.beyond_high(p) && hull_.beyond_high(q))) return;
-    const Vec2d pl = p - tile.center, ql = q - tile.center;
-    const TileItem item{f(pl.x), f(pl.y), f(ql.x), f(ql.y), f(depth.normal.x), f(depth.normal.y),
-                        f(depth.offset + dot(depth.normal, tile.center))};
-    (side == Side::mixed ? deep_ : chords_).push_back(item);
-  };
-  if (b.count == 2) return emit(v[0], v[1]);
-  for (std::size_t k = 0; k < b.count; ++k) {
-    const std::size_t before = (k + b.count - 1) % b.count;
-    if (faces[k] == 0) emit(v[k], v[(k + 1) % b.count]);
-    if (faces[k] != 1 || faces[before] == 1) continue;
-    std::size_t last = k;
-    while (faces[(last + 1) % b.count] == 1 && (last + 1) % b.count != k) last = (last + 1) % b.count;
-    emit(v[(last + 1) % b.count], v[k]);
-  }
+  add_silhouette(e, b, faces, depth, side, tile);
 }
 
-// A convex blocker that is nearer than the light from all of the tile: by the vertices in which it may begin and end,
-// seen counter-clockwise. False where one of those that matter lies beside or behind some pixel's axis.
-bool LeafBuilder::add_front(const PlaneEmitter& e, const Vec2d* v, const int* faces, std::size_t count, const TileArea& tile) {
+// A convex blocker by the vertices in which it may begin and end, seen counter-clockwise.
+void LeafBuilder::add_silhouette(const PlaneEmitter& e, const PlaneBlocker& b, const int* faces, const Depth& depth, Side side,
+                                 const TileArea& tile) {
+  const Vec2d* v = &frame_.vertices[b.first];
+  const std::size_t count = b.count;
   Vec2d begins[8], ends[8];
   std::size_t begin_count = 0, end_count = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -164,30 +151,38 @@ bool LeafBuilder::add_front(const PlaneEmitter& e, const Vec2d* v, const int* fa
     if (before >= 0 && after <= 0) begins[begin_count++] = v[k];
     if (before <= 0 && after >= 0) ends[end_count++] = v[k];
   }
-  if (begin_count == 0 || end_count == 0) return false;
+  if (begin_count == 0 || end_count == 0) return;  // all of the tile lies within the blocker
   const auto all = [](const Vec2d* p, std::size_t n, auto test) { return std::all_of(p, p + n, test); };
   const auto low = [&](Vec2d p) { return hull_.beyond_low(p); };
   const auto high = [&](Vec2d p) { return hull_.beyond_high(p); };
   const bool from_low = all(begins, begin_count, low), to_high = all(ends, end_count, high);
-  if ((from_low && all(ends, end_count, low)) || (to_high && all(begins, begin_count, high))) return true;  // passes by
-  if (from_low && to_high) {
+  if ((from_low && all(ends, end_count, low)) || (to_high && all(begins, begin_count, high))) return;  // passes by
+  const bool front = side == Side::front;
+  if (front && from_low && to_high) {
     hidden_ = true;
-    return true;
+    return;
   }
   const auto in_front = [&](Vec2d p) { return ahead(e, p, tile); };
   const auto local = [&](Vec2d p) { return TileVertex{f(p.x - tile.center.x), f(p.y - tile.center.y)}; };
-  if (!from_low && !all(begins, begin_count, in_front)) return false;
-  if (!to_high && !all(ends, end_count, in_front)) return false;
-  if (from_low) {
+  const auto vertices = [&] {
+    const TileSpan span{static_cast<int>(span_vertices_.size()), static_cast<int>(begin_count), static_cast<int>(end_count)};
+    std::transform(begins, begins + begin_count, std::back_inserter(span_vertices_), local);
+    std::transform(ends, ends + end_count, std::back_inserter(span_vertices_), local);
+    return span;
+  };
+  const bool ordered = front && (from_low || all(begins, begin_count, in_front)) && (to_high || all(ends, end_count, in_front));
+  if (!ordered && count == 2) {
+    const TileVertex p = local(v[0]), q = local(v[1]);
+    (front ? chords_ : deep_).push_back({p.x, p.y, q.x, q.y, f(depth.normal.x), f(depth.normal.y), depth_at(depth, tile)});
+  } else if (!ordered) {
+    bodies_.push_back({vertices(), !front, f(depth.normal.x), f(depth.normal.y), depth_at(depth, tile)});
+  } else if (from_low) {
     std::transform(ends, ends + end_count, std::back_inserter(lows_), local);
   } else if (to_high) {
     std::transform(begins, begins + begin_count, std::back_inserter(highs_), local);
   } else {
-    spans_.push_back({static_cast<int>(span_vertices_.size()), static_cast<int>(begin_count), static_cast<int>(end_count)});
-    std::transform(begins, begins + begin_count, std::back_inserter(span_vertices_), local);
-    std::transform(ends, ends + end_count, std::back_inserter(span_vertices_), local);
+    spans_.push_back(vertices());
   }
-  return true;
 }
 
 void LeafBuilder::add_round(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile) {
@@ -210,7 +205,7 @@ void LeafBuilder::add_round(const PlaneEmitter& e, const PlaneBlocker& b, const 
   r.vy = f(b.x_axis.x / det);
   r.depth_x = f(depth.normal.x);
   r.depth_y = f(depth.normal.y);
-  r.depth_c = f(depth.offset + dot(depth.normal, tile.center));
+  r.depth_c = depth_at(depth, tile);
   if (!lens) {
     rounds_.push_back(r);
     return;
@@ -254,7 +249,9 @@ bool LeafBuilder::merge_ends(const TileArea& tile) {
     const TileVertex ends[] = {{item.px, item.py}, {item.qx, item.qy}};
     return covered(ends, 2);
   };
-  std::erase_if(spans_, [&](const TileSpan& s) { return covered(&span_vertices_[static_cast<std::size_t>(s.first)], s.begins + s.ends); });
+  const auto span_covered = [&](const TileSpan& s) { return covered(&span_vertices_[static_cast<std::size_t>(s.first)], s.begins + s.ends); };
+  std::erase_if(spans_, span_covered);
+  std::erase_if(bodies_, [&](const TileBody& body) { return span_covered(body.vertices); });
   std::erase_if(chords_, chord_covered);
   std::erase_if(deep_, chord_covered);
   return true;
@@ -266,6 +263,7 @@ LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blocker
   lows_.clear();
   highs_.clear();
   spans_.clear();
+  bodies_.clear();
   span_vertices_.clear();
   chords_.clear();
   deep_.clear();
@@ -320,6 +318,8 @@ LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blocker
   light.high_count = items(highs_);
   light.spans = spans_.data();
   light.span_count = items(spans_);
+  light.bodies = bodies_.data();
+  light.body_count = items(bodies_);
   light.span_vertices = span_vertices_.data();
   light.chords = chords_.data();
   light.chord_count = items(chords_);
@@ -329,7 +329,7 @@ LeafBuilder::Result LeafBuilder::build(const PlaneEmitter& e, const int* blocker
   light.round_count = items(rounds_);
   light.lenses = lenses_.data();
   light.lens_count = items(lenses_);
-  const std::size_t needed = 32 * (spans_.size() + chords_.size() + deep_.size() + rounds_.size() + 2 * lenses_.size());
+  const std::size_t needed = 32 * (spans_.size() + bodies_.size() + chords_.size() + deep_.size() + rounds_.size() + 2 * lenses_.size());
   if (scratch_.size() < needed) scratch_.resize(2 * needed);
   light.scratch = scratch_.data();
   return {light, true};

@@ -40,9 +40,10 @@ class LeafBuilder {
   };
 
   bool separate(const PlaneEmitter& e, const PlaneBlocker& b, Depth& depth) const;
+  static float depth_at(const Depth& depth, const TileArea& tile);  // its constant about the tile's centre
   Side side_of(const Depth& depth, const TileArea& tile) const;
   void add_convex(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile);
-  bool add_front(const PlaneEmitter& e, const Vec2d* vertices, const int* faces, std::size_t count, const TileArea& tile);
+  void add_silhouette(const PlaneEmitter& e, const PlaneBlocker& b, const int* faces, const Depth& depth, Side side, const TileArea& tile);
   void add_round(const PlaneEmitter& e, const PlaneBlocker& b, const TileArea& tile);
   static Hull hull_of(const PlaneEmitter& e, const TileArea& tile);
   bool ahead(const PlaneEmitter& e, Vec2d v, const TileArea& tile) const;
@@ -53,6 +54,7 @@ class LeafBuilder {
   bool hidden_ = false;
   std::vector<TileVertex> lows_, highs_, span_vertices_;
   std::vector<TileSpan> spans_;
+  std::vector<TileBody> bodies_;
   std::vector<TileItem> chords_, deep_;
   std::vector<TileRound> rounds_;
   std::vector<TileLens> lenses_;

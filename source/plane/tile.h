@@ -23,6 +23,13 @@ struct TileSpan {
   int first, begins, ends;         // its vertices: where in TileLight::span_vertices, how many may begin and end it
 };
 
+// A convex blocker anywhere.
+struct TileBody {
+  TileSpan vertices;
+  bool deep;                       // nearer than the light only beyond its depth line
+  float depth_x, depth_y, depth_c;
+};
+
 struct TileRound {
   float cx, cy;                    // ellipse: centre,
   float xx, xy, yx, yy;            // half axes x and y,
@@ -52,7 +59,9 @@ struct TileLight {
   int high_count;
   const TileSpan* spans;
   int span_count;
-  const TileVertex* span_vertices;
+  const TileBody* bodies;
+  int body_count;
+  const TileVertex* span_vertices; // of spans and bodies
   const TileItem* chords;          // any chord in front of the light
   int chord_count;
   const TileItem* deep;            // any chord, with a depth line

@@ -105,6 +105,30 @@ STERADIAN_INLINE PackMask nearer(const Item& item, const Axis& axis) {
   return broadcast(item.depth_x) * axis.px + broadcast(item.depth_y) * axis.py + broadcast(item.depth_c) > PackReal(0.0);
 }
 
+// The blocker's tangents: its most clockwise and counter-clockwise vertices.
+STERADIAN_INLINE void take_body(const TileBody& body, const TileVertex* vertices, const Axis& axis, Cut& cut) {
+  PackKernels k;
+  const TileVertex* v = vertices + body.vertices.first;
+  const auto outermost = [&](const TileVertex* candidates, int count, PackReal sign, PackReal& w, PackReal& t) {
+    PackReal x = broadcast(candidates[0].x) - axis.px, y = broadcast(candidates[0].y) - axis.py;
+    for (int i = 1; i < count; ++i) {
+      const PackReal cx = broadcast(candidates[i].x) - axis.px, cy = broadcast(candidates[i].y) - axis.py;
+      const PackMask further = (x * cy - y * cx) * sign > PackReal(0.0);
+      x = select(further, cx, x);
+      y = select(further, cy, y);
+    }
+    w = axis.w(x, y);
+    t = axis.t(x, y);
+  };
+  PackReal pw, pt, qw, qt;
+  outermost(v, body.vertices.begins, PackReal(-1.0), pw, pt);
+  outermost(v + body.vertices.begins, body.vertices.ends, PackReal(1.0), qw, qt);
+  const PackReal from = k.plane_slope(pw, pt, PackReal(-kBeyond)), to = k.plane_slope(qw, qt, PackReal(kBeyond));
+  PackMask valid = (pw > PackReal(1e-12) || qw > PackReal(1e-12)) && from < to;
+  if (body.deep) valid = valid && nearer(body, axis);
+  cut.take(from, to, valid);
+}
+
 // Tangent directions of an ellipse, in the axis' components.
 struct Tangents {
   PackReal pw, pt, qw, qt;
@@ -166,6 +190,10 @@ STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut
   if (cut.dark()) return false;
   for (int i = 0; i < light.span_count; ++i) {
     take_blocker(light.spans[i], light.span_vertices, axis, cut);
+    if (cut.dark()) return false;
+  }
+  for (int i = 0; i < light.body_count; ++i) {
+    take_body(light.bodies[i], light.span_vertices, axis, cut);
     if (cut.dark()) return false;
   }
   for (int i = 0; i < light.chord_count; ++i) {
