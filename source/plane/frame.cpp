@@ -241,8 +241,10 @@ class Worker {
   }
 
   Vec3d interior(std::size_t body, Vec2d p) const {
-    if (frame_.interior[body].empty()) return radiance_at(*world_.scene.bodies[body].light, p);
-    return envelope_light(world_, frame_.interior[body], p, static_cast<int>(body), EmissionParts::radiance).radiance;
+    const LightInterior& inside = frame_.interior[body];
+    if (inside.curves.empty()) return radiance_at(*world_.scene.bodies[body].light, p);
+    if (inside.by_chords) return radiance_at(*world_.scene.bodies[body].light, p) * open_share(inside.chords, p);
+    return envelope_light(world_, inside.curves, p, static_cast<int>(body), EmissionParts::radiance).radiance;
   }
 
   // Which body fills each pixel: in double and by the same test as a query.
@@ -254,12 +256,23 @@ class Worker {
       const Vec2d first = grid_.at(x0, y0);
       const auto low = [](double at, double origin, double step) { return std::max(static_cast<int>(std::ceil((at - origin) / step - 1e-9)), 0); };
       const auto high = [](double at, double origin, double step) { return std::min(static_cast<int>(std::floor((at - origin) / step + 1e-9)), kTileSide - 1); };
-      for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y); ++y)
-        for (int x = low(box.low.x, first.x, grid_.step.x); x <= high(box.high.x, first.x, grid_.step.x); ++x) {
+      const int x0_box = low(box.low.x, first.x, grid_.step.x), x1_box = high(box.high.x, first.x, grid_.step.x);
+      for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y); ++y) {
+        const auto within = [&](int x) { return contains(body, grid_.at(x0 + x, y0 + y)); };
+        const auto mark = [&](int x) {
           int& inside = inside_[slot(x, y)];
-          if (inside == kDark || !contains(body, grid_.at(x0 + x, y0 + y))) continue;
-          inside = body.light ? index : kDark;
+          if (inside != kDark) inside = body.light ? index : kDark;
+        };
+        int begin = x0_box, end = x1_box;
+        if (frame_.convex[static_cast<std::size_t>(index)] != 0) {
+          while (begin <= end && !within(begin)) ++begin;
+          while (end > begin && !within(end)) --end;
+          for (int x = begin; x <= end; ++x) mark(x);
+        } else {
+          for (int x = begin; x <= end; ++x)
+            if (within(x)) mark(x);
         }
+      }
     }
   }
 
@@ -350,6 +363,12 @@ void by_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const G
 }  // namespace
 
 Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  Picture picture;
+  render_plane_into(picture, world, options, stats);
+  return picture;
+}
+
+void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
   const PlaneScene& scene = world.scene();
   const int n = static_cast<int>(std::ceil(std::sqrt(std::max(options.aa, 1)) - 1e-9));
   const int width = options.width > 0 ? options.width : std::max(static_cast<int>(std::lround(scene.width)), 1);
@@ -357,7 +376,12 @@ Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, 
   if (static_cast<double>(width) * n > 65536 || static_cast<double>(height) * n > 65536)
     throw Error("size", "the picture would have more than 65536 pixels a side", "set a smaller size");
   const Grid grid = grid_of(scene, width * n, height * n);
-  Picture picture(grid.width, grid.height);
+  Picture fine;
+  Picture& picture = n > 1 ? fine : result;
+  picture.layers.clear();
+  picture.width = grid.width;
+  picture.height = grid.height;
+  picture.pixels.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   PlaneFrameStats own;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   own.threads = arena.max_concurrency();
@@ -376,7 +400,7 @@ Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, 
     own.frame_ms = ms_since(tiles);
   });
   if (stats != nullptr) *stats = own;
-  return n > 1 ? averaged(picture, n) : picture;
+  if (n > 1) result = averaged(picture, n);
 }
 
 }  // namespace steradian

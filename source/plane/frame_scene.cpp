@@ -30,6 +30,7 @@ class Preparation {
   explicit Preparation(const PlaneWorld::Impl& world) : world_(world) {
     frame_.world = &world;
     frame_.general.assign(world.scene.bodies.size(), 0);
+    frame_.convex.assign(world.scene.bodies.size(), 0);
   }
 
   FrameScene run() {
@@ -105,6 +106,7 @@ class Preparation {
 
   void add_blockers(std::size_t i) {
     const int owner = static_cast<int>(i);
+    frame_.convex[i] = body(i).shape == PlaneBody::Shape::capsule || body(i).shape == PlaneBody::Shape::ellipse;
     if (body(i).shape == PlaneBody::Shape::capsule && world_.first_curve[i] < world_.first_curve[i + 1]) {
       // Two disks and the box between them: the same silhouette.
       const Vec2d p = body(i).contours[0][0], q = body(i).contours[0][1];
@@ -119,6 +121,7 @@ class Preparation {
     const std::vector<Vec2d> convex = convex_outline(i);
     if (!convex.empty()) {
       add_convex(convex, owner, frame_.blockers);
+      frame_.convex[i] = 1;
       return;
     }
     bool ellipse_done = false;
@@ -220,8 +223,18 @@ class Preparation {
       std::sort(others.begin(), others.end());
       others.erase(std::unique(others.begin(), others.end()), others.end());
       if (others.size() == 1) continue;  // nothing inside: the light alone
+      LightInterior& inside = frame_.interior[i];
       for (std::size_t o : others)
-        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) frame_.interior[i].push_back(&world_.curves[c]);
+        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) inside.curves.push_back(&world_.curves[c]);
+      const Curve& own = world_.curves[world_.first_curve[i]];
+      inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
+        return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
+      });
+      if (!inside.by_chords) continue;
+      for (const Curve* c : inside.curves) {
+        if (c == &own) continue;
+        if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
+      }
     }
   }
 

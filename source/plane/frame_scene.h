@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plane/cull.h"
+#include "plane/interior.h"
 #include "plane/world.h"
 
 namespace steradian {
@@ -49,7 +50,8 @@ struct FrameScene {
   std::vector<Vec2d> vertices;
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
   std::vector<std::size_t> first_nearby;  // by emitter, and one more
-  std::vector<std::vector<const Curve*>> interior;  // by body, for lights: their own curves and those that may be inside
+  std::vector<LightInterior> interior;    // by body, for lights
+  std::vector<char> convex;               // by body: all of a row within it is one run
 };
 
 FrameScene prepare_frame(const PlaneWorld::Impl& world);

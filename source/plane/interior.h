@@ -1,0 +1,26 @@
+// The inside of a light: the same radiance in all directions, but for what else is in there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plane/outline.h"
+
+namespace steradian {
+
+struct LightInterior {
+  // Of the light and of all that may reach into it; empty: nothing does.
+  std::vector<const Curve*> curves;
+  // Where only dark segments reach into a round light: their parts inside. All that is nearer than the light's own
+  // outline, so that the directions they take need no depth.
+  std::vector<Curve> chords;
+  bool by_chords = false;
+};
+
+// The part of a segment inside a circle, if any.
+std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circle);
+
+// Share of the circle of directions that chords leave open, seen from a point among them.
+double open_share(const std::vector<Curve>& chords, Vec2d p);
+
+}  // namespace steradian
