@@ -578,7 +578,8 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
         back.axis_b = -level.axis_b;
         float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
         lower = steradian_select(limit > 1.0e14, 0.0, lower);
-        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+        vec3 far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+        sum = steradian_select(more, sum + far_side, sum);
     }
     if (cut) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.

@@ -575,7 +575,8 @@ fn ellipse_irradiance_vector(e: Ellipse) -> vec3f {
         back.axis_b = -level.axis_b;
         var lower = select(1.0, 1.0 / max(limit, 1.0), more);
         lower = select(lower, 0.0, limit > 1.0e14);
-        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+        let far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+        sum = select(sum, sum + far_side, more);
     }
     if (cut) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "steradian/closed_form.h"
+#include "steradian/ltc.h"
 
 namespace steradian {
 
@@ -32,5 +33,14 @@ using RadianceDerivatives = std::vector<std::array<Vec3d, 3>>;
 // Error: of GGX 1e-8 of the derivative's size, where the last step of the poles' iteration was.
 RadianceDerivatives radiance_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& material,
                                          Quality quality = Quality::normal);
+
+// Of ltc_radiance by `classic` or `compact`: of the polygon's integral; the table's values depend on roughness and view alone.
+// Throws Error for the other methods and for what ltc_radiance does not serve.
+RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at,
+                                             const Material& material);
+
+// By the point, normal and view direction fixed: only what lies between light and point counts, so it is minus the sum over
+// the vertices.
+std::array<Vec3d, 3> by_position(const RadianceDerivatives& by_vertices);
 
 }  // namespace steradian

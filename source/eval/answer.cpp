@@ -30,13 +30,16 @@ LobeAnswer point_answer(const PointLight& light, const ShadingPoint& at, const M
 // Adds what one material contributes to the derivatives. Throws Error for lobes and methods that have none.
 void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoint& at, const Material& m, Method method,
                      Quality quality) {
+  const bool transformed = method == Method::ltc || method == Method::ltc_compact;
   const bool served = (m.brdf == Brdf::lambert && method == Method::exact) ||
                       (m.brdf == Brdf::phong && method == Method::series) ||
-                      (m.brdf == Brdf::ggx && method == Method::closed_form);
+                      (m.brdf == Brdf::ggx && (method == Method::closed_form || transformed));
   if (!served)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by this method",
-                "served are lambert with exact, phong with series and ggx with closed-form");
-  const RadianceDerivatives d = radiance_derivatives(light, at, m, quality);
+                "served are lambert with exact, phong with series, and ggx with closed-form, ltc and ltc-compact");
+  const RadianceDerivatives d =
+      transformed ? ltc_radiance_derivatives(method == Method::ltc ? LtcMethod::classic : LtcMethod::compact, light, at, m)
+                  : radiance_derivatives(light, at, m, quality);
   answer.by_vertex.resize(d.size());
   for (std::size_t i = 0; i < d.size(); ++i)
     for (std::size_t channel = 0; channel < 3; ++channel) answer.by_vertex[i][channel] += d[i][channel];

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "eval/answer.h"
+#include "steradian/polygon_derivatives.h"
 
 namespace steradian::eval {
 namespace {
@@ -17,22 +18,32 @@ void append_number(std::string& out, double x, Precision precision) {
   }
 }
 
-// [channel][vertex][x, y, z]
+void append_vector(std::string& out, const Vec3d& v, Precision precision) {
+  out += '[';
+  append_number(out, v.x, precision);
+  out += ',';
+  append_number(out, v.y, precision);
+  out += ',';
+  append_number(out, v.z, precision);
+  out += ']';
+}
+
+// d_vertices: [channel][vertex][x, y, z]; d_position: [channel][x, y, z].
 void append_derivatives(std::string& out, const Answer& answer) {
   out += ",\"d_vertices\":";
   for (std::size_t channel = 0; channel < 3; ++channel) {
     out += channel == 0 ? '[' : ',';
     for (std::size_t i = 0; i < answer.by_vertex.size(); ++i) {
-      out += i == 0 ? "[[" : ",[";
-      const Vec3d& d = answer.by_vertex[i][channel];
-      append_number(out, d.x, answer.precision);
-      out += ',';
-      append_number(out, d.y, answer.precision);
-      out += ',';
-      append_number(out, d.z, answer.precision);
-      out += ']';
+      out += i == 0 ? '[' : ',';
+      append_vector(out, answer.by_vertex[i][channel], answer.precision);
     }
     out += ']';
+  }
+  out += "],\"d_position\":";
+  const std::array<Vec3d, 3> position = by_position(answer.by_vertex);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    out += channel == 0 ? '[' : ',';
+    append_vector(out, position[channel], answer.precision);
   }
   out += ']';
 }
@@ -40,13 +51,9 @@ void append_derivatives(std::string& out, const Answer& answer) {
 }  // namespace
 
 void write_answer(std::string& out, const Answer& answer) {
-  out += "{\"radiance\":[";
-  append_number(out, answer.radiance.x, answer.precision);
-  out += ',';
-  append_number(out, answer.radiance.y, answer.precision);
-  out += ',';
-  append_number(out, answer.radiance.z, answer.precision);
-  out += "],\"method\":\"";
+  out += "{\"radiance\":";
+  append_vector(out, answer.radiance, answer.precision);
+  out += ",\"method\":\"";
   out += answer.method;  // names of our own: nothing to escape
   out += '"';
   if (answer.bound) {

@@ -232,7 +232,7 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
       {query(kLight, kPlace, kLambert, R"("spp":0)"), {"spp: must be"}},
       {query(kLight, kPlace, kLambert, R"("spp":1.5)"), {"spp: expected an integer"}},
       {query(kLight, kPlace, kLambert, R"("seed":-1)"), {"seed: must be"}},
-      {with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc")"),
+      {with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc-clipless")"),
        {"derivatives: ", "ggx has none"}},
       {query(kLight, kPlace, kLambert, R"("normal":[0,0,1])"), {"normal: the key is given twice"}},
       {query(kLight, kPlace, kLambert, R"("colour":1,"size":2)"), {"colour: unknown", "size: unknown"}},
@@ -346,10 +346,11 @@ TEST(Eval, SurvivesMutatedLines) {
 
 // The derivatives of [channel][vertex] against the same question with a vertex moved.
 TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
-  const auto ask = [](double dx, const std::string& rest) {
+  const auto ask = [](double dx, const std::string& rest, double px = 0.2) {
     json light = {{"type", "polygon"}, {"radiance", {2, 1, 0.5}},
                   {"vertices", {{-1 + dx, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}};
-    return answer(query("\"light\":" + light.dump(), R"("position":[0.2,0.1,0],"normal":[0,0.6,0.8])",
+    json position = {px, 0.1, 0};
+    return answer(query("\"light\":" + light.dump(), "\"position\":" + position.dump() + R"(,"normal":[0,0.6,0.8])",
                         R"("material":{"brdf":"lambert","albedo":0.5})", rest));
   };
   const json got = ask(0, R"("derivatives":true)");
@@ -360,8 +361,19 @@ TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
     const double above = ask(h, {})["radiance"][channel], below = ask(-h, {})["radiance"][channel];
     // Truncation h^2 times a third derivative of order 1, rounding 1e-16 / h.
     EXPECT_NEAR(got["d_vertices"][channel][0][0].get<double>(), (above - below) / (2 * h), 1e-9) << got;
+    const double right = ask(0, {}, 0.2 + h)["radiance"][channel], left = ask(0, {}, 0.2 - h)["radiance"][channel];
+    EXPECT_NEAR(got.at("d_position")[channel][0].get<double>(), (right - left) / (2 * h), 1e-9) << got;
   }
   EXPECT_FALSE(ask(0, R"("derivatives":false)").contains("d_vertices"));
+}
+
+TEST(Eval, DerivativesOfTransformedCosinesAreServed) {
+  for (const char* method : {"ltc", "ltc-compact"}) {
+    const json a = answer(with_material(R"({"brdf":"ggx","roughness":0.6})",
+                                        std::string(R"("derivatives":true,"method":")") + method + '"'));
+    ASSERT_TRUE(a.contains("d_vertices")) << a;
+    EXPECT_NE(a["d_vertices"][0][0][0].get<double>(), 0.0) << a;
+  }
 }
 
 // The library's test compares their values with differences; here: that they arrive, and add up over materials.
@@ -379,7 +391,8 @@ TEST(Eval, DerivativesOfPhongAndGgxAddUp) {
 }
 
 TEST(Eval, DerivativesAreRefusedWhereThereAreNone) {
-  EXPECT_TRUE(answer(with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc")")).contains("error"));
+  EXPECT_TRUE(answer(with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc-clipless")"))
+                  .contains("error"));
   EXPECT_TRUE(answer(query(R"("light":{"type":"point","position":[0,1,0]})", kPlace, kLambert, R"("derivatives":true)"))
                   .contains("error"));
 }

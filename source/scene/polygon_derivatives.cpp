@@ -1,8 +1,10 @@
 #include "steradian/polygon_derivatives.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "ggx/clipped_walk.h"
+#include "ltc/ggx_tables.h"
 #include "moment/phong_lobe.h"
 #include "steradian/dual.h"
 #include "steradian/error.h"
@@ -144,6 +146,48 @@ VertexDerivatives ggx_by_vertices(const PreparedPolygon& light, const ShadingPoi
   return by_vertices(light, at.position, frame, closed_form);
 }
 
+// The matrix at a roughness and a view, and what multiplies the integral: table values, constants to the derivatives.
+struct LtcLookUp {
+  Kernels<double>::LtcMatrix m;
+  double n_a, f_a;
+};
+
+LtcLookUp look_up_ltc(LtcMethod method, const ShadingPoint& at, const Material& m, const Frame& frame) {
+  const double alpha = std::max(m.alpha_x, 1e-4), cosine = dot(frame.z, normalized(at.view));
+  LtcLookUp result;
+  if (method == LtcMethod::classic) {
+    const LtcValue value = ggx_classic_table().look_up(std::sqrt(alpha), cosine);
+    const LtcInverse& inverse = value.inverse;
+    result.m = {inverse.xx, inverse.xz, inverse.yy, inverse.zx, inverse.zz};
+    result.n_a = value.n_a, result.f_a = value.f_a;
+  } else {
+    const CompactTable::Entry entry = ggx_compact_table().entry(std::sqrt(alpha), cosine);
+    result.m = Kernels<double>().ltc_from_compact({entry.shape.e00, entry.shape.e11, entry.shape.e02, entry.shape.e20}, alpha,
+                                                  to_kernel<double>(frame.to_local(normalized(at.view))));
+    result.n_a = entry.n_a, result.f_a = entry.f_a;
+  }
+  return result;
+}
+
+VertexDerivatives ltc_by_vertices(const PreparedPolygon& light, const ShadingPoint& at, const LtcLookUp& table, int side,
+                                  const Frame& frame) {
+  const auto integral = [&]<class S>(const auto& direction) {
+    Kernels<S> k;
+    const typename Kernels<S>::LtcMatrix m = {table.m.xx.v, table.m.xz.v, table.m.yy.v, table.m.zx.v, table.m.zz.v};
+    auto walk = k.ltc_begin();
+    const Vec3d* v = light.vertices.data();
+    for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
+      std::size_t i = light.contours[c + 1] - 1;
+      for (std::size_t j = light.contours[c]; j < light.contours[c + 1]; i = j++) {
+        const auto a = direction(v[i]), b = direction(v[j]);
+        walk = k.ltc_add_edge(walk, m, a, b, k.ltc_direction(m, a), k.ltc_direction(m, b));
+      }
+    }
+    return k.ltc_integral(walk, Mask<S>(side < 0));
+  };
+  return by_vertices(light, at.position, frame, integral);
+}
+
 // Point and normal move as the vertices do the other way: the integral sees only vertices relative to the point, turned
 // into the normal's frame. `back` is -1 where the walk ran the wrong way round.
 LightDerivatives gather(const PolygonLight& stored, const PreparedPolygon& light, Vec3d position, Vec3d normal, double value,
@@ -221,6 +265,37 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   add(0, by_vertex, scale.x);
   add(1, by_vertex, scale.y);
   add(2, by_vertex, scale.z);
+  return result;
+}
+
+RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& stored, const ShadingPoint& at,
+                                             const Material& m) {
+  if (method != LtcMethod::classic && method != LtcMethod::compact)
+    throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
+  if (!serves(method, m))
+    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
+  RadianceDerivatives result(stored_count(stored));
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = lit_side(light, at.position);
+  if (side == 0 || !(dot(at.view, at.normal) > 0)) return result;
+  const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
+  const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), normalized(at.view));
+  const LtcLookUp table = look_up_ltc(method, at, m, frame);
+  const VertexDerivatives by_vertex = ltc_by_vertices(light, at, table, side, frame);
+  const auto scale = [&](double f0, double f90) {
+    return static_cast<double>(Kernels<double>().ltc_specular_scale(f0, f90, table.n_a, table.f_a).v);
+  };
+  for (std::size_t i = 0; i < by_vertex.size(); ++i)
+    result[stored_index[i]] = {by_vertex[i] * (scale(m.f0.x, m.f90.x) * light.radiance.x),
+                               by_vertex[i] * (scale(m.f0.y, m.f90.y) * light.radiance.y),
+                               by_vertex[i] * (scale(m.f0.z, m.f90.z) * light.radiance.z)};
+  return result;
+}
+
+std::array<Vec3d, 3> by_position(const RadianceDerivatives& by_vertices) {
+  std::array<Vec3d, 3> result{};
+  for (const auto& vertex : by_vertices)
+    for (std::size_t channel = 0; channel < 3; ++channel) result[channel] += -vertex[channel];
   return result;
 }
 

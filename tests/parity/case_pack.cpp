@@ -8,7 +8,7 @@ namespace {
 PackKernels::vec4 run_case(std::size_t index, const PackKernels::CaseInput& i) {
   PackKernels k;
   std::size_t n = 0;
-#define PARITY_CASE(name, title, measure, values, arithmetic, inputs) \
+#define PARITY_CASE(name, title, measure, values, arithmetic, bound, inputs) \
   if (index == n++) return k.case_##name(i);
 #include "parity_cases.inc"
 #undef PARITY_CASE

@@ -10,8 +10,8 @@ namespace {
 
 #define PARITY_LIST(...) __VA_ARGS__
 const std::vector<Case> kCases = {
-#define PARITY_CASE(name, title, measure, values, arithmetic, inputs) \
-  Case{#name, title, measure, values, arithmetic, PARITY_LIST inputs},
+#define PARITY_CASE(name, title, measure, values, arithmetic, bound, inputs) \
+  Case{#name, title, measure, values, arithmetic, bound, PARITY_LIST inputs},
 #include "parity_cases.inc"
 #undef PARITY_CASE
 };

@@ -13,6 +13,7 @@ namespace steradian::parity {
 
 enum class Domain { direction, upper_direction, vector, range, log, signed_log, integer };
 enum class Measure { absolute, relative };
+enum class Bound { running, statistical };  // rounded.h, shaken.h
 
 struct Input {
   int first;  // index among the sixteen reals
@@ -25,6 +26,7 @@ struct Case {
   Measure measure;
   int values;       // how many of the four results count
   bool arithmetic;  // neither exp nor log is reached: bits can be demanded
+  Bound bound;
   std::vector<Input> inputs;
 };
 

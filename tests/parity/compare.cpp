@@ -69,7 +69,8 @@ CaseReport compare(std::size_t index, const std::vector<Target>& targets, std::s
   const std::vector<double> truth = run_double(index, inputs);
   const std::vector<float> scalar = run_float(index, inputs);
   const BoundedResults cpu = run_bounded(index, inputs, Rounding::cpu);
-  const BoundedResults gpu = run_bounded(index, inputs, Rounding::gpu);
+  const bool on_gpu = std::any_of(targets.begin(), targets.end(), [](const Target& t) { return t.rounding == Rounding::gpu; });
+  const BoundedResults gpu = on_gpu ? run_bounded(index, inputs, Rounding::gpu) : BoundedResults{};
 
   double squares = 0, largest_value = 0;
   std::vector<double> bounds;

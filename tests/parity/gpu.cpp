@@ -1,54 +1,43 @@
 #include "gpu.h"
 
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
 #include "render/vulkan/compute_pipeline.h"
+#include "steradian/error.h"
 
 namespace steradian::parity {
 namespace {
 
-const std::vector<std::uint32_t> kGlsl = {
-#include "parity_glsl.inc"
-};
-const std::vector<std::uint32_t> kHlsl = {
-#include "parity_hlsl.inc"
-};
-const std::vector<std::uint32_t> kBrokenGlsl = {
-#include "parity_broken_glsl.inc"
-};
-
-const std::vector<std::uint32_t>& spirv_of(ShaderText text) {
-  switch (text) {
-    case ShaderText::glsl: return kGlsl;
-    case ShaderText::hlsl: return kHlsl;
-    case ShaderText::broken_glsl: break;
-  }
-  return kBrokenGlsl;
-}
-
-std::string name_of(ShaderText text) {
-  switch (text) {
-    case ShaderText::glsl: return "GLSL";
-    case ShaderText::hlsl: return "HLSL";
-    case ShaderText::broken_glsl: break;
-  }
-  return "broken GLSL";
+std::vector<std::uint32_t> read_words(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  if (bytes.empty()) throw Error(path, "holds no shader", "build the target parity_texts");
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  std::memcpy(words.data(), bytes.data(), words.size() * 4);
+  return words;
 }
 
 }  // namespace
 
 Target gpu_target(std::shared_ptr<vulkan::Device> device, ShaderText text) {
-  return gpu_target(std::move(device), name_of(text), spirv_of(text));
+  switch (text) {
+    case ShaderText::glsl: return gpu_target(std::move(device), "GLSL", PARITY_SHADERS "/glsl");
+    case ShaderText::hlsl: return gpu_target(std::move(device), "HLSL", PARITY_SHADERS "/hlsl");
+    case ShaderText::broken_glsl: break;
+  }
+  return gpu_target(std::move(device), "broken GLSL", PARITY_SHADERS "/broken_glsl");
 }
 
-Target gpu_target(std::shared_ptr<vulkan::Device> device, const std::string& name, std::vector<std::uint32_t> spirv) {
+Target gpu_target(std::shared_ptr<vulkan::Device> device, const std::string& name, const std::string& folder) {
   const bool software = device->info().software;
-  const auto run = [device, spirv = std::move(spirv)](std::size_t index, std::vector<float> inputs) {
+  const auto run = [device, folder](std::size_t index, const std::vector<float>& inputs) {
     const std::size_t count = inputs.size() / kInputs;
     std::vector<float> results(count * kResults);
-    // GLSL and HLSL take the case's number as a constant, WGSL from the vector behind the inputs.
-    inputs.insert(inputs.end(), {static_cast<float>(index), 0.0f, 0.0f, 0.0f});
     vulkan::Buffer in(*device, inputs.size() * sizeof(float)), out(*device, results.size() * sizeof(float));
     in.write(inputs.data(), in.bytes());
-    vulkan::ComputePipeline pipeline(*device, spirv, 2, {static_cast<std::int32_t>(index)});
+    vulkan::ComputePipeline pipeline(*device, read_words(folder + "/" + cases()[index].name + ".spv"), 2);
     pipeline.run({&in, &out}, static_cast<std::uint32_t>((count + 63) / 64));
     out.read(results.data(), out.bytes());
     return results;

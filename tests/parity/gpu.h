@@ -13,7 +13,7 @@ enum class ShaderText { glsl, hlsl, broken_glsl };  // broken: a mistake in the 
 // The cases on one device. A software device keeps IEEE arithmetic, so that bits are demanded of it.
 Target gpu_target(std::shared_ptr<vulkan::Device> device, ShaderText text);
 
-// The same with a shader from elsewhere, such as a translation of WGSL (make_cases.py shader wgsl).
-Target gpu_target(std::shared_ptr<vulkan::Device> device, const std::string& name, std::vector<std::uint32_t> spirv);
+// The same with shaders from elsewhere, such as translations of WGSL: a folder of one module per case (split_spirv.py).
+Target gpu_target(std::shared_ptr<vulkan::Device> device, const std::string& name, const std::string& folder);
 
 }  // namespace steradian::parity

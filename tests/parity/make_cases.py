@@ -2,11 +2,9 @@
 """Reads cases.glsl and writes what the parity harness is built from.
 
     make_cases.py table CASES                 the C++ table: name, title, domains, measure
-    make_cases.py shader glsl|hlsl CASES      a compute shader that runs the case its specialisation constant names
-    make_cases.py shader wgsl CASES           the same, with the case's number behind the inputs instead of a constant
+    make_cases.py shader glsl|hlsl|wgsl CASES a compute shader whose run() calls every case, for split_spirv.py to take apart
     make_cases.py broken-shader glsl CASES    the same with a mistake in the prelude, which the parity test must find
-    make_cases.py reached CASES               exit 1 when a kernel function is called by no case, even indirectly, unless its file
-                                              is on the list without_cases.txt
+    make_cases.py reached CASES               exit 1 when a kernel function is called by no case, even indirectly
 """
 import re
 import sys
@@ -28,7 +26,7 @@ def cases(path):
     found = []
     for match in re.finditer(r"((?:^//.*\n)+)vec4 case_(\w+)\(CaseInput i\)", text, re.MULTILINE):
         comment = [line[2:].strip() for line in match.group(1).splitlines()]
-        case = {"name": match.group(2), "title": comment[0], "inputs": [], "measure": "absolute", "values": 1}
+        case = {"name": match.group(2), "title": comment[0], "inputs": [], "measure": "absolute", "values": 1, "bound": "running"}
         for line in comment[1:]:
             words = re.match(r"([abcd]\.\w+)\s+(\w+)(?:\(([^,]+),([^)]+)\))?$", line)
             if words:
@@ -40,8 +38,10 @@ def cases(path):
                 case["measure"] = line.split(":")[1].strip()
             elif line.startswith("Values:"):
                 case["values"] = int(line.split(":")[1])
+            elif line.startswith("Bound:"):
+                case["bound"] = line.split(":")[1].strip()
             elif line:
-                sys.exit(f"{path}: case {case['name']}: '{line}' is neither an input nor Error: nor Values:")
+                sys.exit(f"{path}: case {case['name']}: '{line}' is neither an input nor Error:, Values: or Bound:")
         found.append(case)
     return found
 
@@ -65,22 +65,22 @@ def reached_from(graph, names):
 
 def table(path):
     graph = call_graph(path)
-    print("// Written by make_cases.py from cases.glsl: PARITY_CASE(name, title, measure, values, arithmetic only, inputs)")
+    print("// Written by make_cases.py from cases.glsl: PARITY_CASE(name, title, measure, values, arithmetic only, bound, inputs)")
     for case in cases(path):
         arithmetic = not reached_from(graph, ["case_" + case["name"]]) & {"exp", "log"}
         inputs = ", ".join(f"{{{first}, Domain::{domain}, {low}, {high}}}" for first, domain, low, high in case["inputs"])
         print(f"PARITY_CASE({case['name']}, \"{case['title']}\", Measure::{case['measure']}, {case['values']}, "
-              f"{'true' if arithmetic else 'false'}, ({{{inputs}}}))")
+              f"{'true' if arithmetic else 'false'}, Bound::{case['bound']}, ({{{inputs}}}))")
 
 
 GLSL = """
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const int case_index = 0;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
 layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
 
 vec4 run(CaseInput i) {
-CHOICES    return vec4(0.0, 0.0, 0.0, 0.0);
+    vec4 r;
+CALLS    return r;
 }
 
 void main() {
@@ -97,12 +97,12 @@ void main() {
 """
 
 HLSL = """
-[[vk::constant_id(0)]] const int case_index = 0;
 [[vk::binding(0)]] StructuredBuffer<float4> inputs : register(t0);
 [[vk::binding(1)]] RWStructuredBuffer<float4> outputs : register(u1);
 
 float4 run(CaseInput i) {
-CHOICES    return float4(0.0, 0.0, 0.0, 0.0);
+    float4 r;
+CALLS    return r;
 }
 
 [numthreads(64, 1, 1)]
@@ -125,20 +125,24 @@ WGSL = """
 @group(0) @binding(0) var<storage, read> inputs: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> outputs: array<vec4f>;
 
-fn run(which: u32, i: CaseInput) -> vec4f {
-CHOICES    return vec4f();
+fn run(i: CaseInput) -> vec4f {
+    var r: vec4f;
+CALLS    return r;
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
     let n = id.x;
-    let count = arrayLength(&outputs);
-    if (n < count) {
+    if (n < arrayLength(&outputs)) {
         let i = CaseInput(inputs[4u * n], inputs[4u * n + 1u], inputs[4u * n + 2u], inputs[4u * n + 3u]);
-        outputs[n] = run(u32(inputs[4u * count].x), i);
+        outputs[n] = run(i);
     }
 }
 """
+
+
+def calls_of_every_case(path):
+    return "".join(f"    r = case_{case['name']}(i);\n" for case in cases(path))
 
 
 def wgsl_shader(path):
@@ -146,8 +150,7 @@ def wgsl_shader(path):
     print(make_dist.WGSL_HELPERS)
     for part in with_needs(path):
         print(printer(make_dist.without_double(part.read_text())))
-    print(WGSL.replace("CHOICES", "".join(f"    if (which == {n}u) {{ return case_{case['name']}(i); }}\n"
-                                          for n, case in enumerate(cases(path)))))
+    print(WGSL.replace("CALLS", calls_of_every_case(path)))
 
 
 def shader(language, path, broken=False):
@@ -162,29 +165,19 @@ def shader(language, path, broken=False):
     print(prelude)
     for part in with_needs(path):
         print(part.read_text())
-    choices = "".join(f"    if (case_index == {n}) return case_{case['name']}(i);\n"
-                      for n, case in enumerate(cases(path)))
-    print((GLSL if language == "glsl" else HLSL).replace("CHOICES", choices))
+    print((GLSL if language == "glsl" else HLSL).replace("CALLS", calls_of_every_case(path)))
 
 
 def reached(path):
     graph = call_graph(path)
     seen = reached_from(graph, ["case_" + case["name"] for case in cases(path)])
-    listed = {line for line in (Path(path).parent / "without_cases.txt").read_text().splitlines()
-              if line and not line.startswith("#")}
-    wrong, owed = 0, 0
+    wrong = 0
     for part in kernel_files(KERNELS):
-        missing = [name for name, _ in functions(part.read_text()) if name not in seen]
-        if part.name in listed:
-            owed += len(missing)
-            if not missing:
+        for name, _ in functions(part.read_text()):
+            if name not in seen:
                 wrong += 1
-                print(f"{part.name}: every function is reached now: take it off without_cases.txt")
-        else:
-            wrong += len(missing)
-            for name in missing:
                 print(f"{part.name}: {name} is reached by no parity case: add one to {path}")
-    print(f"{len(cases(path))} cases; {owed} kernel functions of {len(listed)} files are owed cases, {wrong} mistakes")
+    print(f"{len(cases(path))} cases; {wrong} kernel functions without one")
     sys.exit(wrong > 0)
 
 

@@ -1,5 +1,5 @@
-// parity [COUNT [NAME SPIRV]]: every kernel on every target this machine has, one row a kernel, on COUNT random inputs
-// (10000); and on a shader in a file, which is then shown under NAME.
+// parity [COUNT [NAME FOLDER]]: every kernel on every target this machine has, one row a kernel, on COUNT random inputs
+// (10000); or on the shaders in a folder alone (split_spirv.py), which are then shown under NAME.
 //
 // float is compared with double (largest and rms error), everything else with scalar float. "equal" means the same bits
 // for all inputs; a number is the largest difference, and what follows the colon its share of the bound that
@@ -8,34 +8,24 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 
 #include "gpu.h"
-
-namespace {
-
-std::vector<std::uint32_t> read_words(const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  std::vector<std::uint32_t> words(bytes.size() / 4);
-  std::memcpy(words.data(), bytes.data(), words.size() * 4);
-  return words;
-}
-
-}  // namespace
 
 using namespace steradian;
 using namespace steradian::parity;
 
 int main(int argc, char** argv) {
   const std::size_t count = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 10000;
-  std::vector<Target> targets = cpu_targets();
+  std::vector<Target> targets;
+  if (argc <= 3) targets = cpu_targets();
   for (const vulkan::DeviceInfo& info : vulkan::list_devices()) {
     const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{info.name, false});
-    targets.push_back(gpu_target(device, ShaderText::glsl));
-    targets.push_back(gpu_target(device, ShaderText::hlsl));
-    if (argc > 3) targets.push_back(gpu_target(device, argv[2], read_words(argv[3])));
+    if (argc > 3) {
+      targets.push_back(gpu_target(device, argv[2], argv[3]));
+    } else {
+      targets.push_back(gpu_target(device, ShaderText::glsl));
+      targets.push_back(gpu_target(device, ShaderText::hlsl));
+    }
     fmt::print("{}: {}\n", targets.back().name, info.name);
   }
 

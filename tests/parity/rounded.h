@@ -57,11 +57,15 @@ struct Rounded {
   friend Rounded operator+(Rounded a, Rounded b) { return after(a.v + b.v, a.e + b.e, 1); }
   friend Rounded operator-(Rounded a, Rounded b) { return after(a.v - b.v, a.e + b.e, 1); }
   friend Rounded operator-(Rounded a) { return {-a.v, a.e}; }
+  // Nothing times something finite is nothing, exactly.
+  bool exact_zero() const { return std::fabs(v) + e <= 0; }
   friend Rounded operator*(Rounded a, Rounded b) {
+    if ((a.exact_zero() && std::isfinite(b.e)) || (b.exact_zero() && std::isfinite(a.e))) return {0, 0};
     return after(a.v * b.v, a.e * std::fabs(b.v) + b.e * std::fabs(a.v) + a.e * b.e, 1);
   }
   friend Rounded operator/(Rounded a, Rounded b) {
     const double v = a.v / b.v, room = std::fabs(b.v) - b.e;
+    if (a.exact_zero() && room > 0) return {0, 0};
     return room > 0 ? after(v, (a.e + std::fabs(v) * b.e) / room, Model::kDivision) : lost(v);
   }
   friend UncertainBool operator<(Rounded a, Rounded b) {

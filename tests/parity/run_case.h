@@ -17,7 +17,7 @@ auto run_case(std::size_t index, const Number* in, Make make) {
     in += 4;
   }
   std::size_t n = 0;
-#define PARITY_CASE(name, title, measure, values, arithmetic, inputs) \
+#define PARITY_CASE(name, title, measure, values, arithmetic, bound, inputs) \
   if (index == n++) return k.case_##name(i);
 #include "parity_cases.inc"
 #undef PARITY_CASE

@@ -35,11 +35,11 @@ def main():
     program, scratch = sys.argv[1], Path(sys.argv[2])
     wgsl_command(scratch)  # fetches naga
     (scratch / "translate.mjs").write_text(TRANSLATE)
-    source, raw, spirv = scratch / "parity.wgsl", scratch / "raw.spv", scratch / "parity_wgsl.spv"
+    source, spirv, folder = scratch / "parity.wgsl", scratch / "parity_wgsl.spv", scratch / "parity_wgsl"
     source.write_text(run([sys.executable, HERE / "make_cases.py", "shader", "wgsl", HERE / "cases.glsl"]))
-    run(["node", scratch / "translate.mjs", source, raw])
-    run([sys.executable, HERE / "embed_spirv.py", raw, spirv])
-    table = run([program, "10000", "WGSL", spirv])
+    run(["node", scratch / "translate.mjs", source, spirv])
+    run([sys.executable, HERE / "split_spirv.py", spirv, HERE / "cases.glsl", folder])
+    table = run([program, "10000", "WGSL", folder])
     if "WGSL" not in table:
         skip("no Vulkan device")
     print(table)
