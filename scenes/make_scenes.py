@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|ring|arcade ...]
+"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|textured_floor|ring|arcade ...]
 
 Standard library only; the same bytes on every machine: coordinates are rounded before they become floats.
 """
@@ -9,6 +9,7 @@ import math
 import os
 import struct
 import sys
+import zlib
 
 COPYRIGHT = "CC0-1.0: the Steradian authors waive all rights to this scene"
 HALF = math.sqrt(0.5)
@@ -25,7 +26,7 @@ class Shape:
     """Indexed triangles with normals."""
 
     def __init__(self):
-        self.positions, self.normals, self.triangles = [], [], []
+        self.positions, self.normals, self.triangles, self.texcoords = [], [], [], []
 
     def vertex(self, p, n):
         length = math.sqrt(sum(c * c for c in n)) or 1.0
@@ -54,6 +55,18 @@ class Shape:
                 for t in ((a, b, c), (a, c, d)):
                     if len({tuple(self.positions[k]) for k in t}) == 3:  # poles of spheres
                         self.triangles.append(t)
+
+
+def png(width, height, color):
+    """An RGB picture of color(x, y) in 0..255, not compressed: zlib's choices differ from version to version."""
+    rows = b"".join(b"\0" + bytes(c for x in range(width) for c in color(x, y)) for y in range(height))
+    stored = b"".join(struct.pack("<BHH", i + 65535 >= len(rows), len(part), 65535 - len(part)) + part
+                      for i in range(0, len(rows), 65535) for part in [rows[i:i + 65535]])
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", b"\x78\x01" + stored + struct.pack(">I", zlib.adler32(rows))) + chunk(b"IEND", b""))
 
 
 class Gltf:
@@ -98,6 +111,13 @@ class Gltf:
         self.json["materials"].append(m)
         return len(self.json["materials"]) - 1
 
+    def picture(self, name, data, material):
+        """Makes a PNG the emissive texture of a material."""
+        self.json.setdefault("images", []).append({"name": name, "bufferView": self.view(data), "mimeType": "image/png"})
+        self.json.setdefault("samplers", []).append({"magFilter": 9729, "wrapS": 33071, "wrapT": 33071})
+        self.json.setdefault("textures", []).append({"source": len(self.json["images"]) - 1, "sampler": len(self.json["samplers"]) - 1})
+        self.json["materials"][material]["emissiveTexture"] = {"index": len(self.json["textures"]) - 1}
+
     def diffuse(self, name, color):
         return self.material(name, color, specular=0.0)
 
@@ -110,6 +130,9 @@ class Gltf:
                      "indices": self.accessor(5125 if wide else 5123, "SCALAR", len(flat),
                                               struct.pack("<%d%s" % (len(flat), "I" if wide else "H"), *flat)),
                      "material": material}
+        if shape.texcoords:
+            uv = b"".join(struct.pack("<2f", *t) for t in shape.texcoords)
+            primitive["attributes"]["TEXCOORD_0"] = self.accessor(5126, "VEC2", len(shape.texcoords), uv)
         self.json["meshes"].append({"name": name, "primitives": [primitive]})
         return len(self.json["meshes"]) - 1
 
@@ -304,12 +327,11 @@ def plane():
     return g
 
 
-def floor(material):
+def floor(material, light_at=(0.0, 1.4, -2.0), facing=(0.0, 0.4, 0.0)):
     """A floor under a rectangle that leans over it, seen from 20 degrees up: what methods are compared on."""
     g = Gltf()
     g.node("floor", mesh=g.mesh("floor", plate((-20, 0, 20), (20, 0, 20), (20, 0, -20), (-20, 0, -20)), material(g)))
-    g.area_light("panel", {"type": "rect", "intensity": 4.0, "size": 1.2, "rect": {"aspect": 2.0}},
-                 matrix=looking([0.0, 1.4, -2.0], [0.0, 0.4, 0.0]))
+    g.area_light("panel", {"type": "rect", "intensity": 4.0, "size": 1.2, "rect": {"aspect": 2.0}}, matrix=looking(light_at, facing))
     angle, distance = math.radians(20), 6.0
     g.camera("main", [0.0, distance * math.sin(angle), distance * math.cos(angle)], [0.0, 0.0, 0.0], 0.7)
     return g
@@ -322,6 +344,37 @@ def diffuse_floor():
 def glossy_floor():
     # alpha 0.09, F = 1
     return floor(lambda g: g.material("mirror", (1.0, 1.0, 1.0), 1.0, 0.3))
+
+
+def window_color(u, v):
+    """A leaded window: panes of five colours in a diagonal lattice, a bright disk, a ramp from side to side."""
+    a, b = 6 * u + 3 * v, 6 * u - 3 * v
+    if min(a % 1, 1 - a % 1, b % 1, 1 - b % 1) < 0.06:
+        return 10, 10, 12
+    if (2 * u - 1.3) ** 2 + (v - 0.4) ** 2 < 0.06:
+        return 255, 244, 214
+    panes = ((235, 60, 40), (250, 170, 50), (60, 160, 235), (70, 190, 90), (160, 80, 215))
+    return tuple(int(c * (0.45 + 0.55 * u)) for c in panes[(3 * math.floor(a) + 7 * math.floor(b)) % 5])
+
+
+ROUGHNESS_OF_STRIPS = (0.1, 0.2, 0.35, 0.5, 0.8)
+
+
+def textured_floor(color=window_color, strips=ROUGHNESS_OF_STRIPS):
+    """Strips of floor, rougher from left to right, before a standing textured panel."""
+    g = Gltf()
+    width = 5.0 / len(strips)
+    for i, roughness in enumerate(strips):
+        x = -2.5 + width * i
+        g.node("strip %d" % (i + 1), mesh=g.mesh("strip %d" % (i + 1), plate((x, 0, 3), (x + width, 0, 3), (x + width, 0, -2), (x, 0, -2)),
+                                                 g.material("roughness %g" % roughness, (0.9, 0.9, 0.9), 1.0, roughness)))
+    panel = plate((-2.5, 0.1, -2), (2.5, 0.1, -2), (2.5, 1.9, -2), (-2.5, 1.9, -2))
+    panel.texcoords = [(0, 1), (1, 1), (1, 0), (0, 0)]
+    glass = g.material("window", (0.0, 0.0, 0.0), specular=0.0, emission=(2.0, 2.0, 2.0))
+    g.picture("window", png(160, 64, lambda x, y: color((x + 0.5) / 160, (y + 0.5) / 64)), glass)
+    g.node("window", mesh=g.mesh("window", panel, glass))
+    g.camera("main", [0.0, 2.2, 6.0], [0.0, 0.45, -0.6], 0.62)
+    return g
 
 
 def ring():
@@ -402,7 +455,7 @@ def arcade():
     return g
 
 
-SCENES = {"gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "ring": ring, "arcade": arcade}
+SCENES = {"gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "ring": ring, "arcade": arcade}
 
 
 def main():

@@ -8,6 +8,7 @@
 
 #include "../../bench/benches.h"
 #include "core/progress.h"
+#include "ltc/textured_error.h"
 #include "moment/table2.h"
 #include "steradian/error.h"
 #include "verbs.h"
@@ -19,7 +20,7 @@ struct Options {
   std::string filter, simd;
   double min_time = 0.5;
   bool json = false;
-  bool table2 = false;
+  bool table2 = false, textured = false;
   std::string figures;
 };
 
@@ -108,12 +109,15 @@ void add_bench(CLI::App& app, Exit&) {
   verb->add_flag("--json", options->json, "Print JSON")->group("How");
   verb->add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)")
       ->group("What");
+  verb->add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)")
+      ->group("What");
   verb->add_option("--figures", options->figures, "With --table2: write the page's figures into this folder")
       ->group("What")
       ->check(CLI::ExistingDirectory);
   verb->callback([options] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);
+    if (options->textured) return fmt::print("{}", textured_error_text(measure_textured_error({})));
     const std::vector<BenchResult> results = run(*options);
     options->json ? print_json(results) : print_table(results);
   });

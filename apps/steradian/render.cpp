@@ -107,6 +107,7 @@ void run(Options& options) {
   RenderStats stats;
   Picture picture = render(loaded.scene, render_options, &stats);
   progress.reset();
+  for (const std::string& warning : stats.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", options.scene},

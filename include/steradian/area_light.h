@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "steradian/polygon_light.h"
 #include "steradian/texture.h"
@@ -50,6 +51,9 @@ std::optional<Ellipse> silhouette(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d
 // The flat light that a point sees in place of `light`: its polygon, for a sphere the equal-area polygon of
 // its silhouette (no vertices from inside).
 PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int vertices = 64);
+
+// Radiance of a textured light at a point of its plane.
+Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& images, Vec3d p);
 
 // Rec. 709 luminance of linear RGB.
 double luminance(Vec3d rgb);

@@ -58,6 +58,8 @@ struct Kernels {
 
 #include "ltc.glsl"
 
+#include "ltc_texture.glsl"
+
 #include "ltc_clipless.glsl"
 
 #include "representative_point.glsl"

@@ -39,6 +39,7 @@ struct RenderStats {
   std::string method;  // what `auto` became
   std::size_t lights = 0;
   std::size_t triangles = 0;
+  std::vector<std::string> warnings;  // what the method leaves out, a sentence each
 };
 
 // Throws Error for a camera that is not there and for a method that does not serve a lobe of the scene.

@@ -54,4 +54,11 @@ PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int verti
   return nothing;
 }
 
+Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& images, Vec3d p) {
+  const Vec3d r = p - texture.origin;
+  const Vec4f t = sample_texture(images, texture.use, {static_cast<float>(dot(r, texture.du) + texture.u0),
+                                                       static_cast<float>(dot(r, texture.dv) + texture.v0)});
+  return texture.factor * static_cast<Vec3d>(Vec3f{t.x, t.y, t.z});
+}
+
 }  // namespace steradian

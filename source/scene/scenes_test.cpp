@@ -34,12 +34,12 @@ protected:
 };
 
 TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
-  for (const std::string name : {"gallery", "plane", "ring", "diffuse_floor", "glossy_floor"}) {
+  for (const std::string name : {"gallery", "plane", "ring", "diffuse_floor", "glossy_floor", "textured_floor"}) {
     const std::string checked_in = bytes_of(kScenes + "/" + name + ".glb");
     EXPECT_FALSE(checked_in.empty()) << name;
     EXPECT_LT(checked_in.size(), 1'000'000u) << name;
     EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb"))
-        << name << ": run scenes/make_scenes.py scenes gallery plane ring diffuse_floor glossy_floor";
+        << name << ": run scenes/make_scenes.py scenes gallery plane ring diffuse_floor glossy_floor textured_floor";
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ltc/textured_light.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -154,6 +155,8 @@ std::vector<PackLight> prepare_lights(const Scene& scene) {
     light.area = &a;
     if (light.kind == PackLight::Kind::polygon && light.vertices.empty()) continue;
     if (!is_finite(light.unit_x) || !is_finite(light.plane_normal) || !shines(light.radiance)) continue;
+    if (a.texture && a.texture->use.present())
+      light.textured = std::make_shared<TexturedLight>(a, light.polygon, scene.images);
     lights.push_back(std::move(light));
   }
   for (const PunctualLight& p : scene.punctual_lights) {

@@ -1,12 +1,15 @@
 // Lights as packs read them, and which of them can reach a tile.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "render/cpu/tile.h"
 #include "steradian/scene.h"
 
 namespace steradian {
+
+class TexturedLight;
 
 struct PackLight {
   enum class Kind { polygon, ellipse, ellipsoid, point, spot, directional };
@@ -15,6 +18,7 @@ struct PackLight {
   bool is_round() const { return kind == Kind::ellipse || kind == Kind::ellipsoid; }
   const AreaLight* area = nullptr;  // what it was made of; null for punctual lights
   PreparedPolygon polygon;          // polygon, in double
+  std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
 
   Vec3f radiance{};  // punctual lights: intensity (illuminance for directional)
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -110,13 +111,29 @@ Method chosen(const std::vector<SpecularLobe>& lobes, const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> lobes_under_means(const Scene& scene, const Method& method) {
+  std::vector<std::string> sentences;
+  if (method.estimates()) return sentences;
+  for (const AreaLight& light : scene.area_lights) {
+    if (!light.texture) continue;
+    std::set<std::string> said;
+    for (const SpecularLobe& lobe : specular_lobes_in(scene))
+      if (lobe.brdf != Brdf::ggx && said.insert(describe(lobe)).second)
+        sentences.push_back("the " + describe(lobe) + " sees the textured light '" + light.name + "' in its mean colour");
+  }
+  return sentences;
+}
+
 Method choose_method(const Scene& scene, const RenderOptions& options) {
   const std::vector<SpecularLobe> lobes = specular_lobes_in(scene);
   Method method;
   if (options.method == "sampled" || options.method == "reference" || (options.method == "auto" && options.shadows)) {
     method.name = options.method == "auto" ? "sampled" : options.method;
     method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
-    method.exact_diffuse = method.kind == MethodKind::sampled && !options.shadows;
+    const bool textured = std::any_of(scene.area_lights.begin(), scene.area_lights.end(),
+                                      [](const AreaLight& light) { return light.texture.has_value(); });
+    // Under a textured light, no closed form is exact.
+    method.exact_diffuse = method.kind == MethodKind::sampled && !options.shadows && !textured;
     method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
   } else {
     method = options.method == "auto" ? automatic(lobes, options.quality) : chosen(lobes, options.method);

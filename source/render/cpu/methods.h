@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/cpu/monte_carlo.h"
 #include "steradian/closed_form.h"
@@ -36,5 +37,9 @@ struct Method {
 // Throws UsageError with lobe and material when the method does not serve a lobe of the scene, and for shadows with a
 // method that has none.
 Method choose_method(const Scene& scene, const RenderOptions& options);
+
+// What the method leaves out of textured lights: a sentence for each lobe and light. Lobes other than GGX and the diffuse
+// one take the light's mean.
+std::vector<std::string> lobes_under_means(const Scene& scene, const Method& method);
 
 }  // namespace steradian

@@ -112,18 +112,21 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
     if (!(sampler.measure() > 0)) continue;
 
     const double plane_height = dot(polygon.centroid - p, polygon.normal);
-    const auto visible = [&](Vec3d l) {
-      if (shadows_ == nullptr) return true;
+    const LightTexture* texture = light.area->texture ? &*light.area->texture : nullptr;
+    // What arrives from the light's point in direction l.
+    const auto incident = [&](Vec3d l) -> Vec3d {
+      if (shadows_ == nullptr && texture == nullptr) return polygon.radiance;
       const Vec3d direction = frame.to_world(l);
-      const double distance = plane_height / dot(direction, polygon.normal);
-      return !shadows_->occluded(surface.position, static_cast<Vec3f>(p + direction * distance));
+      const Vec3d there = p + direction * (plane_height / dot(direction, polygon.normal));
+      if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(there))) return {};
+      return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
     };
     const auto contribution = [&](Vec3d l, double light_pdf) -> Vec3d {
       double pdf = light_pdf;
       for (const Lobe& lobe : lobes) pdf += lobe.pdf(l);
       if (!(light_pdf > 0) || !(pdf > 0)) return {};
       const Vec3d f = evaluate(lobes, l) * (1 / pdf);
-      return (f.x > 0 || f.y > 0 || f.z > 0) && visible(l) ? f : Vec3d{};
+      return f.x > 0 || f.y > 0 || f.z > 0 ? f * incident(l) : Vec3d{};
     };
 
     Vec3d mean{}, squares{};
@@ -136,7 +139,6 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
         const Vec3d by_lobe = lobe.sample(a, b);
         if (by_lobe.z > 0) x += contribution(by_lobe, sampler.pdf(by_lobe));
       }
-      x = x * polygon.radiance;
       const Vec3d delta = x - mean;  // Welford 1962
       mean += delta / static_cast<double>(i + 1);
       squares += delta * (x - mean);

@@ -17,6 +17,7 @@
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
 #include "render/cpu/specular.h"
+#include "render/cpu/textured_diffuse.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -93,6 +94,7 @@ class Renderer {
     stats.lights = lights_.size();
     stats.triangles = scene_.triangle_count();
     stats.method = method_.name;
+    stats.warnings = lobes_under_means(scene_, method_);
   }
 
  private:
@@ -182,7 +184,11 @@ class Renderer {
       fill(index, s, *tile);
       const auto reaching = lights_reaching(lights_, *tile);
       if (method_.exact_diffuse && tile->any_diffuse)
-        direct_clock_.run([&] { direct_.add_diffuse(*tile, reaching.data(), reaching.size()); });
+        direct_clock_.run([&] {
+          const std::vector<const PackLight*> plain = without_textured(reaching);
+          direct_.add_diffuse(*tile, plain.data(), plain.size());
+          if (plain.size() < reaching.size()) add_diffuse_from_textured(*tile, reaching);
+        });
       if (!method_.estimates()) specular_clock_.run([&] { specular_.add(*tile, reaching); });
       if (method_.estimates())
         sampling_clock_.run([&] {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "ltc/textured_light.h"
 #include "reference/lobe.h"
 #include "render/cpu/closed_form.h"
 #include "render/cpu/direct.h"
@@ -84,8 +85,11 @@ PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const
   return prepare_polygon(seen);
 }
 
-// One lobe of one point under an area light, by the library's float functions.
-Vec3d point_radiance(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
+// Of the round lobe that stands for an anisotropic one where a texture is looked up.
+double width(double alpha_x, double alpha_y) { return std::sqrt(alpha_x * alpha_y); }
+
+// One lobe of one point under an area light of its mean radiance, by the library's float functions.
+Vec3d point_radiance_of_mean(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
   const PreparedPolygon polygon = polygon_at(light, at, material, method.quality);
   if (polygon.vertices.empty()) return {};
   switch (material.brdf) {
@@ -102,6 +106,16 @@ Vec3d point_radiance(const Method& method, const PackLight& light, const Shading
     case Brdf::beckmann: return half_vector_radiance_float(polygon, at, material);
   }
   return {};
+}
+
+// The same, textured as GGX sees it; other lobes take the mean (lobes_under_means).
+Vec3d point_radiance(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
+  const Vec3d r = point_radiance_of_mean(method, light, at, material);
+  if (light.textured == nullptr || material.brdf != Brdf::ggx || r == Vec3d{}) return r;
+  const auto seen = static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
+  const Vec3d mean = light.polygon.radiance;
+  const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
+  return r * Vec3d{share(seen.x, mean.x), share(seen.y, mean.y), share(seen.z, mean.z)};
 }
 
 // The same under a punctual light: the lobe in one direction.
@@ -164,7 +178,11 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
     if (integrate_ggx(tile, lobe, *light, plain.data(), fresnel.data())) {
       for (std::size_t i = 0; i < kTilePixels; ++i) {
         const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
-        add_to(tile.radiance, i, light->radiance * (f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i]));
+        const Vec3f specular = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
+        const bool textured = light->textured != nullptr && (plain[i] > 0 || fresnel[i] > 0);
+        const Vec3f radiance = textured ? light->textured->seen_by_ggx(shading_point(tile, i), width(static_cast<double>(lobe.alpha_x[i]), static_cast<double>(lobe.alpha_y[i])))
+                                        : light->radiance;
+        add_to(tile.radiance, i, radiance * specular);
       }
       continue;
     }
