@@ -2529,6 +2529,168 @@ float ltc_clipless_integral(vec3 sum, bool reversed) {
     return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }
 
+// ==== ltc_texture ====
+
+// Textured lights: where on a light a lobe looks, and how widely.
+//
+// The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
+// point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
+// cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
+// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+//
+//   LtcFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
+//   TextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   TextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
+//
+// A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
+// Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// An ellipse on the light's plane, in the shading frame.
+//   center   relative to the shading point
+//   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
+//   valid    false where the light sends nothing
+struct LtcFootprint {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+    bool valid;
+};
+
+// M w, up to a positive factor: the inverse of ltc_transform.
+vec3 ltc_transform_back(LtcMatrix m, vec3 w) {
+    float determinant = m.xx * m.zz - m.xz * m.zx;
+    return vec3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
+}
+
+// The matrix of a diffuse lobe: none.
+LtcMatrix ltc_texture_diffuse() {
+    LtcMatrix m;
+    m.xx = 1.0;
+    m.xz = 0.0;
+    m.yy = 1.0;
+    m.zx = 0.0;
+    m.zz = 1.0;
+    return m;
+}
+
+// Irradiance vector, under M^-1, of the part of the light above both horizons.
+//
+//   reversed true where the light is seen from behind
+vec3 ltc_irradiance_vector(LtcWalk walk, bool reversed) {
+    return polygon_irradiance_vector(walk.lobe, reversed);
+}
+
+// Where a lobe looks on a light's plane.
+//
+//   m        M^-1
+//   phi      irradiance vector of the light under M^-1 (ltc_irradiance_vector)
+//   normal   unit normal of the light's plane, in the shading frame, either sign
+//   height   dot(normal, any point of the plane relative to the shading point)
+//
+// A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
+//
+// Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
+// Error: docs/ltc.md, "Textured lights".
+LtcFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, float height) {
+    float p2 = dot(phi, phi);
+    bool lit = p2 > 1.0e-30;
+    vec3 w = steradian_select(lit, phi * inversesqrt(max(p2, 1.0e-30)), vec3(0.0, 0.0, 1.0));
+    mat3 across = frame_from_normal(w);
+    vec3 l = ltc_transform_back(m, w);
+    float along = dot(normal, l);
+    bool meets = lit && along * height > 0.0;
+    float inverse = steradian_select(meets, 1.0 / steradian_select(meets, along, 1.0), 0.0);
+    float t = height * inverse;
+    vec3 a = ltc_transform_back(m, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
+    vec3 b = ltc_transform_back(m, steradian_transform(across, vec3(0.0, 1.0, 0.0)));
+    LtcFootprint f;
+    f.center = l * t;
+    f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
+    f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
+    f.valid = meets;
+    return f;
+}
+
+// An ellipse on the light's plane: its long half axis, and the length of the short one.
+struct TextureEllipse {
+    vec2 major;
+    float minor;
+};
+
+// Principal axes of the ellipse of two conjugate radii.
+//
+//   a, b     in the plane's own coordinates [m]
+//
+// Degenerate: a circle has any major axis.
+TextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
+    float xx = a.x * a.x + b.x * b.x;
+    float yy = a.y * a.y + b.y * b.y;
+    float xy2 = a.x * a.y + b.x * b.y;
+    float half_difference = 0.5 * (xx - yy);
+    float spread = sqrt(half_difference * half_difference + xy2 * xy2);
+    // An eigenvector of the larger eigenvalue, from the row that does not cancel.
+    vec2 v = steradian_select(half_difference > 0.0, vec2(half_difference + spread, xy2), vec2(xy2, spread - half_difference));
+    float v2 = dot(v, v);
+    vec2 direction = steradian_select(v2 > 1.0e-36, v * inversesqrt(max(v2, 1.0e-36)), vec2(1.0, 0.0));
+    float longest = sqrt(0.5 * (xx + yy) + spread);
+    TextureEllipse e;
+    e.major = direction * longest;
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
+    return e;
+}
+
+// A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
+TextureEllipse ltc_texture_gaussian(TextureEllipse e, float width, float widest) {
+    float longest = width * sqrt(dot(e.major, e.major));
+    TextureEllipse g;
+    g.major = e.major * (width * (widest / max(longest, widest)));
+    g.minor = min(width * e.minor, widest);
+    return g;
+}
+
+// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+//
+// A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
+// Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
+// inverts that. The irradiance vector also lacks the lobe's cosine; it moves the centroid to the largest value of the
+// product of (V^-1 + S^-1)^-1's Gaussian and the cosine, along the cosine's slope.
+//
+//   g        the Gaussian: its standard deviations
+//   aside    where the irradiance vector meets the plane, from the light's centroid
+//   slope    of the logarithm of z under M^-1 along the plane, there
+//   light    covariance of the light's area: xx, xy, yy
+//   returns  from the light's centroid
+//
+// Degenerate: a light without width counts as a thousandth as wide as long.
+vec2 ltc_texture_place(TextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
+    float major2 = dot(g.major, g.major);
+    float minor2 = g.minor * g.minor;
+    vec2 u = g.major * inversesqrt(max(major2, 1.0e-36));
+    float along = major2 - minor2;
+    float sxx = minor2 + along * u.x * u.x;
+    float sxy = along * u.x * u.y;
+    float syy = minor2 + along * u.y * u.y;
+    float least = 1.0e-6 * (light.x + light.z) + 1.0e-30;
+    float vxx = light.x + least;
+    float vyy = light.z + least;
+    // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
+    float txx = vxx + sxx;
+    float txy = light.y + sxy;
+    float tyy = vyy + syy;
+    float t_inverse = 1.0 / max(txx * tyy - txy * txy, 1.0e-36);
+    vec2 p = vec2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
+    p = vec2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
+    p = vec2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
+    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    float q = max(dot(slope, p), 0.0);
+    float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
+    vec2 d = aside + p * share;
+    float v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
+    vec2 e = vec2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
+    return d + vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+}
+
 // ==== moment_arvo ====
 
 // The Phong lobe's boundary integral by Arvo's recurrence: exact for integer n, in n/2 steps an edge.
@@ -2920,6 +3082,13 @@ float plane_disk_window_integral(float d2, float rho2, float d, float c, float s
     return psi - 2.0 * r2 + even - mixed;
 }
 
+// Square root of x >= 0 as x over its square root: a packed square root takes as long as ten multiplications.
+//
+// Error: two roundings more than sqrt; 0 at 0.
+float plane_root(float x) {
+    return x * inversesqrt(max(x, 1.0e-30));
+}
+
 // Whole disk window integral between two rays, from their slopes.
 //
 //   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
@@ -2928,17 +3097,28 @@ float plane_disk_window_integral(float d2, float rho2, float d, float c, float s
 //
 // Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
 float plane_disk_window(float m0, float m1, float d2, float rho2) {
-    float d = sqrt(d2);
+    float d = plane_root(d2);
     float c0 = inversesqrt(1.0 + m0 * m0);
     float c1 = inversesqrt(1.0 + m1 * m1);
     float s0 = m0 * c0;
     float s1 = m1 * c1;
-    float chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
-    float chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
+    float chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
+    float chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
     float psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
     float beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
     return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
          - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+}
+
+// The same between -m and m: the integral is odd in the angle.
+float plane_disk_window_symmetric(float m, float d2, float rho2) {
+    float d = plane_root(d2);
+    float c = inversesqrt(1.0 + m * m);
+    float s = m * c;
+    float chord = plane_root(max(rho2 - d2 * s * s, 0.0));
+    float psi = trig_atan2(m, 1.0);
+    float beta = trig_atan2(d * s, chord);
+    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.

@@ -65,6 +65,19 @@ struct Cut {
   }
 };
 
+// a / b to 2 or 3 ulp; b > 0 and in the range of its estimate.
+STERADIAN_INLINE PackReal quotient(PackReal a, PackReal b) {
+#if defined(__AVX512F__)
+  const PackReal y = PackReal::of(Pack(_mm512_rcp14_ps(b.v)));
+  return a * (y * (PackReal(2.0) - b * y));
+#elif defined(__AVX2__)
+  const PackReal y = PackReal::of(Pack(_mm256_rcp_ps(b.v)));
+  return a * (y * (PackReal(2.0) - b * y));
+#else
+  return a / b;
+#endif
+}
+
 struct Axis {
   PackReal x, y;        // axis: w along it, t across
   PackReal px, py;      // the pixels
@@ -74,7 +87,7 @@ struct Axis {
 
 STERADIAN_INLINE PackReal slope_to(const TileVertex& v, const Axis& axis) {
   const PackReal x = broadcast(v.x) - axis.px, y = broadcast(v.y) - axis.py;
-  return axis.t(x, y) / axis.w(x, y);
+  return quotient(axis.t(x, y), axis.w(x, y));
 }
 
 STERADIAN_INLINE void take_blocker(const TileSpan& span, const TileVertex* vertices, const Axis& axis, Cut& cut) {
@@ -239,10 +252,14 @@ STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) 
   cut.low = -cut.high;
   if (cut.dark() || !cut_blockers(light, axis, cut)) return;
   PackReal sum(0.0);
-  cut.for_each_gap([&](PackReal from, PackReal to) {
-    sum += light.inverse_range > 0.0f ? k.plane_disk_window(from, to, d2r, rho2r)
-                                      : k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
-  });
+  if (light.inverse_range > 0.0f && cut.count == 0 && all_lanes(abs(cut.low + cut.high) <= PackReal(0.0))) {
+    sum = k.plane_disk_window_symmetric(max(cut.high, PackReal(0.0)), d2r, rho2r);  // nothing in the way
+  } else {
+    cut.for_each_gap([&](PackReal from, PackReal to) {
+      sum += light.inverse_range > 0.0f ? k.plane_disk_window(from, to, d2r, rho2r)
+                                        : k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
+    });
+  }
   sum = sum * PackReal(0.159154943091895336);
   add(tile.red + i, sum * broadcast(light.red));
   add(tile.green + i, sum * broadcast(light.green));

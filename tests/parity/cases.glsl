@@ -296,6 +296,16 @@ vec4 case_plane_disk_window(CaseInput i) {
     return case_of_real(plane_disk_window(i.a.y * tangent, i.a.x * tangent, i.b.x, rho2));
 }
 
+// plane, the same disk between a ray and its mirror image
+//   a.x    range(0, 0.9)
+//   b.x    range(0.02, 0.9)
+//   b.y    range(0.01, 0.95)
+vec4 case_plane_disk_window_symmetric(CaseInput i) {
+    real rho2 = i.b.x * i.b.y * i.b.y;
+    real tangent = sqrt(rho2) * inversesqrt(i.b.x - rho2);
+    return case_of_real(plane_disk_window_symmetric(i.a.x * tangent, i.b.x, rho2));
+}
+
 // plane, slope of a point in front of a pixel or behind it
 //   a.x    signed_log(0.001, 1000)
 //   a.y    signed_log(0.001, 1000)
