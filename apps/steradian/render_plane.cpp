@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/simd.h"
+#include "steradian/error.h"
 #include "steradian/version.h"
 
 namespace steradian::app {
@@ -26,7 +27,11 @@ void render_plane_scene(const PlaneRender& job) {
     fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);
   }
   PlaneFrameOptions options = job.frame;
-  options.method = plane_method_from_name(job.method == "auto" ? "exact" : job.method);
+  try {
+    options.method = plane_method_from_name(job.method == "auto" ? "exact" : job.method);
+  } catch (const Error& e) {
+    throw UsageError("--method", e.problem(), e.hint());
+  }
   const PlaneWorld world(std::move(loaded.scene));
 
   std::unique_ptr<Progress> progress;
