@@ -1,8 +1,10 @@
-// kernel/lambert/quad/double and kernel/lambert/quad/derivatives: irradiance of a quad in double, without and with its
-// derivatives by vertices, point and normal. Their ratio is what derivatives cost.
+// kernel/{lambert,phong,ggx,ltc}/quad/double and .../derivatives: what a quad sends, in double, without and with its derivatives
+// by vertices and point (of lambert: by the normal too). The ratio of the two is what derivatives cost.
+#include <functional>
 #include <memory>
 
 #include "benches.h"
+#include "steradian/phong.h"
 #include "steradian/polygon_derivatives.h"
 
 namespace steradian::bench {
@@ -16,33 +18,44 @@ PolygonLight quad() {
   return light;
 }
 
-Vec3d point(std::size_t i) { return {1e-3 * static_cast<double>(i), 0.1, 0.0}; }
+ShadingPoint at(std::size_t i) { return {{1e-3 * static_cast<double>(i), 0.1, 0.0}, {0, 0, 1}, normalized(Vec3d{0.3, 0.2, 0.9})}; }
 
-Bench plain(const std::string& name) {
-  auto light = std::make_shared<PreparedPolygon>(prepare_polygon(quad()));
-  return {name, kPoints, "scalar", [light] {
-            double sum = 0;
-            for (std::size_t i = 0; i < kPoints; ++i) sum += polygon_irradiance(*light, point(i), {0, 0, 1});
-            keep(static_cast<float>(sum));
-          }};
-}
-
-Bench with_derivatives(const std::string& name) {
-  auto light = std::make_shared<PolygonLight>(quad());
-  return {name, kPoints, "scalar", [light] {
-            double sum = 0;
-            for (std::size_t i = 0; i < kPoints; ++i)
-              sum += polygon_irradiance_derivatives(*light, point(i), {0, 0, 1}).position.x;
-            keep(static_cast<float>(sum));
-          }};
+// The sum over the points of a number that nothing but `evaluate` makes.
+void add(BenchList& list, const std::string& name, const std::function<double(const ShadingPoint&)>& evaluate) {
+  list.add(name, [name, evaluate](const BenchOptions&) -> Bench {
+    return {name, kPoints, "scalar", [evaluate] {
+              double sum = 0;
+              for (std::size_t i = 0; i < kPoints; ++i) sum += evaluate(at(i));
+              keep(static_cast<float>(sum));
+            }};
+  });
 }
 
 }  // namespace
 
 void add_derivatives(BenchList& list) {
-  list.add("kernel/lambert/quad/double", [](const BenchOptions&) { return plain("kernel/lambert/quad/double"); });
-  list.add("kernel/lambert/quad/derivatives",
-           [](const BenchOptions&) { return with_derivatives("kernel/lambert/quad/derivatives"); });
+  const auto light = std::make_shared<PolygonLight>(quad());
+  const auto prepared = std::make_shared<PreparedPolygon>(prepare_polygon(*light));
+  add(list, "kernel/lambert/quad/double",
+      [=](const ShadingPoint& p) { return polygon_irradiance(*prepared, p.position, p.normal); });
+  add(list, "kernel/lambert/quad/derivatives",
+      [=](const ShadingPoint& p) { return polygon_irradiance_derivatives(*light, p.position, p.normal).position.x; });
+
+  const Material phong{.brdf = Brdf::phong, .exponent = 20.0};
+  add(list, "kernel/phong/quad/double", [=](const ShadingPoint& p) { return phong_radiance(*prepared, p, phong).x; });
+  add(list, "kernel/phong/quad/derivatives",
+      [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, phong))[0].x; });
+
+  Material ggx{.brdf = Brdf::ggx};
+  ggx.alpha_x = ggx.alpha_y = 0.3;
+  add(list, "kernel/ggx/quad/double", [=](const ShadingPoint& p) { return closed_form_radiance(*prepared, p, ggx).x; });
+  add(list, "kernel/ggx/quad/derivatives",
+      [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, ggx))[0].x; });
+  add(list, "kernel/ltc/quad/double",
+      [=](const ShadingPoint& p) { return ltc_radiance(LtcMethod::classic, *prepared, p, ggx).x; });
+  add(list, "kernel/ltc/quad/derivatives", [=](const ShadingPoint& p) {
+    return by_position(ltc_radiance_derivatives(LtcMethod::classic, *light, p, ggx))[0].x;
+  });
 }
 
 }  // namespace steradian::bench
