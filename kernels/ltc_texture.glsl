@@ -131,6 +131,8 @@ LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, real width, real wid
 //   light    covariance of the light's area: xx, xy, yy
 //   returns  from the light's centroid
 //
+// It stands at most 2.5 of its standard deviations away from there: further out, next to nothing of the light is under it.
+//
 // Degenerate: a light without width counts as a thousandth as wide as long.
 vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
     real major2 = dot(g.major, g.major);
@@ -157,5 +159,7 @@ vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) 
     vec2 d = aside + p * share;
     real v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
     vec2 e = vec2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
-    return d + vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+    vec2 push = vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+    real pushed2 = max(dot(push, e), 0.0);
+    return d + push * (2.5 * inversesqrt(max(pushed2, 6.25)));
 }
