@@ -578,8 +578,7 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
         back.axis_b = -level.axis_b;
         float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
         lower = steradian_select(limit > 1.0e14, 0.0, lower);
-        vec3 far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
-        sum = steradian_select(more, sum + far_side, sum);
+        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
     }
     if (cut) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
@@ -2558,9 +2557,9 @@ float ltc_clipless_integral(vec3 sum, bool reversed) {
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
 // cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
 //
-//   LtcFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   TextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   TextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
+//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
 //   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
 // A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
@@ -2570,7 +2569,7 @@ float ltc_clipless_integral(vec3 sum, bool reversed) {
 //   center   relative to the shading point
 //   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
 //   valid    false where the light sends nothing
-struct LtcFootprint {
+struct LtcTextureFootprint {
     vec3 center;
     vec3 axis_a;
     vec3 axis_b;
@@ -2578,7 +2577,7 @@ struct LtcFootprint {
 };
 
 // M w, up to a positive factor: the inverse of ltc_transform.
-vec3 ltc_transform_back(LtcMatrix m, vec3 w) {
+vec3 ltc_texture_transform_back(LtcMatrix m, vec3 w) {
     float determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
 }
@@ -2597,14 +2596,14 @@ LtcMatrix ltc_texture_diffuse() {
 // Irradiance vector, under M^-1, of the part of the light above both horizons.
 //
 //   reversed true where the light is seen from behind
-vec3 ltc_irradiance_vector(LtcWalk walk, bool reversed) {
+vec3 ltc_texture_irradiance_vector(LtcWalk walk, bool reversed) {
     return polygon_irradiance_vector(walk.lobe, reversed);
 }
 
 // Where a lobe looks on a light's plane.
 //
 //   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_irradiance_vector)
+//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
 //   normal   unit normal of the light's plane, in the shading frame, either sign
 //   height   dot(normal, any point of the plane relative to the shading point)
 //
@@ -2612,19 +2611,19 @@ vec3 ltc_irradiance_vector(LtcWalk walk, bool reversed) {
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
 // Error: docs/ltc.md, "Textured lights".
-LtcFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, float height) {
+LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, float height) {
     float p2 = dot(phi, phi);
     bool lit = p2 > 1.0e-30;
     vec3 w = steradian_select(lit, phi * inversesqrt(max(p2, 1.0e-30)), vec3(0.0, 0.0, 1.0));
     mat3 across = frame_from_normal(w);
-    vec3 l = ltc_transform_back(m, w);
+    vec3 l = ltc_texture_transform_back(m, w);
     float along = dot(normal, l);
     bool meets = lit && along * height > 0.0;
     float inverse = steradian_select(meets, 1.0 / steradian_select(meets, along, 1.0), 0.0);
     float t = height * inverse;
-    vec3 a = ltc_transform_back(m, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
-    vec3 b = ltc_transform_back(m, steradian_transform(across, vec3(0.0, 1.0, 0.0)));
-    LtcFootprint f;
+    vec3 a = ltc_texture_transform_back(m, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
+    vec3 b = ltc_texture_transform_back(m, steradian_transform(across, vec3(0.0, 1.0, 0.0)));
+    LtcTextureFootprint f;
     f.center = l * t;
     f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
     f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
@@ -2633,7 +2632,7 @@ LtcFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, float hei
 }
 
 // An ellipse on the light's plane: its long half axis, and the length of the short one.
-struct TextureEllipse {
+struct LtcTextureEllipse {
     vec2 major;
     float minor;
 };
@@ -2643,7 +2642,7 @@ struct TextureEllipse {
 //   a, b     in the plane's own coordinates [m]
 //
 // Degenerate: a circle has any major axis.
-TextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
+LtcTextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
     float xx = a.x * a.x + b.x * b.x;
     float yy = a.y * a.y + b.y * b.y;
     float xy2 = a.x * a.y + b.x * b.y;
@@ -2654,16 +2653,16 @@ TextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
     float v2 = dot(v, v);
     vec2 direction = steradian_select(v2 > 1.0e-36, v * inversesqrt(max(v2, 1.0e-36)), vec2(1.0, 0.0));
     float longest = sqrt(0.5 * (xx + yy) + spread);
-    TextureEllipse e;
+    LtcTextureEllipse e;
     e.major = direction * longest;
     e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
     return e;
 }
 
 // A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
-TextureEllipse ltc_texture_gaussian(TextureEllipse e, float width, float widest) {
+LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, float width, float widest) {
     float longest = width * sqrt(dot(e.major, e.major));
-    TextureEllipse g;
+    LtcTextureEllipse g;
     g.major = e.major * (width * (widest / max(longest, widest)));
     g.minor = min(width * e.minor, widest);
     return g;
@@ -2683,7 +2682,7 @@ TextureEllipse ltc_texture_gaussian(TextureEllipse e, float width, float widest)
 //   returns  from the light's centroid
 //
 // Degenerate: a light without width counts as a thousandth as wide as long.
-vec2 ltc_texture_place(TextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
+vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
     float major2 = dot(g.major, g.major);
     float minor2 = g.minor * g.minor;
     vec2 u = g.major * inversesqrt(max(major2, 1.0e-36));
@@ -3102,13 +3101,6 @@ float plane_disk_window_integral(float d2, float rho2, float d, float c, float s
     return psi - 2.0 * r2 + even - mixed;
 }
 
-// Square root of x >= 0 as x over its square root: a packed square root takes as long as ten multiplications.
-//
-// Error: two roundings more than sqrt; 0 at 0.
-float plane_root(float x) {
-    return x * inversesqrt(max(x, 1.0e-30));
-}
-
 // Whole disk window integral between two rays, from their slopes.
 //
 //   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
@@ -3117,28 +3109,17 @@ float plane_root(float x) {
 //
 // Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
 float plane_disk_window(float m0, float m1, float d2, float rho2) {
-    float d = plane_root(d2);
+    float d = sqrt(d2);
     float c0 = inversesqrt(1.0 + m0 * m0);
     float c1 = inversesqrt(1.0 + m1 * m1);
     float s0 = m0 * c0;
     float s1 = m1 * c1;
-    float chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    float chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
+    float chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
+    float chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
     float psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
     float beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
     return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
          - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
-}
-
-// The same between -m and m: the integral is odd in the angle.
-float plane_disk_window_symmetric(float m, float d2, float rho2) {
-    float d = plane_root(d2);
-    float c = inversesqrt(1.0 + m * m);
-    float s = m * c;
-    float chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    float psi = trig_atan2(m, 1.0);
-    float beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.

@@ -579,8 +579,7 @@ float3 ellipse_irradiance_vector(Ellipse e) {
         back.axis_b = -level.axis_b;
         float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
         lower = steradian_select(limit > 1.0e14, 0.0, lower);
-        float3 far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
-        sum = steradian_select(more, sum + far_side, sum);
+        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
     }
     if (cut) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
@@ -2559,9 +2558,9 @@ float ltc_clipless_integral(float3 sum, bool reversed) {
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
 // cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
 //
-//   LtcFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   TextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   TextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
+//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
 //   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
 // A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
@@ -2571,7 +2570,7 @@ float ltc_clipless_integral(float3 sum, bool reversed) {
 //   center   relative to the shading point
 //   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
 //   valid    false where the light sends nothing
-struct LtcFootprint {
+struct LtcTextureFootprint {
     float3 center;
     float3 axis_a;
     float3 axis_b;
@@ -2579,7 +2578,7 @@ struct LtcFootprint {
 };
 
 // M w, up to a positive factor: the inverse of ltc_transform.
-float3 ltc_transform_back(LtcMatrix m, float3 w) {
+float3 ltc_texture_transform_back(LtcMatrix m, float3 w) {
     float determinant = m.xx * m.zz - m.xz * m.zx;
     return float3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
 }
@@ -2598,14 +2597,14 @@ LtcMatrix ltc_texture_diffuse() {
 // Irradiance vector, under M^-1, of the part of the light above both horizons.
 //
 //   reversed true where the light is seen from behind
-float3 ltc_irradiance_vector(LtcWalk walk, bool reversed) {
+float3 ltc_texture_irradiance_vector(LtcWalk walk, bool reversed) {
     return polygon_irradiance_vector(walk.lobe, reversed);
 }
 
 // Where a lobe looks on a light's plane.
 //
 //   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_irradiance_vector)
+//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
 //   normal   unit normal of the light's plane, in the shading frame, either sign
 //   height   dot(normal, any point of the plane relative to the shading point)
 //
@@ -2613,19 +2612,19 @@ float3 ltc_irradiance_vector(LtcWalk walk, bool reversed) {
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
 // Error: docs/ltc.md, "Textured lights".
-LtcFootprint ltc_texture_footprint(LtcMatrix m, float3 phi, float3 normal, float height) {
+LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, float3 phi, float3 normal, float height) {
     float p2 = dot(phi, phi);
     bool lit = p2 > 1.0e-30;
     float3 w = steradian_select(lit, phi * rsqrt(max(p2, 1.0e-30)), float3(0.0, 0.0, 1.0));
     float3x3 across = frame_from_normal(w);
-    float3 l = ltc_transform_back(m, w);
+    float3 l = ltc_texture_transform_back(m, w);
     float along = dot(normal, l);
     bool meets = lit && along * height > 0.0;
     float inverse = steradian_select(meets, 1.0 / steradian_select(meets, along, 1.0), 0.0);
     float t = height * inverse;
-    float3 a = ltc_transform_back(m, steradian_transform(across, float3(1.0, 0.0, 0.0)));
-    float3 b = ltc_transform_back(m, steradian_transform(across, float3(0.0, 1.0, 0.0)));
-    LtcFootprint f;
+    float3 a = ltc_texture_transform_back(m, steradian_transform(across, float3(1.0, 0.0, 0.0)));
+    float3 b = ltc_texture_transform_back(m, steradian_transform(across, float3(0.0, 1.0, 0.0)));
+    LtcTextureFootprint f;
     f.center = l * t;
     f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
     f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
@@ -2634,7 +2633,7 @@ LtcFootprint ltc_texture_footprint(LtcMatrix m, float3 phi, float3 normal, float
 }
 
 // An ellipse on the light's plane: its long half axis, and the length of the short one.
-struct TextureEllipse {
+struct LtcTextureEllipse {
     float2 major;
     float minor;
 };
@@ -2644,7 +2643,7 @@ struct TextureEllipse {
 //   a, b     in the plane's own coordinates [m]
 //
 // Degenerate: a circle has any major axis.
-TextureEllipse ltc_texture_axes(float2 a, float2 b) {
+LtcTextureEllipse ltc_texture_axes(float2 a, float2 b) {
     float xx = a.x * a.x + b.x * b.x;
     float yy = a.y * a.y + b.y * b.y;
     float xy2 = a.x * a.y + b.x * b.y;
@@ -2655,16 +2654,16 @@ TextureEllipse ltc_texture_axes(float2 a, float2 b) {
     float v2 = dot(v, v);
     float2 direction = steradian_select(v2 > 1.0e-36, v * rsqrt(max(v2, 1.0e-36)), float2(1.0, 0.0));
     float longest = sqrt(0.5 * (xx + yy) + spread);
-    TextureEllipse e;
+    LtcTextureEllipse e;
     e.major = direction * longest;
     e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
     return e;
 }
 
 // A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
-TextureEllipse ltc_texture_gaussian(TextureEllipse e, float width, float widest) {
+LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, float width, float widest) {
     float longest = width * sqrt(dot(e.major, e.major));
-    TextureEllipse g;
+    LtcTextureEllipse g;
     g.major = e.major * (width * (widest / max(longest, widest)));
     g.minor = min(width * e.minor, widest);
     return g;
@@ -2684,7 +2683,7 @@ TextureEllipse ltc_texture_gaussian(TextureEllipse e, float width, float widest)
 //   returns  from the light's centroid
 //
 // Degenerate: a light without width counts as a thousandth as wide as long.
-float2 ltc_texture_place(TextureEllipse g, float2 aside, float2 slope, float3 light) {
+float2 ltc_texture_place(LtcTextureEllipse g, float2 aside, float2 slope, float3 light) {
     float major2 = dot(g.major, g.major);
     float minor2 = g.minor * g.minor;
     float2 u = g.major * rsqrt(max(major2, 1.0e-36));
@@ -3103,13 +3102,6 @@ float plane_disk_window_integral(float d2, float rho2, float d, float c, float s
     return psi - 2.0 * r2 + even - mixed;
 }
 
-// Square root of x >= 0 as x over its square root: a packed square root takes as long as ten multiplications.
-//
-// Error: two roundings more than sqrt; 0 at 0.
-float plane_root(float x) {
-    return x * rsqrt(max(x, 1.0e-30));
-}
-
 // Whole disk window integral between two rays, from their slopes.
 //
 //   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
@@ -3118,28 +3110,17 @@ float plane_root(float x) {
 //
 // Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
 float plane_disk_window(float m0, float m1, float d2, float rho2) {
-    float d = plane_root(d2);
+    float d = sqrt(d2);
     float c0 = rsqrt(1.0 + m0 * m0);
     float c1 = rsqrt(1.0 + m1 * m1);
     float s0 = m0 * c0;
     float s1 = m1 * c1;
-    float chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    float chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
+    float chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
+    float chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
     float psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
     float beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
     return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
          - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
-}
-
-// The same between -m and m: the integral is odd in the angle.
-float plane_disk_window_symmetric(float m, float d2, float rho2) {
-    float d = plane_root(d2);
-    float c = rsqrt(1.0 + m * m);
-    float s = m * c;
-    float chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    float psi = trig_atan2(m, 1.0);
-    float beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.

@@ -575,8 +575,7 @@ fn ellipse_irradiance_vector(e: Ellipse) -> vec3f {
         back.axis_b = -level.axis_b;
         var lower = select(1.0, 1.0 / max(limit, 1.0), more);
         lower = select(lower, 0.0, limit > 1.0e14);
-        let far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
-        sum = select(sum, sum + far_side, more);
+        sum = sum + conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
     }
     if (cut) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
@@ -2555,9 +2554,9 @@ fn ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
 // cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
 //
-//   LtcFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   TextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   TextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
+//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
 //   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
 // A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
@@ -2567,7 +2566,7 @@ fn ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
 //   center   relative to the shading point
 //   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
 //   valid    false where the light sends nothing
-struct LtcFootprint {
+struct LtcTextureFootprint {
     center: vec3f,
     axis_a: vec3f,
     axis_b: vec3f,
@@ -2575,7 +2574,7 @@ struct LtcFootprint {
 }
 
 // M w, up to a positive factor: the inverse of ltc_transform.
-fn ltc_transform_back(m: LtcMatrix, w: vec3f) -> vec3f {
+fn ltc_texture_transform_back(m: LtcMatrix, w: vec3f) -> vec3f {
     let determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3f(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
 }
@@ -2594,14 +2593,14 @@ fn ltc_texture_diffuse() -> LtcMatrix {
 // Irradiance vector, under M^-1, of the part of the light above both horizons.
 //
 //   reversed true where the light is seen from behind
-fn ltc_irradiance_vector(walk: LtcWalk, reversed: bool) -> vec3f {
+fn ltc_texture_irradiance_vector(walk: LtcWalk, reversed: bool) -> vec3f {
     return polygon_irradiance_vector(walk.lobe, reversed);
 }
 
 // Where a lobe looks on a light's plane.
 //
 //   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_irradiance_vector)
+//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
 //   normal   unit normal of the light's plane, in the shading frame, either sign
 //   height   dot(normal, any point of the plane relative to the shading point)
 //
@@ -2609,19 +2608,19 @@ fn ltc_irradiance_vector(walk: LtcWalk, reversed: bool) -> vec3f {
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
 // Error: docs/ltc.md, "Textured lights".
-fn ltc_texture_footprint(m: LtcMatrix, phi: vec3f, normal: vec3f, height: f32) -> LtcFootprint {
+fn ltc_texture_footprint(m: LtcMatrix, phi: vec3f, normal: vec3f, height: f32) -> LtcTextureFootprint {
     let p2 = dot(phi, phi);
     let lit = p2 > 1.0e-30;
     let w = select(vec3f(0.0, 0.0, 1.0), phi * inverseSqrt(max(p2, 1.0e-30)), lit);
     let across = frame_from_normal(w);
-    let l = ltc_transform_back(m, w);
+    let l = ltc_texture_transform_back(m, w);
     let along = dot(normal, l);
     let meets = lit && along * height > 0.0;
     let inverse = select(0.0, 1.0 / select(1.0, along, meets), meets);
     let t = height * inverse;
-    let a = ltc_transform_back(m, steradian_transform(across, vec3f(1.0, 0.0, 0.0)));
-    let b = ltc_transform_back(m, steradian_transform(across, vec3f(0.0, 1.0, 0.0)));
-    var f: LtcFootprint;
+    let a = ltc_texture_transform_back(m, steradian_transform(across, vec3f(1.0, 0.0, 0.0)));
+    let b = ltc_texture_transform_back(m, steradian_transform(across, vec3f(0.0, 1.0, 0.0)));
+    var f: LtcTextureFootprint;
     f.center = l * t;
     f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
     f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
@@ -2630,7 +2629,7 @@ fn ltc_texture_footprint(m: LtcMatrix, phi: vec3f, normal: vec3f, height: f32) -
 }
 
 // An ellipse on the light's plane: its long half axis, and the length of the short one.
-struct TextureEllipse {
+struct LtcTextureEllipse {
     major: vec2f,
     minor: f32,
 }
@@ -2640,7 +2639,7 @@ struct TextureEllipse {
 //   a, b     in the plane's own coordinates [m]
 //
 // Degenerate: a circle has any major axis.
-fn ltc_texture_axes(a: vec2f, b: vec2f) -> TextureEllipse {
+fn ltc_texture_axes(a: vec2f, b: vec2f) -> LtcTextureEllipse {
     let xx = a.x * a.x + b.x * b.x;
     let yy = a.y * a.y + b.y * b.y;
     let xy2 = a.x * a.y + b.x * b.y;
@@ -2651,16 +2650,16 @@ fn ltc_texture_axes(a: vec2f, b: vec2f) -> TextureEllipse {
     let v2 = dot(v, v);
     let direction = select(vec2f(1.0, 0.0), v * inverseSqrt(max(v2, 1.0e-36)), v2 > 1.0e-36);
     let longest = sqrt(0.5 * (xx + yy) + spread);
-    var e: TextureEllipse;
+    var e: LtcTextureEllipse;
     e.major = direction * longest;
     e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
     return e;
 }
 
 // A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
-fn ltc_texture_gaussian(e: TextureEllipse, width: f32, widest: f32) -> TextureEllipse {
+fn ltc_texture_gaussian(e: LtcTextureEllipse, width: f32, widest: f32) -> LtcTextureEllipse {
     let longest = width * sqrt(dot(e.major, e.major));
-    var g: TextureEllipse;
+    var g: LtcTextureEllipse;
     g.major = e.major * (width * (widest / max(longest, widest)));
     g.minor = min(width * e.minor, widest);
     return g;
@@ -2680,7 +2679,7 @@ fn ltc_texture_gaussian(e: TextureEllipse, width: f32, widest: f32) -> TextureEl
 //   returns  from the light's centroid
 //
 // Degenerate: a light without width counts as a thousandth as wide as long.
-fn ltc_texture_place(g: TextureEllipse, aside: vec2f, slope: vec2f, light: vec3f) -> vec2f {
+fn ltc_texture_place(g: LtcTextureEllipse, aside: vec2f, slope: vec2f, light: vec3f) -> vec2f {
     let major2 = dot(g.major, g.major);
     let minor2 = g.minor * g.minor;
     let u = g.major * inverseSqrt(max(major2, 1.0e-36));
@@ -3099,13 +3098,6 @@ fn plane_disk_window_integral(d2: f32, rho2: f32, d: f32, c: f32, s: f32, psi: f
     return psi - 2.0 * r2 + even - mixed;
 }
 
-// Square root of x >= 0 as x over its square root: a packed square root takes as long as ten multiplications.
-//
-// Error: two roundings more than sqrt; 0 at 0.
-fn plane_root(x: f32) -> f32 {
-    return x * inverseSqrt(max(x, 1.0e-30));
-}
-
 // Whole disk window integral between two rays, from their slopes.
 //
 //   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
@@ -3114,28 +3106,17 @@ fn plane_root(x: f32) -> f32 {
 //
 // Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
 fn plane_disk_window(m0: f32, m1: f32, d2: f32, rho2: f32) -> f32 {
-    let d = plane_root(d2);
+    let d = sqrt(d2);
     let c0 = inverseSqrt(1.0 + m0 * m0);
     let c1 = inverseSqrt(1.0 + m1 * m1);
     let s0 = m0 * c0;
     let s1 = m1 * c1;
-    let chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    let chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
+    let chord0 = sqrt(max(rho2 - d2 * s0 * s0, 0.0));
+    let chord1 = sqrt(max(rho2 - d2 * s1 * s1, 0.0));
     let psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
     let beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
     return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
          - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
-}
-
-// The same between -m and m: the integral is odd in the angle.
-fn plane_disk_window_symmetric(m: f32, d2: f32, rho2: f32) -> f32 {
-    let d = plane_root(d2);
-    let c = inverseSqrt(1.0 + m * m);
-    let s = m * c;
-    let chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    let psi = trig_atan2(m, 1.0);
-    let beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.

@@ -5,9 +5,9 @@
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
 // cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
 //
-//   LtcFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   TextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   TextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
+//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
 //   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
 // A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
@@ -19,7 +19,7 @@
 //   center   relative to the shading point
 //   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
 //   valid    false where the light sends nothing
-struct LtcFootprint {
+struct LtcTextureFootprint {
     vec3 center;
     vec3 axis_a;
     vec3 axis_b;
@@ -27,7 +27,7 @@ struct LtcFootprint {
 };
 
 // M w, up to a positive factor: the inverse of ltc_transform.
-vec3 ltc_transform_back(LtcMatrix m, vec3 w) {
+vec3 ltc_texture_transform_back(LtcMatrix m, vec3 w) {
     real determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
 }
@@ -46,14 +46,14 @@ LtcMatrix ltc_texture_diffuse() {
 // Irradiance vector, under M^-1, of the part of the light above both horizons.
 //
 //   reversed true where the light is seen from behind
-vec3 ltc_irradiance_vector(LtcWalk walk, mask reversed) {
+vec3 ltc_texture_irradiance_vector(LtcWalk walk, mask reversed) {
     return polygon_irradiance_vector(walk.lobe, reversed);
 }
 
 // Where a lobe looks on a light's plane.
 //
 //   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_irradiance_vector)
+//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
 //   normal   unit normal of the light's plane, in the shading frame, either sign
 //   height   dot(normal, any point of the plane relative to the shading point)
 //
@@ -61,19 +61,19 @@ vec3 ltc_irradiance_vector(LtcWalk walk, mask reversed) {
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
 // Error: docs/ltc.md, "Textured lights".
-LtcFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, real height) {
+LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, real height) {
     real p2 = dot(phi, phi);
     mask lit = p2 > 1.0e-30;
     vec3 w = select(lit, phi * inversesqrt(max(p2, 1.0e-30)), vec3(0.0, 0.0, 1.0));
     mat3 across = frame_from_normal(w);
-    vec3 l = ltc_transform_back(m, w);
+    vec3 l = ltc_texture_transform_back(m, w);
     real along = dot(normal, l);
     mask meets = lit && along * height > 0.0;
     real inverse = select(meets, 1.0 / select(meets, along, 1.0), 0.0);
     real t = height * inverse;
-    vec3 a = ltc_transform_back(m, transform(across, vec3(1.0, 0.0, 0.0)));
-    vec3 b = ltc_transform_back(m, transform(across, vec3(0.0, 1.0, 0.0)));
-    LtcFootprint f;
+    vec3 a = ltc_texture_transform_back(m, transform(across, vec3(1.0, 0.0, 0.0)));
+    vec3 b = ltc_texture_transform_back(m, transform(across, vec3(0.0, 1.0, 0.0)));
+    LtcTextureFootprint f;
     f.center = l * t;
     f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
     f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
@@ -82,7 +82,7 @@ LtcFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, real heig
 }
 
 // An ellipse on the light's plane: its long half axis, and the length of the short one.
-struct TextureEllipse {
+struct LtcTextureEllipse {
     vec2 major;
     real minor;
 };
@@ -92,7 +92,7 @@ struct TextureEllipse {
 //   a, b     in the plane's own coordinates [m]
 //
 // Degenerate: a circle has any major axis.
-TextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
+LtcTextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
     real xx = a.x * a.x + b.x * b.x;
     real yy = a.y * a.y + b.y * b.y;
     real xy2 = a.x * a.y + b.x * b.y;
@@ -103,16 +103,16 @@ TextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
     real v2 = dot(v, v);
     vec2 direction = select(v2 > 1.0e-36, v * inversesqrt(max(v2, 1.0e-36)), vec2(1.0, 0.0));
     real longest = sqrt(0.5 * (xx + yy) + spread);
-    TextureEllipse e;
+    LtcTextureEllipse e;
     e.major = direction * longest;
     e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
     return e;
 }
 
 // A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
-TextureEllipse ltc_texture_gaussian(TextureEllipse e, real width, real widest) {
+LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, real width, real widest) {
     real longest = width * sqrt(dot(e.major, e.major));
-    TextureEllipse g;
+    LtcTextureEllipse g;
     g.major = e.major * (width * (widest / max(longest, widest)));
     g.minor = min(width * e.minor, widest);
     return g;
@@ -131,8 +131,10 @@ TextureEllipse ltc_texture_gaussian(TextureEllipse e, real width, real widest) {
 //   light    covariance of the light's area: xx, xy, yy
 //   returns  from the light's centroid
 //
+// It stands at most 2.5 of its standard deviations away from there: further out, next to nothing of the light is under it.
+//
 // Degenerate: a light without width counts as a thousandth as wide as long.
-vec2 ltc_texture_place(TextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
+vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
     real major2 = dot(g.major, g.major);
     real minor2 = g.minor * g.minor;
     vec2 u = g.major * inversesqrt(max(major2, 1.0e-36));
@@ -157,5 +159,7 @@ vec2 ltc_texture_place(TextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
     vec2 d = aside + p * share;
     real v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
     vec2 e = vec2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
-    return d + vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+    vec2 push = vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+    real pushed2 = max(dot(push, e), 0.0);
+    return d + push * (2.5 * inversesqrt(max(pushed2, 6.25)));
 }

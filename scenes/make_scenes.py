@@ -374,6 +374,7 @@ def textured_floor(color=window_color, strips=ROUGHNESS_OF_STRIPS):
     g.picture("window", png(160, 64, lambda x, y: color((x + 0.5) / 160, (y + 0.5) / 64)), glass)
     g.node("window", mesh=g.mesh("window", panel, glass))
     g.camera("main", [0.0, 2.2, 6.0], [0.0, 0.45, -0.6], 0.62)
+    g.camera("floor", [0.0, 2.2, 6.0], [0.0, 0.0, 1.6], 0.3)  # sees nothing but floor
     return g
 
 

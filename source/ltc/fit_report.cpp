@@ -14,6 +14,7 @@ namespace steradian {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kSteepestCosine = 0.156434465040230869;  // of 81 degrees
 
 }  // namespace
 
@@ -82,15 +83,24 @@ std::vector<BetweenNodes> measure_between_nodes(const LtcTable& fit, const LookU
   for (int i = 1; i + 1 < n; i += step) {
     BetweenNodes sum;
     sum.roughness = 0.5 * (ltc_roughness_at(i, n) + ltc_roughness_at(i + 1, n));
-    int count = 0;
+    int count = 0, steep = 0;
     for (int j = 0; j + 1 < n; j += 2, ++count) {
       const double t = (j + 0.5) / (n - 1), cosine = 1 - t * t;
       const Lobe lobe = fit.family.at(sum.roughness, cosine);
-      sum.between += lobe_l1(lobe, table(sum.roughness, cosine), 48);
-      for (int k = 0; k < 4; ++k) sum.at_nodes += 0.25 * fit.at(i + k % 2, j + k / 2).error;
+      const double between = lobe_l1(lobe, table(sum.roughness, cosine), 48);
+      double at_nodes = 0;
+      for (int k = 0; k < 4; ++k) at_nodes += 0.25 * fit.at(i + k % 2, j + k / 2).error;
+      sum.between += between;
+      sum.at_nodes += at_nodes;
+      if (cosine < kSteepestCosine) continue;
+      ++steep;
+      sum.steep_between += between;
+      sum.steep_at_nodes += at_nodes;
     }
     sum.between /= count;
     sum.at_nodes /= count;
+    sum.steep_between /= steep;
+    sum.steep_at_nodes /= steep;
     result.push_back(sum);
   }
   return result;
@@ -114,9 +124,11 @@ std::string describe(const Report& whole, const Report& nodes, const std::vector
   add("\nworst cells\n");
   for (std::size_t i = 0; i < std::min<std::size_t>(5, worst.size()); ++i)
     add("%9.3f  %4.1f  %.5f\n", worst[i].roughness, worst[i].degrees, worst[i].rmse);
-  add("\nlobe L1, mean over the views\nroughness  at nodes  between   ratio\n");
+  add("\nlobe L1, mean over the views, and over those up to 81 degrees\n"
+      "roughness  at nodes  between   ratio  at nodes  between   ratio\n");
   for (const BetweenNodes& b : between)
-    add("%9.3f  %8.4f  %7.4f  %6.3f\n", b.roughness, b.at_nodes, b.between, b.between / b.at_nodes);
+    add("%9.3f  %8.4f  %7.4f  %6.3f  %8.4f  %7.4f  %6.3f\n", b.roughness, b.at_nodes, b.between, b.between / b.at_nodes,
+        b.steep_at_nodes, b.steep_between, b.steep_between / b.steep_at_nodes);
   return text;
 }
 

@@ -49,6 +49,9 @@ struct BetweenNodes {
   double roughness = 0;  // half way between two columns
   double at_nodes = 0;
   double between = 0;
+  // Of the views up to 81 degrees: beyond, lobes change faster from node to node than any interpolation follows.
+  double steep_at_nodes = 0;
+  double steep_between = 0;
 };
 std::vector<BetweenNodes> measure_between_nodes(const LtcTable& fit, const LookUp& table);
 

@@ -166,11 +166,10 @@ std::vector<TexturedErrorRow> measure_textured_error(const TexturedErrorOptions&
 
 std::string textured_error_text(const std::vector<TexturedErrorRow>& rows) {
   std::string text = "| roughness | distance |", rule = "|---|---|";
-  for (const char* what : {"", ", by the mean", ", bias"})
-    for (const NamedImage& t : test_textures()) {
-      text += " " + t.name + what + " |";
-      rule += "---|";
-    }
+  for (const NamedImage& t : test_textures()) {
+    text += " " + t.name + " | by the mean | energy |";
+    rule += "---|---|---|";
+  }
   text += "\n" + rule + "\n";
   const auto cell = [&](const char* pattern, double x) {
     char buffer[64];
@@ -183,9 +182,11 @@ std::string textured_error_text(const std::vector<TexturedErrorRow>& rows) {
     else
       text += "| diffuse |";
     cell(" %.1f |", row.distance);
-    for (const double e : row.error) cell(" %.2f %% |", 100 * e);
-    for (const double e : row.mean) cell(" %.1f %% |", 100 * e);
-    for (const double e : row.bias) cell(" %+.1f %% |", 100 * e);
+    for (std::size_t t = 0; t < row.error.size(); ++t) {
+      cell(" %.1f %% |", 100 * row.error[t]);
+      cell(" %.1f %% |", 100 * row.mean[t]);
+      cell(" %+.1f %% |", 100 * row.bias[t]);
+    }
     text += "\n";
   }
   return text;

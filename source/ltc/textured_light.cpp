@@ -35,7 +35,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
       ta = tb;
     }
   }
-  const auto phi = k.ltc_irradiance_vector(walk, K::mask(side < 0));
+  const auto phi = k.ltc_texture_irradiance_vector(walk, K::mask(side < 0));
   const auto normal = transform_transposed(frame, vector(light.normal));
   const auto f = k.ltc_texture_footprint(m, phi, normal, dot(light.normal, light.centroid - at.position));
   if (!any_lane(f.valid)) return texture.mean();

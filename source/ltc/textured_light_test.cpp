@@ -33,7 +33,7 @@ double distance(K::vec3 a, K::vec3 b) { return std::sqrt(dot(a - b, a - b).v); }
 
 // Where M w t meets the plane.
 K::vec3 hit(const K::LtcMatrix& m, K::vec3 w, K::vec3 normal, double height) {
-  const K::vec3 l = K{}.ltc_transform_back(m, w);
+  const K::vec3 l = K{}.ltc_texture_transform_back(m, w);
   return l * (K::real(height) / dot(normal, l));
 }
 
@@ -49,6 +49,7 @@ AreaLight square_light(int n, const std::vector<std::uint8_t>& grey, std::vector
   t.origin = {-1, 1, 1};
   t.du = {0.5, 0, 0};
   t.dv = {0, -0.5, 0};
+  t.use.wrap_u = t.use.wrap_v = Wrap::clamp_to_edge;
   light.texture = t;
   return light;
 }
@@ -59,7 +60,7 @@ TEST(TexturedLight, BackTransformUndoesTheTransform) {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
     const auto m = some_matrix(random);
-    const auto v = direction(random), w = K{}.ltc_transform_back(m, K{}.ltc_transform(m, v));
+    const auto v = direction(random), w = K{}.ltc_texture_transform_back(m, K{}.ltc_transform(m, v));
     EXPECT_LT(distance(w * inversesqrt(dot(w, w)), v), 1e-12);
   }
 }
@@ -73,7 +74,7 @@ TEST(TexturedLight, FootprintIsTheDerivativeOfTheHit) {
     K k;
     const auto m = some_matrix(random);
     const auto w = direction(random), normal = direction(random);
-    const auto l = k.ltc_transform_back(m, w);
+    const auto l = k.ltc_texture_transform_back(m, w);
     if (std::fabs((dot(normal, l) * inversesqrt(dot(l, l))).v) < 0.2) continue;
     const double height = dot(normal, l).v > 0 ? 1 : -1;
     const auto f = k.ltc_texture_footprint(m, w * K::real(0.3), normal, height);
@@ -120,7 +121,7 @@ TEST(TexturedLight, PlacedGaussianHasTheCentroidAskedFor) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     K k;
-    K::TextureEllipse g;
+    K::LtcTextureEllipse g;
     const double major = random.uniform(0.1, 3), turn = random.uniform(0, M_PI), minor = random.uniform(0.1, 1) * major;
     g.major = {major * std::cos(turn), major * std::sin(turn)};
     g.minor = minor;
@@ -169,6 +170,8 @@ TEST(FilteredTexture, LevelsAreGaussianBlurs) {
   std::vector<Image> images;
   const AreaLight light = square_light(kTexels, grey, images);
   const FilteredTexture texture(light, prepare_polygon(light.polygon), images);
+  // A blurred step of height 0.8 has a second derivative of at most 0.242 0.8 / sigma^2, bilinear look-up between texels of
+  // half a sigma an eighth of a quarter of that: 0.006. A blur cut at 3 sigma leaves out 0.0027 of 0.8.
   double worst = 0;
   for (const double sigma : {0.125, 0.25, 0.5, 1.0, 2.0})  // levels: texels are 1/16, the finest sigma 1/32
     for (const double x : {-1.2, -0.4, 0.3, 0.95})
@@ -186,11 +189,10 @@ TEST(FilteredTexture, LevelsAreGaussianBlurs) {
             sum += w * texture_radiance(*light.texture, images, p).x;
             total += w;
           }
-        worst = std::max(worst, std::fabs(static_cast<double>(seen.x) - sum / total));
+        const double error = std::fabs(static_cast<double>(seen.x) - sum / total);
+        EXPECT_LT(error, 0.0082) << sigma << " " << x << " " << y;
+        worst = std::max(worst, error);
       }
-  // A blurred step of height 0.8 has a second derivative of at most 0.242 0.8 / sigma^2, bilinear look-up between texels of
-  // half a sigma an eighth of a quarter of that: 0.006. A blur cut at 3 sigma leaves out 0.0027 of 0.8.
-  EXPECT_LT(worst, 0.0082);
   std::printf("largest difference of a blurred radiance %.4f\n", worst);
 }
 
@@ -218,10 +220,10 @@ TEST(TexturedLight, ErrorsAreThoseOfTheTable) {
   ASSERT_EQ(rows.size(), 6u);
   for (const TexturedErrorRow& row : rows)
     for (std::size_t t = 0; t < row.error.size(); ++t) {
-      // 7 % is the largest of the table; sixteen lights instead of its 64 scatter by a third of it.
-      EXPECT_LT(row.error[t], 0.09) << row.roughness << " " << test_textures()[t].name;
+      // 6 % is the largest of the table; sixteen lights instead of its 64 scatter by a third of it.
+      EXPECT_LT(row.error[t], 0.08) << row.roughness << " " << test_textures()[t].name;
       // Where the mean is good already (fine checkers, rough surfaces) there is nothing to gain.
-      if (row.mean[t] > 0.03) {
+      if (row.mean[t] > 0.05) {
         EXPECT_LT(row.error[t], 0.75 * row.mean[t]) << row.roughness << " " << test_textures()[t].name;
       }
     }
