@@ -187,12 +187,12 @@ TexelIrradiance irradiance_at(const ShadowMap& map, const LobeArrays& lobes, std
           largest(glossy_brightness(map, lobes, i)) * half * inverse};
 }
 
-double threshold_for(const ShadowMap& map, const LobeArrays& lobes, int stride, double kept) {
-  constexpr std::size_t kPlaces = 96, kLights = 1024;
-  if (map.count == 0 || !(kept > 0)) return 0;
-  const std::size_t places = std::min(kPlaces, map.count), lights = std::min(kLights, map.count);
+double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers, int stride, double kept) {
+  constexpr std::size_t kLights = 1024;
+  const std::size_t places = receivers.size(), lights = std::min(kLights, map.count);
+  if (map.count == 0 || places == 0 || !(kept > 0)) return 0;
   const double weight = stride * stride, share = static_cast<double>(map.count) / static_cast<double>(lights) / weight;
-  // Places and lights by the golden ratio, so that neither follows the rows of a map.
+  // By the golden ratio, so that the choice does not follow the rows of a map.
   const auto spread = [&](std::size_t k) {
     const double x = 0.5 + static_cast<double>(k) * 0.61803398874989485;
     return std::min(static_cast<std::size_t>((x - std::floor(x)) * static_cast<double>(map.count)), map.count - 1);
@@ -200,9 +200,7 @@ double threshold_for(const ShadowMap& map, const LobeArrays& lobes, int stride, 
   std::vector<double> values;
   for (std::size_t a = 0; a < places; ++a)
     for (std::size_t b = 0; b < lights; ++b) {
-      const std::size_t i = spread(b * 7 + 3), j = spread(a);
-      if (i == j) continue;
-      const TexelIrradiance e = irradiance_at(map, lobes, i, map.position[j]);
+      const TexelIrradiance e = irradiance_at(map, lobes, spread(b), receivers[a]);
       if (e.diffuse > 0) values.push_back(weight * static_cast<double>(e.diffuse));
       if (e.glossy > 0) values.push_back(weight * static_cast<double>(e.glossy));
     }

@@ -82,9 +82,9 @@ inline constexpr float kFresnelByPair = 0.1f;
 
 std::vector<LightSet> make_sets(const ShadowMap& map, const LobeArrays& lobes, const SetOptions& options);
 
-// The threshold at which a place that the lights light first keeps `kept` virtual lights of its set on average. It
-// depends on the lights alone, so that nothing changes when the camera moves.
-double threshold_for(const ShadowMap& map, const LobeArrays& lobes, int stride, double kept);
+// The threshold at which one of these receivers keeps `kept` virtual lights of its set on average; 0 where there are not
+// so many. It follows the receivers slowly: a camera that moves changes ranges by little.
+double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers, int stride, double kept);
 
 // Irradiance at p of one texel by its diffuse and by its glossy lobe: largest channel, mean Fresnel.
 struct TexelIrradiance {

@@ -30,6 +30,20 @@ Surface surface_of(const FrameSurfaces& s, std::size_t i) {
   return surface;
 }
 
+// Places spread over the picture, for the culling's threshold.
+VectorArray some_receivers(const FrameSurfaces& s) {
+  constexpr int kAcross = 16, kDown = 9;
+  VectorArray places(kAcross * kDown);
+  std::size_t n = 0;
+  for (int j = 0; j < kDown; ++j)
+    for (int i = 0; i < kAcross; ++i) {
+      const std::size_t at = s.raster.at((2 * i + 1) * s.raster.width / (2 * kAcross), (2 * j + 1) * s.raster.height / (2 * kDown));
+      if (dot(s.normal[at], s.normal[at]) > 0) places.put(n++, s.position[at]);
+    }
+  places.resize(n);
+  return places;
+}
+
 }  // namespace
 
 Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads)
@@ -85,7 +99,7 @@ void Pipeline::add_sum(Picture& picture) {
     SetOptions set;
     set.mode = o.mode;
     set.stride = o.interleave;
-    set.threshold = threshold_for(map, lobes, o.interleave, o.kept_pairs);
+    set.threshold = threshold_for(map, lobes, some_receivers(surfaces_), o.interleave, o.kept_pairs);
     set.soften = o.soften;
     set.seed = options_.seed;
     return make_sets(map, lobes, set);
