@@ -2120,161 +2120,6 @@ fn horizon_clip_finish(clip: HorizonClip) -> HorizonClip {
     return next;
 }
 
-// ==== lambert ====
-
-// The diffuse surface: the same radiance to every side.
-
-// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
-//
-//   irradiance  polygon_irradiance, in [0, pi]
-fn lambert_radiance(irradiance: f32) -> f32 {
-    return irradiance * 0.318309886183790672;
-}
-
-// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
-fn lambert_lobe(l: vec3f) -> f32 {
-    return max(l.z, 0.0) * 0.318309886183790672;
-}
-
-// ==== lobe_product ====
-
-// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
-//
-// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
-// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
-// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
-//
-//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
-//   for each lobe: p = lobe_product_add(p, r_i, n_i);
-//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
-//   ... the same again, then
-//   CosineLobe lobe = lobe_product_isotropic(p);
-//
-// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
-
-// scale (u.axis)^exponent
-struct CosineLobe {
-    axis: vec3f,
-    exponent: f32,
-    scale: f32,
-}
-
-// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
-struct StretchedLobe {
-    frame: mat3x3f,
-    stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy
-    exponent: f32,
-    scale: f32,
-}
-
-// Sums over the lobes, seen from a direction.
-//   about      frame whose z is that direction
-//   total      sum of n_i
-//   log_scale  sum of n_i log(z.r_i)
-//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
-//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
-//   lowest     smallest z.r_i
-struct LobeProduct {
-    about: mat3x3f,
-    total: f32,
-    log_scale: f32,
-    slope: vec2f,
-    curvature: vec3f,
-    lowest: f32,
-}
-
-// The state before the first lobe.
-fn lobe_product_begin(direction: vec3f) -> LobeProduct {
-    var p: LobeProduct;
-    p.about = frame_from_normal(direction);
-    p.total = 0.0;
-    p.log_scale = 0.0;
-    p.slope = vec2f(0.0, 0.0);
-    p.curvature = vec3f(0.0, 0.0, 0.0);
-    p.lowest = 1.0;
-    return p;
-}
-
-// Adds (u.r)^n.
-fn lobe_product_add(p: LobeProduct, r: vec3f, n: f32) -> LobeProduct {
-    let local = steradian_transform_transposed(p.about, r);
-    let z = max(local.z, 1.0e-4);
-    let x = local.x / z;
-    let y = local.y / z;
-    var next = p;
-    next.total = p.total + n;
-    next.log_scale = p.log_scale + n * log(z);
-    next.slope = p.slope + vec2f(n * x, n * y);
-    next.curvature = p.curvature + vec3f(n * x * x, n * x * y, n * y * y);
-    next.lowest = min(p.lowest, local.z);
-    return next;
-}
-
-// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
-fn lobe_product_newton(p: LobeProduct) -> vec3f {
-    let xx = p.total + p.curvature.x;
-    let yy = p.total + p.curvature.z;
-    let xy = p.curvature.y;
-    let inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
-    let step_to = vec3f(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
-    let u = steradian_transform(p.about, step_to);
-    return u * inverseSqrt(dot(u, u));
-}
-
-// Height of the product at the sums' direction; 0 where a lobe does not reach.
-fn lobe_product_scale(p: LobeProduct) -> f32 {
-    return select(0.0, exp(p.log_scale), p.lowest > 1.0e-4);
-}
-
-// The isotropic lobe; its exponent gives the full lobe's integral the right size.
-fn lobe_product_isotropic(p: LobeProduct) -> CosineLobe {
-    let xx = p.total + p.curvature.x;
-    let yy = p.total + p.curvature.z;
-    var lobe: CosineLobe;
-    lobe.axis = steradian_transform(p.about, vec3f(0.0, 0.0, 1.0));
-    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
-// the integral over a light is scale times the moment of the stretched outline about z.
-fn lobe_product_anisotropic(p: LobeProduct) -> StretchedLobe {
-    let xx = p.total + p.curvature.x + 3.0;
-    let yy = p.total + p.curvature.z + 3.0;
-    let xy = p.curvature.y;
-    let d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
-    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
-    let root = inverseSqrt((xx + yy) / d + 2.0);
-    var lobe: StretchedLobe;
-    lobe.frame = p.about;
-    lobe.stretch = vec3f(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
-    lobe.exponent = d - 3.0;
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// A direction in the lobe's stretched frame, not unit; 0 at zero.
-fn lobe_product_stretch(lobe: StretchedLobe, u: vec3f) -> vec3f {
-    let l = steradian_transform_transposed(lobe.frame, u);
-    return vec3f(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
-}
-
-// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
-//
-// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
-fn lobe_product_peak_of_two(r1: vec3f, n1: f32, r2: vec3f, n2: f32) -> vec3f {
-    let cosine = max(dot(r1, r2), 1.0e-6);
-    let across = r2 - r1 * dot(r1, r2);
-    let sine2 = dot(across, across);
-    let tangent = sqrt(sine2) / cosine;
-    let sum = n1 + n2;
-    let t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    let u = r1 + across * (t * inverseSqrt(max(sine2, 1.0e-30)));
-    return u * inverseSqrt(dot(u, u));
-}
-
 // ==== ltc ====
 
 // Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
@@ -2477,6 +2322,345 @@ fn ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f32 {
     return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
 }
 
+// ==== indirect ====
+
+// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
+//
+// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
+// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
+// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
+//
+//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
+//
+// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
+// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
+// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
+
+// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
+//
+// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
+struct IndirectLobe {
+    x: vec3f,
+    y: vec3f,
+    z: vec3f,
+    scale: f32,
+}
+
+// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+fn indirect_lobe(m: LtcMatrix, frame: mat3x3f) -> IndirectLobe {
+    var lobe: IndirectLobe;
+    lobe.x = steradian_transform(frame, vec3f(m.xx, 0.0, m.xz));
+    lobe.y = steradian_transform(frame, vec3f(0.0, m.yy, 0.0));
+    lobe.z = steradian_transform(frame, vec3f(m.zx, 0.0, m.zz));
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    return lobe;
+}
+
+// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
+fn indirect_turned(lobe: IndirectLobe) -> IndirectLobe {
+    var turned: IndirectLobe;
+    turned.x = -lobe.x;
+    turned.y = -lobe.y;
+    turned.z = -lobe.z;
+    turned.scale = lobe.scale;
+    return turned;
+}
+
+// Under M^-1. Any vector.
+fn indirect_under(lobe: IndirectLobe, v: vec3f) -> vec3f {
+    return vec3f(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
+}
+
+// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
+//
+//   v        as the lobe's rows take it
+//   d2       dot(v, v)
+//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
+//
+// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
+fn indirect_glossy_half(lobe: IndirectLobe, v: vec3f, d2: f32, wide2: f32) -> f32 {
+    let w = indirect_under(lobe, v);
+    let w2 = dot(w, w);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
+}
+
+// Half of a diffuse end of albedo pi: cosine over distance.
+fn indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
+    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+}
+
+// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
+//
+//   v        light's position minus the surface's
+//   lobe     of the surface and its view; times rho_f: with Fresnel
+//
+// Degenerate: v = 0 gives 0.
+// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
+fn indirect_point_light(lobe: IndirectLobe, v: vec3f) -> f32 {
+    let d2 = dot(v, v);
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inverseSqrt(max(d2, 1.0e-36));
+}
+
+// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
+// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
+struct IndirectPair {
+    from_diffuse: f32,
+    from_glossy: f32,
+    to_diffuse: f32,
+    to_glossy: f32,
+}
+
+// Both ends at once: no square root, one division.
+//
+//   receiver, n          the receiver's lobe and normal
+//   light, light_n       the virtual light's, turned
+//
+// What lies below either horizon gives 0: a lobe leaks there.
+// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
+// falls below 1.0e-36 the peak is cut.
+fn indirect_pair(v: vec3f, n: vec3f, receiver: IndirectLobe, light_n: vec3f, light: IndirectLobe) -> IndirectPair {
+    let d2 = dot(v, v);
+    let w = indirect_under(receiver, v);
+    let o = indirect_under(light, v);
+    let w2 = dot(w, w);
+    let o2 = dot(o, o);
+    let w4 = w2 * w2;
+    let o4 = o2 * o2;
+    let both = w4 * o4;
+    let inverse = 1.0 / max(d2 * both, 1.0e-36);
+    let peak = inverse * d2 * d2;
+    let n_v = max(dot(n, v), 0.0);
+    let light_n_v = max(dot(light_n, v), 0.0);
+    var pair: IndirectPair;
+    pair.to_diffuse = n_v * (inverse * both);
+    pair.from_diffuse = light_n_v * (inverse * both);
+    pair.to_glossy = select(0.0, max(w.z, 0.0) * (peak * o4), n_v > 0.0);
+    pair.from_glossy = select(0.0, max(o.z, 0.0) * (peak * w4), light_n_v > 0.0);
+    return pair;
+}
+
+// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
+//
+//   incoming unit, from the virtual light to the light that feeds it
+//   v        to the virtual light
+fn indirect_grazing(incoming: vec3f, v: vec3f, d2: f32) -> f32 {
+    let cosine = -dot(incoming, v) * inverseSqrt(max(d2, 1.0e-36));
+    let half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
+    return fresnel_schlick(0.0, 1.0, half_angle * inverseSqrt(half_angle));
+}
+
+// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
+struct IndirectGgx {
+    lobe: f32,
+    grazing: f32,
+}
+
+// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
+//
+//   frame    x along the view, z the normal
+//   view     unit, in the frame
+fn indirect_ggx(frame: mat3x3f, view: vec3f, alpha: f32, l: vec3f) -> IndirectGgx {
+    let local = steradian_transform_transposed(frame, l);
+    let h = microfacet_half_vector(local, view);
+    var end: IndirectGgx;
+    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
+    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
+    return end;
+}
+
+// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
+//
+//   value      the half; its irradiance at the receiver is bright times value over distance
+//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
+//   xi         of the virtual light, in (0, 1)
+//
+// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
+// Source: Tokuyoshi, Harada 2016.
+fn indirect_kept(value: f32, reach: f32, xi: f32) -> f32 {
+    return select(0.0, max(value, reach), value > xi * reach);
+}
+
+// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
+fn indirect_largest_stretch(m: LtcMatrix) -> f32 {
+    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
+    let determinant = m.xx * m.zz - m.xz * m.zx;
+    let square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
+    let gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
+    let larger2 = 0.5 * (square + gap2 * inverseSqrt(max(gap2, 1.0e-36)));
+    let least2 = determinant * determinant / max(larger2, 1.0e-36);
+    return inverseSqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+}
+
+// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+//
+//   lobe     turned; a diffuse light's: its frame
+//   v        virtual light's position minus the point's
+//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//
+// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
+// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
+// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
+fn indirect_spheroid(lobe: IndirectLobe, v: vec3f, range: f32) -> vec3f {
+    let w = indirect_under(lobe, v);
+    let inverse = 1.0 / range;
+    return vec3f(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
+}
+
+// ==== lambert ====
+
+// The diffuse surface: the same radiance to every side.
+
+// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+//
+//   irradiance  polygon_irradiance, in [0, pi]
+fn lambert_radiance(irradiance: f32) -> f32 {
+    return irradiance * 0.318309886183790672;
+}
+
+// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
+fn lambert_lobe(l: vec3f) -> f32 {
+    return max(l.z, 0.0) * 0.318309886183790672;
+}
+
+// ==== lobe_product ====
+
+// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
+//
+// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
+// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
+// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
+//
+//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = lobe_product_add(p, r_i, n_i);
+//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
+//   ... the same again, then
+//   CosineLobe lobe = lobe_product_isotropic(p);
+//
+// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
+// Source: this project (docs/moments.md).
+
+// scale (u.axis)^exponent
+struct CosineLobe {
+    axis: vec3f,
+    exponent: f32,
+    scale: f32,
+}
+
+// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+struct StretchedLobe {
+    frame: mat3x3f,
+    stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy
+    exponent: f32,
+    scale: f32,
+}
+
+// Sums over the lobes, seen from a direction.
+//   about      frame whose z is that direction
+//   total      sum of n_i
+//   log_scale  sum of n_i log(z.r_i)
+//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
+//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
+//   lowest     smallest z.r_i
+struct LobeProduct {
+    about: mat3x3f,
+    total: f32,
+    log_scale: f32,
+    slope: vec2f,
+    curvature: vec3f,
+    lowest: f32,
+}
+
+// The state before the first lobe.
+fn lobe_product_begin(direction: vec3f) -> LobeProduct {
+    var p: LobeProduct;
+    p.about = frame_from_normal(direction);
+    p.total = 0.0;
+    p.log_scale = 0.0;
+    p.slope = vec2f(0.0, 0.0);
+    p.curvature = vec3f(0.0, 0.0, 0.0);
+    p.lowest = 1.0;
+    return p;
+}
+
+// Adds (u.r)^n.
+fn lobe_product_add(p: LobeProduct, r: vec3f, n: f32) -> LobeProduct {
+    let local = steradian_transform_transposed(p.about, r);
+    let z = max(local.z, 1.0e-4);
+    let x = local.x / z;
+    let y = local.y / z;
+    var next = p;
+    next.total = p.total + n;
+    next.log_scale = p.log_scale + n * log(z);
+    next.slope = p.slope + vec2f(n * x, n * y);
+    next.curvature = p.curvature + vec3f(n * x * x, n * x * y, n * y * y);
+    next.lowest = min(p.lowest, local.z);
+    return next;
+}
+
+// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
+fn lobe_product_newton(p: LobeProduct) -> vec3f {
+    let xx = p.total + p.curvature.x;
+    let yy = p.total + p.curvature.z;
+    let xy = p.curvature.y;
+    let inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    let step_to = vec3f(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
+    let u = steradian_transform(p.about, step_to);
+    return u * inverseSqrt(dot(u, u));
+}
+
+// Height of the product at the sums' direction; 0 where a lobe does not reach.
+fn lobe_product_scale(p: LobeProduct) -> f32 {
+    return select(0.0, exp(p.log_scale), p.lowest > 1.0e-4);
+}
+
+// The isotropic lobe; its exponent gives the full lobe's integral the right size.
+fn lobe_product_isotropic(p: LobeProduct) -> CosineLobe {
+    let xx = p.total + p.curvature.x;
+    let yy = p.total + p.curvature.z;
+    var lobe: CosineLobe;
+    lobe.axis = steradian_transform(p.about, vec3f(0.0, 0.0, 1.0));
+    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
+// the integral over a light is scale times the moment of the stretched outline about z.
+fn lobe_product_anisotropic(p: LobeProduct) -> StretchedLobe {
+    let xx = p.total + p.curvature.x + 3.0;
+    let yy = p.total + p.curvature.z + 3.0;
+    let xy = p.curvature.y;
+    let d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
+    let root = inverseSqrt((xx + yy) / d + 2.0);
+    var lobe: StretchedLobe;
+    lobe.frame = p.about;
+    lobe.stretch = vec3f(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
+    lobe.exponent = d - 3.0;
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// A direction in the lobe's stretched frame, not unit; 0 at zero.
+fn lobe_product_stretch(lobe: StretchedLobe, u: vec3f) -> vec3f {
+    let l = steradian_transform_transposed(lobe.frame, u);
+    return vec3f(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
+}
+
+// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
+//
+// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
+fn lobe_product_peak_of_two(r1: vec3f, n1: f32, r2: vec3f, n2: f32) -> vec3f {
+    let cosine = max(dot(r1, r2), 1.0e-6);
+    let across = r2 - r1 * dot(r1, r2);
+    let sine2 = dot(across, across);
+    let tangent = sqrt(sine2) / cosine;
+    let sum = n1 + n2;
+    let t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
+    let u = r1 + across * (t * inverseSqrt(max(sine2, 1.0e-30)));
+    return u * inverseSqrt(dot(u, u));
+}
+
 // ==== ltc_clipless ====
 
 // Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
@@ -2524,6 +2708,168 @@ fn ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
     let inverse = inverseSqrt(max(e2, 1.0e-36));
     let form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
     return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
+}
+
+// ==== ltc_texture ====
+
+// Textured lights: where on a light a lobe looks, and how widely.
+//
+// The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
+// point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
+// cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
+// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+//
+//   LtcFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
+//   TextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   TextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
+//
+// A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
+// Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// An ellipse on the light's plane, in the shading frame.
+//   center   relative to the shading point
+//   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
+//   valid    false where the light sends nothing
+struct LtcFootprint {
+    center: vec3f,
+    axis_a: vec3f,
+    axis_b: vec3f,
+    valid: bool,
+}
+
+// M w, up to a positive factor: the inverse of ltc_transform.
+fn ltc_transform_back(m: LtcMatrix, w: vec3f) -> vec3f {
+    let determinant = m.xx * m.zz - m.xz * m.zx;
+    return vec3f(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
+}
+
+// The matrix of a diffuse lobe: none.
+fn ltc_texture_diffuse() -> LtcMatrix {
+    var m: LtcMatrix;
+    m.xx = 1.0;
+    m.xz = 0.0;
+    m.yy = 1.0;
+    m.zx = 0.0;
+    m.zz = 1.0;
+    return m;
+}
+
+// Irradiance vector, under M^-1, of the part of the light above both horizons.
+//
+//   reversed true where the light is seen from behind
+fn ltc_irradiance_vector(walk: LtcWalk, reversed: bool) -> vec3f {
+    return polygon_irradiance_vector(walk.lobe, reversed);
+}
+
+// Where a lobe looks on a light's plane.
+//
+//   m        M^-1
+//   phi      irradiance vector of the light under M^-1 (ltc_irradiance_vector)
+//   normal   unit normal of the light's plane, in the shading frame, either sign
+//   height   dot(normal, any point of the plane relative to the shading point)
+//
+// A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
+//
+// Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
+// Error: docs/ltc.md, "Textured lights".
+fn ltc_texture_footprint(m: LtcMatrix, phi: vec3f, normal: vec3f, height: f32) -> LtcFootprint {
+    let p2 = dot(phi, phi);
+    let lit = p2 > 1.0e-30;
+    let w = select(vec3f(0.0, 0.0, 1.0), phi * inverseSqrt(max(p2, 1.0e-30)), lit);
+    let across = frame_from_normal(w);
+    let l = ltc_transform_back(m, w);
+    let along = dot(normal, l);
+    let meets = lit && along * height > 0.0;
+    let inverse = select(0.0, 1.0 / select(1.0, along, meets), meets);
+    let t = height * inverse;
+    let a = ltc_transform_back(m, steradian_transform(across, vec3f(1.0, 0.0, 0.0)));
+    let b = ltc_transform_back(m, steradian_transform(across, vec3f(0.0, 1.0, 0.0)));
+    var f: LtcFootprint;
+    f.center = l * t;
+    f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
+    f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
+    f.valid = meets;
+    return f;
+}
+
+// An ellipse on the light's plane: its long half axis, and the length of the short one.
+struct TextureEllipse {
+    major: vec2f,
+    minor: f32,
+}
+
+// Principal axes of the ellipse of two conjugate radii.
+//
+//   a, b     in the plane's own coordinates [m]
+//
+// Degenerate: a circle has any major axis.
+fn ltc_texture_axes(a: vec2f, b: vec2f) -> TextureEllipse {
+    let xx = a.x * a.x + b.x * b.x;
+    let yy = a.y * a.y + b.y * b.y;
+    let xy2 = a.x * a.y + b.x * b.y;
+    let half_difference = 0.5 * (xx - yy);
+    let spread = sqrt(half_difference * half_difference + xy2 * xy2);
+    // An eigenvector of the larger eigenvalue, from the row that does not cancel.
+    let v = select(vec2f(xy2, spread - half_difference), vec2f(half_difference + spread, xy2), half_difference > 0.0);
+    let v2 = dot(v, v);
+    let direction = select(vec2f(1.0, 0.0), v * inverseSqrt(max(v2, 1.0e-36)), v2 > 1.0e-36);
+    let longest = sqrt(0.5 * (xx + yy) + spread);
+    var e: TextureEllipse;
+    e.major = direction * longest;
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
+    return e;
+}
+
+// A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
+fn ltc_texture_gaussian(e: TextureEllipse, width: f32, widest: f32) -> TextureEllipse {
+    let longest = width * sqrt(dot(e.major, e.major));
+    var g: TextureEllipse;
+    g.major = e.major * (width * (widest / max(longest, widest)));
+    g.minor = min(width * e.minor, widest);
+    return g;
+}
+
+// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+//
+// A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
+// Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
+// inverts that. The irradiance vector also lacks the lobe's cosine; it moves the centroid to the largest value of the
+// product of (V^-1 + S^-1)^-1's Gaussian and the cosine, along the cosine's slope.
+//
+//   g        the Gaussian: its standard deviations
+//   aside    where the irradiance vector meets the plane, from the light's centroid
+//   slope    of the logarithm of z under M^-1 along the plane, there
+//   light    covariance of the light's area: xx, xy, yy
+//   returns  from the light's centroid
+//
+// Degenerate: a light without width counts as a thousandth as wide as long.
+fn ltc_texture_place(g: TextureEllipse, aside: vec2f, slope: vec2f, light: vec3f) -> vec2f {
+    let major2 = dot(g.major, g.major);
+    let minor2 = g.minor * g.minor;
+    let u = g.major * inverseSqrt(max(major2, 1.0e-36));
+    let along = major2 - minor2;
+    let sxx = minor2 + along * u.x * u.x;
+    let sxy = along * u.x * u.y;
+    let syy = minor2 + along * u.y * u.y;
+    let least = 1.0e-6 * (light.x + light.z) + 1.0e-30;
+    let vxx = light.x + least;
+    let vyy = light.z + least;
+    // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
+    let txx = vxx + sxx;
+    let txy = light.y + sxy;
+    let tyy = vyy + syy;
+    let t_inverse = 1.0 / max(txx * tyy - txy * txy, 1.0e-36);
+    var p = vec2f(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
+    p = vec2f(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
+    p = vec2f(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
+    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    let q = max(dot(slope, p), 0.0);
+    let share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
+    let d = aside + p * share;
+    let v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
+    let e = vec2f(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
+    return d + vec2f(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
 }
 
 // ==== moment_arvo ====
