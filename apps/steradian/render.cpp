@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", stats;
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", stats;
   double exposure = 0;
   int max_lights = 256;
   bool moments = false, spp_given = false;
@@ -56,6 +56,22 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
           {"method", stats.method},
           {"passes", passes},
           {"total_ms", stats.total_ms}};
+}
+
+IndirectMode indirect_mode(const std::string& name) {
+  return name == "ltc" ? IndirectMode::ltc : name == "ggx" ? IndirectMode::ggx : name == "path" ? IndirectMode::path : IndirectMode::off;
+}
+
+void parse_indirect(Options& options) {
+  IndirectOptions& indirect = options.render.indirect;
+  indirect.mode = indirect_mode(options.indirect);
+  if (options.indirect_shadows == "off") return;
+  int used = 0;
+  if (std::sscanf(options.indirect_shadows.c_str(), "%d%n", &indirect.shadow_rays, &used) != 1 ||
+      static_cast<std::size_t>(used) != options.indirect_shadows.size() || indirect.shadow_rays < 1 || indirect.shadow_rays > 64)
+    throw CLI::ValidationError("--indirect-shadows", "'" + options.indirect_shadows + "' is not off or a number of rays, 1 to 64");
+  if (indirect.mode == IndirectMode::ggx && options.render.method != "reference")
+    throw CLI::ValidationError("--indirect-shadows", "the baseline --indirect ggx has none");
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -95,6 +111,7 @@ void run(Options& options) {
                            : options.quality == "high" ? Quality::high
                                                        : Quality::normal;
 
+  parse_indirect(options);
   const LoadedScene loaded = load_scene(options.scene, {options.max_lights});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
@@ -138,6 +155,16 @@ void add_render(CLI::App& app, Exit&) {
       ->group("Light");
   verb->add_option("--shadows", options->shadows, "cast shadows (reference methods only)")
       ->check(CLI::IsMember({"off", "on"}))
+      ->group("Light");
+  verb->add_option("--indirect", options->indirect, "one bounce: virtual lights by ltc, by the baseline ggx, or path tracing (--spp)")
+      ->check(CLI::IsMember({"off", "ltc", "ggx", "path"}))
+      ->group("Light");
+  verb->add_option("--vpls", r.indirect.virtual_lights, "virtual lights of the bounce, about")
+      ->check(CLI::Range(64, 1 << 22))
+      ->group("Light");
+  verb->add_option("--indirect-shadows", options->indirect_shadows, "visibility of the bounce: off, or rays a pixel")->group("Light");
+  verb->add_option("--indirect-pairs", r.indirect.kept_pairs, "virtual lights a pixel keeps on average; 0: all of its share")
+      ->check(CLI::Range(0.0, 1e9))
       ->group("Light");
   verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")
       ->check(CLI::Range(1, 1 << 20))

@@ -80,6 +80,8 @@ struct Kernels {
 
 #include "ellipse.glsl"
 
+#include "indirect.glsl"
+
 #include "plane.glsl"
 
 // Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.

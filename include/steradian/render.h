@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "steradian/closed_form.h"
+#include "steradian/indirect.h"
 #include "steradian/picture.h"
 #include "steradian/scene.h"
 
@@ -22,6 +23,7 @@ struct RenderOptions {
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
   double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
+  IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   int threads = 0;             // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread

@@ -10,8 +10,10 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "core/float_mode.h"
+#include "indirect/pipeline.h"
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
@@ -72,6 +74,7 @@ class Renderer {
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
         samplers_([this] { return std::make_unique<DirectSampler>(scene_, options_.shadows ? &rays_ : nullptr); }),
         arena_(threads_) {
+    if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, rays_, options_, threads_);
     build_ms_ = ms_since(start_);
   }
 
@@ -82,6 +85,7 @@ class Renderer {
     steps_ = static_cast<std::uint64_t>(tile_count());
     if (method_.kind == MethodKind::reference) pairs = plan_pairs();
     each_tile([&](int tile) { render_tile(tile, pairs[static_cast<std::size_t>(tile)], picture); });
+    if (indirect_) arena_.execute([&] { indirect_->add_to(picture); });
     return picture;
   }
 
@@ -89,6 +93,10 @@ class Renderer {
     stats.passes = {{"build", build_ms_}, rays_clock_.time(threads_), gbuffer_clock_.time(threads_), direct_clock_.time(threads_),
                     specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
+    if (indirect_) {
+      stats.passes.push_back(capture_clock_.time(threads_));
+      for (const PassTime& pass : indirect_->passes()) stats.passes.push_back({"indirect: " + pass.name, pass.ms});
+    }
     stats.total_ms = ms_since(start_);
     stats.threads = threads_;
     stats.lights = lights_.size();
@@ -182,6 +190,7 @@ class Renderer {
     const float weight = 1.0f / static_cast<float>(options_.aa);
     for (int s = 0; s < options_.aa; ++s) {
       fill(index, s, *tile);
+      if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
       const auto reaching = lights_reaching(lights_, *tile);
       if (method_.exact_diffuse && tile->any_diffuse)
         direct_clock_.run([&] {
@@ -225,8 +234,10 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
+  std::optional<indirect::Pipeline> indirect_;
   double build_ms_ = 0;
-  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"};
+  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"},
+      capture_clock_{"indirect: surfaces"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

@@ -1,0 +1,183 @@
+// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
+//
+// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
+// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
+// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
+//
+//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
+//
+// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
+// Needs: ltc.glsl microfacet.glsl
+// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
+// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
+//
+// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
+struct IndirectLobe {
+    vec3 x;
+    vec3 y;
+    vec3 z;
+    real scale;
+};
+
+// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+IndirectLobe indirect_lobe(LtcMatrix m, mat3 frame) {
+    IndirectLobe lobe;
+    lobe.x = transform(frame, vec3(m.xx, 0.0, m.xz));
+    lobe.y = transform(frame, vec3(0.0, m.yy, 0.0));
+    lobe.z = transform(frame, vec3(m.zx, 0.0, m.zz));
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    return lobe;
+}
+
+// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
+IndirectLobe indirect_turned(IndirectLobe lobe) {
+    IndirectLobe turned;
+    turned.x = -lobe.x;
+    turned.y = -lobe.y;
+    turned.z = -lobe.z;
+    turned.scale = lobe.scale;
+    return turned;
+}
+
+// Under M^-1. Any vector.
+vec3 indirect_under(IndirectLobe lobe, vec3 v) {
+    return vec3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
+}
+
+// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
+//
+//   v        as the lobe's rows take it
+//   d2       dot(v, v)
+//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
+//
+// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
+real indirect_glossy_half(IndirectLobe lobe, vec3 v, real d2, real wide2) {
+    vec3 w = indirect_under(lobe, v);
+    real w2 = dot(w, w);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
+}
+
+// Half of a diffuse end of albedo pi: cosine over distance.
+real indirect_diffuse_half(vec3 n, vec3 v, real d2, real wide2) {
+    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+}
+
+// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
+//
+//   v        light's position minus the surface's
+//   lobe     of the surface and its view; times rho_f: with Fresnel
+//
+// Degenerate: v = 0 gives 0.
+// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
+real indirect_point_light(IndirectLobe lobe, vec3 v) {
+    real d2 = dot(v, v);
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inversesqrt(max(d2, 1.0e-36));
+}
+
+// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
+// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
+struct IndirectPair {
+    real from_diffuse;
+    real from_glossy;
+    real to_diffuse;
+    real to_glossy;
+};
+
+// Both ends at once: no square root, one division.
+//
+//   receiver, n          the receiver's lobe and normal
+//   light, light_n       the virtual light's, turned
+//
+// What lies below either horizon gives 0: a lobe leaks there.
+// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
+// falls below 1.0e-36 the peak is cut.
+IndirectPair indirect_pair(vec3 v, vec3 n, IndirectLobe receiver, vec3 light_n, IndirectLobe light) {
+    real d2 = dot(v, v);
+    vec3 w = indirect_under(receiver, v);
+    vec3 o = indirect_under(light, v);
+    real w2 = dot(w, w);
+    real o2 = dot(o, o);
+    real w4 = w2 * w2;
+    real o4 = o2 * o2;
+    real both = w4 * o4;
+    real inverse = 1.0 / max(d2 * both, 1.0e-36);
+    real peak = inverse * d2 * d2;
+    real n_v = max(dot(n, v), 0.0);
+    real light_n_v = max(dot(light_n, v), 0.0);
+    IndirectPair pair;
+    pair.to_diffuse = n_v * (inverse * both);
+    pair.from_diffuse = light_n_v * (inverse * both);
+    pair.to_glossy = select(n_v > 0.0, max(w.z, 0.0) * (peak * o4), 0.0);
+    pair.from_glossy = select(light_n_v > 0.0, max(o.z, 0.0) * (peak * w4), 0.0);
+    return pair;
+}
+
+// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
+//
+//   incoming unit, from the virtual light to the light that feeds it
+//   v        to the virtual light
+real indirect_grazing(vec3 incoming, vec3 v, real d2) {
+    real cosine = -dot(incoming, v) * inversesqrt(max(d2, 1.0e-36));
+    real half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
+    return fresnel_schlick(0.0, 1.0, half_angle * inversesqrt(half_angle));
+}
+
+// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
+struct IndirectGgx {
+    real lobe;
+    real grazing;
+};
+
+// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
+//
+//   frame    x along the view, z the normal
+//   view     unit, in the frame
+IndirectGgx indirect_ggx(mat3 frame, vec3 view, real alpha, vec3 l) {
+    vec3 local = transform_transposed(frame, l);
+    vec3 h = microfacet_half_vector(local, view);
+    IndirectGgx end;
+    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
+    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
+    return end;
+}
+
+// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
+//
+//   value      the half; its irradiance at the receiver is bright times value over distance
+//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
+//   xi         of the virtual light, in (0, 1)
+//
+// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
+// Source: Tokuyoshi, Harada 2016.
+real indirect_kept(real value, real reach, real xi) {
+    return select(value > xi * reach, max(value, reach), 0.0);
+}
+
+// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
+real indirect_largest_stretch(LtcMatrix m) {
+    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
+    real determinant = m.xx * m.zz - m.xz * m.zx;
+    real square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
+    real gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
+    real larger2 = 0.5 * (square + gap2 * inversesqrt(max(gap2, 1.0e-36)));
+    real least2 = determinant * determinant / max(larger2, 1.0e-36);
+    return inversesqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+}
+
+// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+//
+//   lobe     turned; a diffuse light's: its frame
+//   v        virtual light's position minus the point's
+//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//
+// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
+// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
+// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
+vec3 indirect_spheroid(IndirectLobe lobe, vec3 v, real range) {
+    vec3 w = indirect_under(lobe, v);
+    real inverse = 1.0 / range;
+    return vec3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
+}

@@ -1,0 +1,175 @@
+#include "indirect/pipeline.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+
+#include "core/float_mode.h"
+#include "indirect/filter.h"
+#include "indirect/light_receivers.h"
+#include "indirect/resolve.h"
+#include "indirect/true_light.h"
+
+namespace steradian::indirect {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+Surface surface_of(const FrameSurfaces& s, std::size_t i) {
+  Surface surface;
+  surface.position = s.position[i];
+  surface.normal = s.normal[i];
+  surface.albedo = s.albedo[i];
+  surface.f0 = s.f0[i];
+  surface.f90 = s.f90[i];
+  surface.alpha_x = surface.alpha_y = s.alpha[i];
+  return surface;
+}
+
+// Places spread over the picture, for the culling's threshold.
+VectorArray some_receivers(const FrameSurfaces& s) {
+  constexpr int kAcross = 16, kDown = 9;
+  VectorArray places(kAcross * kDown);
+  std::size_t n = 0;
+  for (int j = 0; j < kDown; ++j)
+    for (int i = 0; i < kAcross; ++i) {
+      const std::size_t at = s.raster.at((2 * i + 1) * s.raster.width / (2 * kAcross), (2 * j + 1) * s.raster.height / (2 * kDown));
+      if (dot(s.normal[at], s.normal[at]) > 0) places.put(n++, s.position[at]);
+    }
+  places.resize(n);
+  return places;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads)
+    : scene_(scene),
+      rays_(rays),
+      options_(options),
+      threads_(threads),
+      tables_(ltc_compact_pack_tables()),
+      surfaces_(Raster{options.width, options.height}),
+      materials_(surfaces_.raster.size()) {}
+
+void Pipeline::take(const SurfaceTile& tile, TileArea area) {
+  for (int y = 0; y < area.height; ++y)
+    for (int x = 0; x < area.width; ++x) {
+      const std::size_t slot = tile_slot(x, y), i = surfaces_.raster.at(area.x + x, area.y + y);
+      const Vec3f albedo = get(tile.albedo, slot), f0 = get(tile.f0, slot), f90 = get(tile.f90, slot);
+      if (tile.material[slot] == nullptr || !(weighs(albedo) || weighs(f0) || weighs(f90))) continue;
+      surfaces_.position.put(i, get(tile.position, slot));
+      surfaces_.normal.put(i, get(tile.normal, slot));
+      surfaces_.view.put(i, get(tile.view, slot));
+      surfaces_.albedo.put(i, albedo);
+      surfaces_.f0.put(i, f0);
+      surfaces_.f90.put(i, f90);
+      surfaces_.alpha[i] = std::sqrt(tile.alpha_x[slot] * tile.alpha_y[slot]);
+      materials_[i] = tile.material[slot];
+    }
+}
+
+template <class Work>
+auto Pipeline::timed(const char* name, Work work) {
+  const auto start = Clock::now();
+  auto result = work();
+  passes_.push_back({name, std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
+  return result;
+}
+
+void Pipeline::add_to(Picture& picture) {
+  picture.layers["indirect"].resize(picture.pixels.size());
+  const bool truth = options_.indirect.mode == IndirectMode::path || options_.method == "reference";
+  truth ? add_true(picture) : add_sum(picture);
+}
+
+void Pipeline::add_sum(Picture& picture) {
+  const IndirectOptions& o = options_.indirect;
+  const Layout layout(options_.width, options_.height, o.interleave);
+  const ShadowMap map = timed("shadow map", [&] { return make_shadow_map(scene_, rays_, o.virtual_lights); });
+  const LobeArrays lobes = timed("virtual lights", [&] {
+    LobeArrays result(map.alpha.size());
+    virtual_light_table_for(active_simd()).prepare(map, tables_, result);
+    return result;
+  });
+  const std::vector<LightSet> sets = timed("ranges", [&] {
+    SetOptions set;
+    set.mode = o.mode;
+    set.stride = o.interleave;
+    set.threshold = threshold_for(map, lobes, some_receivers(surfaces_), o.interleave, o.kept_pairs);
+    set.soften = o.soften;
+    set.seed = options_.seed;
+    return make_sets(map, lobes, set);
+  });
+  const Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
+  LightingOptions lighting;
+  lighting.mode = o.mode;
+  lighting.quads = o.quads;
+  lighting.shadows = &rays_;
+  lighting.shadow_rays = o.shadow_rays;
+  lighting.seed = options_.seed;
+  LightingResult lit = light_receivers(sets, receivers, layout, tables_, lighting);
+  passes_.push_back({"cull", lit.work.cull_ms / threads_});
+  passes_.push_back({"light", lit.work.light_ms / threads_});
+  if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
+  Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
+  if (o.filter && o.interleave > 1)
+    light = timed("filter", [&] {
+      std::vector<float> width(surfaces_.raster.size());
+      for (std::size_t i = 0; i < width.size(); ++i)
+        width[i] = surfaces_.f0.x[i] + surfaces_.f0.y[i] + surfaces_.f0.z[i] + surfaces_.f90.x[i] > 0 ? surfaces_.alpha[i] : -1.0f;
+      return filter(surfaces_, width, o.interleave, light);
+    });
+  timed("resolve", [&] {
+    VectorArray radiance(surfaces_.raster.size());
+    std::vector<Vec3f>& layer = picture.layers.at("indirect");
+    tbb::parallel_for(0, options_.height, [&](int y) {
+      resolve_table_for(active_simd()).run(surfaces_, light, tables_, y, y + 1, radiance);
+      for (int x = 0; x < options_.width; ++x) {
+        const Vec3f r = radiance[surfaces_.raster.at(x, y)];
+        layer[static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(x)] = r;
+        picture.at(x, y) += r;
+      }
+    });
+    return 0;
+  });
+}
+
+void Pipeline::add_true(Picture& picture) {
+  const IndirectOptions& o = options_.indirect;
+  const bool path = o.mode == IndirectMode::path;
+  const ShadowMap map = path ? ShadowMap{} : make_shadow_map(scene_, rays_, o.virtual_lights);
+  SumOptions sum;
+  sum.lobe = o.mode == IndirectMode::ggx ? SumLobe::ggx : SumLobe::ltc;
+  sum.shadows = o.shadow_rays > 0 ? &rays_ : nullptr;
+  tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers([&] { return std::make_unique<DirectSampler>(scene_, &rays_); });
+  std::vector<Vec3f>& layer = picture.layers.at("indirect");
+  std::vector<Vec3f> variance(picture.pixels.size());
+  timed(path ? "paths" : "all virtual lights", [&] {
+    tbb::parallel_for(0, options_.width * options_.height, [&](int k) {
+      const int x = k % options_.width, y = k / options_.width;
+      const std::size_t i = surfaces_.raster.at(x, y), pixel = static_cast<std::size_t>(k);
+      if (materials_[i] == nullptr) return;
+      Surface surface = surface_of(surfaces_, i);
+      surface.material = materials_[i];
+      Vec3d radiance;
+      if (path) {
+        reference::Random random(options_.seed, pixel * 2 + 1);
+        const Estimate e = trace_bounce(scene_, rays_, *samplers.local(), surface, surfaces_.view[i], options_.spp, random);
+        radiance = e.mean;
+        variance[pixel] = static_cast<Vec3f>(e.variance);
+      } else {
+        radiance = sum_virtual_lights(map, surface, surfaces_.view[i], sum);
+      }
+      layer[pixel] = static_cast<Vec3f>(radiance);
+      picture.pixels[pixel] += static_cast<Vec3f>(radiance);
+    });
+    return 0;
+  });
+  if (path) picture.layers["indirect_variance"] = std::move(variance);
+}
+
+}  // namespace steradian::indirect

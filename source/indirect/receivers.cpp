@@ -1,0 +1,85 @@
+#include "indirect/receivers.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace steradian::indirect {
+namespace {
+
+// Calls use(pixel, receiver) for the pixels of every stretch of `stride` tiles' width: both orders then stay in the cache.
+template <class Use>
+void for_each_pixel(const Layout& layout, Use use) {
+  const int side = layout.stride * kTile;
+  const Raster raster{layout.width, layout.height};
+  tbb::parallel_for(0, layout.tiles(), [&](int tile) {
+    const int x0 = tile % layout.tiles_x * side, y0 = tile / layout.tiles_x * side;
+    const int x1 = std::min(x0 + side, layout.width), y1 = std::min(y0 + side, layout.height);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x)
+        use(raster.at(x, y), layout.at(x, y));
+  });
+}
+
+void copy(VectorArray& to, std::size_t i, const VectorArray& from, std::size_t k) {
+  to.x[i] = from.x[k];
+  to.y[i] = from.y[k];
+  to.z[i] = from.z[k];
+}
+
+}  // namespace
+
+Receivers interleave(const FrameSurfaces& s, const Layout& layout, IndirectMode mode) {
+  Receivers r;
+  const std::size_t n = layout.size();
+  r.position.resize(n);
+  r.normal.resize(n);
+  r.view.resize(n);
+  r.alpha.assign(n, 1.0f);
+  r.glossy.resize(n);
+  if (mode == IndirectMode::ggx) {
+    r.f0.resize(n);
+    r.f90.resize(n);
+  }
+  for_each_pixel(layout, [&](std::size_t pixel, std::size_t receiver) {
+    copy(r.position, receiver, s.position, pixel);
+    copy(r.normal, receiver, s.normal, pixel);
+    copy(r.view, receiver, s.view, pixel);
+    r.alpha[receiver] = s.alpha[pixel];
+    r.glossy[receiver] = largest(s.f0[pixel]) + largest(s.f90[pixel]) > 0 ? 1.0f : 0.0f;
+    if (mode == IndirectMode::ggx) {
+      copy(r.f0, receiver, s.f0, pixel);
+      copy(r.f90, receiver, s.f90, pixel);
+    }
+  });
+  return r;
+}
+
+Light deinterleave(const Light& light, const Layout& layout) {
+  Light result;
+  const std::size_t n = Raster{layout.width, layout.height}.size();
+  result.diffuse.resize(n);
+  result.glossy.resize(n);
+  for_each_pixel(layout, [&](std::size_t pixel, std::size_t receiver) {
+    copy(result.diffuse, pixel, light.diffuse, receiver);
+    copy(result.glossy, pixel, light.glossy, receiver);
+  });
+  return result;
+}
+
+Box box_of(const Receivers& r, std::size_t first, std::size_t count) {
+  Vec3f low{INFINITY, INFINITY, INFINITY}, high = -low;
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (r.normal.x[i] == 0 && r.normal.y[i] == 0 && r.normal.z[i] == 0) continue;
+    const Vec3f p = r.position[i];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  if (!(low.x <= high.x)) return {};
+  // A little wider than the points: the bounds are computed in float.
+  const Vec3f half = (high - low) * 0.5f, center = (high + low) * 0.5f;
+  const float slack = 1e-6f * (std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z));
+  return {center, half + Vec3f{slack, slack, slack}, false};
+}
+
+}  // namespace steradian::indirect

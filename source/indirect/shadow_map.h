@@ -1,0 +1,34 @@
+// Reflective shadow maps: where the light of the lights first meets a surface, and what surface that is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "indirect/arrays.h"
+#include "render/cpu/ray_scene.h"
+#include "steradian/scene.h"
+
+namespace steradian::indirect {
+
+// Texels of all lights, those without a surface left out. Structure of arrays, all padded to a multiple of 16 with texels
+// that carry nothing.
+struct ShadowMap {
+  std::size_t count = 0;
+  VectorArray position, normal;  // normal: unit, to the side that is lit
+  VectorArray incoming;          // unit, to the light
+  VectorArray flux;              // RGB [W]: what the texel's cone carries
+  VectorArray albedo, f0, f90;
+  std::vector<float> alpha;
+  std::vector<float> area;        // of the cone's section with the surface [m2]
+  VectorArray edge_x, edge_y;     // half axes of that section, a parallelogram about the position
+  std::vector<std::uint16_t> column, row;  // place in the light's grid, which is fixed in the light's space
+};
+
+// About `count` texels, shared among the lights by their power. The same arrays at any number of threads.
+//
+// Spot lights: a perspective grid over the cone. Directional: a parallel one over the scene. Point lights: a grid of equal
+// solid angles. Area lights: rays from points spread over the surface, their directions a cosine-weighted grid; the
+// area of such a texel is that of a point light's, moved back by the light's size.
+ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count);
+
+}  // namespace steradian::indirect
