@@ -1107,13 +1107,13 @@ vec4 case_representative_point(CaseInput i) {
 //   d.z    range(-1, 1)
 //   d.w    range(1.2, 3)
 // Values: 3
-vec4 case_ltc_irradiance_vector(CaseInput i) {
-    return case_of_vec3(ltc_irradiance_vector(case_ltc_walk(i, ltc_from_classic(i.d)), case_walk_reversed(i)));
+vec4 case_ltc_texture_irradiance_vector(CaseInput i) {
+    return case_of_vec3(ltc_texture_irradiance_vector(case_ltc_walk(i, ltc_from_classic(i.d)), case_walk_reversed(i)));
 }
 
 // The footprint about a direction on a plane that the lobe meets well.
-LtcFootprint case_footprint(CaseInput i, LtcMatrix m) {
-    vec3 meets = polygon_direction(ltc_transform_back(m, case_xyz(i.a)));
+LtcTextureFootprint case_footprint(CaseInput i, LtcMatrix m) {
+    vec3 meets = polygon_direction(ltc_texture_transform_back(m, case_xyz(i.a)));
     vec3 normal = polygon_direction(meets + case_xyz(i.b) * 0.5);
     return ltc_texture_footprint(m, case_xyz(i.a) * i.a.w, normal, i.b.w);
 }
@@ -1141,8 +1141,8 @@ vec4 case_ltc_texture_center(CaseInput i) { return case_of_vec3(case_footprint(i
 //   d.w    range(1, 2)
 // Values: 4
 vec4 case_ltc_texture_footprint(CaseInput i) {
-    LtcFootprint lobe = case_footprint(i, ltc_from_classic(i.d));
-    LtcFootprint diffuse = case_footprint(i, ltc_texture_diffuse());
+    LtcTextureFootprint lobe = case_footprint(i, ltc_from_classic(i.d));
+    LtcTextureFootprint diffuse = case_footprint(i, ltc_texture_diffuse());
     vec3 plane = cross(lobe.axis_a, lobe.axis_b);
     vec3 area = cross(diffuse.axis_a, diffuse.axis_b);
     return vec4(plane.x, plane.y, plane.z, select(lobe.valid, sqrt(dot(area, area)), 0.0));
@@ -1157,7 +1157,7 @@ vec4 case_ltc_texture_footprint(CaseInput i) {
 //   c.y    range(0.2, 1)
 // Values: 3
 vec4 case_ltc_texture_gaussian(CaseInput i) {
-    TextureEllipse g = ltc_texture_gaussian(ltc_texture_axes(xy(case_xyz(i.a)), xy(case_xyz(i.b))), i.c.x, i.c.y);
+    LtcTextureEllipse g = ltc_texture_gaussian(ltc_texture_axes(xy(case_xyz(i.a)), xy(case_xyz(i.b))), i.c.x, i.c.y);
     return vec4(g.major.x, g.major.y, g.minor, 0.0);
 }
 
@@ -1174,11 +1174,12 @@ vec4 case_ltc_texture_gaussian(CaseInput i) {
 //   d.z    range(0.2, 1)
 // Values: 2
 vec4 case_ltc_texture_place(CaseInput i) {
-    TextureEllipse g;
+    LtcTextureEllipse g;
     g.major = vec2(i.a.x, i.a.y);
     g.minor = i.a.z;
     vec2 r = ltc_texture_place(g, vec2(i.b.x, i.b.y), vec2(i.c.x, i.c.y), case_xyz(i.d));
     return vec4(r.x, r.y, 0.0, 0.0);
+}
 
 // A lobe about the normal n, from the classic table.
 IndirectLobe case_indirect_lobe(vec3 n, vec4 table) { return indirect_lobe(ltc_from_classic(table), frame_from_normal(n)); }
