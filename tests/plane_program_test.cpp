@@ -93,7 +93,10 @@ TEST_F(Program, RenderRefusesBrokenSvgWithLineAndHint) {
   EXPECT_EQ(r.status, 1);
   EXPECT_NE(r.err.find("broken.svg:"), std::string::npos) << r.err;
   EXPECT_FALSE(fs::exists(out));
-  EXPECT_EQ(run({"render", svg, "-o", out, "--method", "closed-form"}).status, 2);
+  std::ofstream(svg) << kScene;
+  const Outcome wrong = run({"render", svg, "-o", out, "--method", "closed-form"});
+  EXPECT_EQ(wrong.status, 2) << wrong.err;
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST_F(Program, EvalOfAPlaneAnswersTheOtherLines) {

@@ -46,13 +46,13 @@ struct HullOfCircles {
   float base, growth, widen;
 };
 
-struct CullTable {
+struct PlaneCullTable {
   // Appends to `to` those of from[begin, end) that touch the hull, and to `hiders` (room for all) those of them whose
   // core is wide enough to be worth a look. Returns the number of hiders. `to` has room for end - begin more.
   std::size_t (*cull)(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end,
                       BlockerList& to, int* hiders);
 };
 
-STERADIAN_DECLARE_PACK_TABLE(CullTable, cull_table)
+STERADIAN_DECLARE_PACK_TABLE(PlaneCullTable, plane_cull_table)
 
 }  // namespace steradian

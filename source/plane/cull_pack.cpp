@@ -78,8 +78,8 @@ __attribute__((flatten)) std::size_t cull(const HullOfCircles& hull, const Block
 
 }  // namespace
 
-const CullTable& cull_table() {
-  static constexpr CullTable table = {cull};
+const PlaneCullTable& plane_cull_table() {
+  static constexpr PlaneCullTable table = {cull};
   return table;
 }
 

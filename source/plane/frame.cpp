@@ -299,7 +299,7 @@ class Worker {
   const TileTable& table_;
   Picture& picture_;
   LeafBuilder leaf_;
-  const CullTable& cull_ = cull_table_for(active_simd());
+  const PlaneCullTable& cull_ = plane_cull_table_for(active_simd());
   std::vector<int> hiders_;
   Level levels_[kLevels];
   TileBuffer buffer_;
