@@ -13,6 +13,7 @@ void add_phong(BenchList& list);
 void add_closed_form(BenchList& list);
 void add_plane(BenchList& list);
 void add_frame(BenchList& list);
+void add_indirect(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
@@ -24,6 +25,7 @@ inline BenchList all_benches() {
   add_closed_form(list);
   add_plane(list);
   add_frame(list);
+  add_indirect(list);
   return list;
 }
 

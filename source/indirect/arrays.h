@@ -2,14 +2,41 @@
 #pragma once
 
 #include <cstddef>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include "steradian/vector.h"
 
 namespace steradian::indirect {
 
+// Throws std::bad_alloc.
+void* take_zeroed(std::size_t bytes);
+void give_back(void* p, std::size_t bytes);
+
+// Memory that is zero when it comes. Planes of a picture come in large pages straight from the system, so that nothing
+// touches them before the pass that fills them, on the threads that do.
+template <class T>
+struct ZeroedPages {
+  using value_type = T;
+
+  ZeroedPages() = default;
+  template <class U>
+  ZeroedPages(const ZeroedPages<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(take_zeroed(n * sizeof(T))); }
+  void deallocate(T* p, std::size_t n) { give_back(p, n * sizeof(T)); }
+  template <class U>
+  void construct(U*) {}  // zero already
+  template <class U, class... Arguments>
+  void construct(U* p, Arguments&&... arguments) {
+    ::new (static_cast<void*>(p)) U(std::forward<Arguments>(arguments)...);
+  }
+  friend bool operator==(const ZeroedPages&, const ZeroedPages&) { return true; }
+};
+using FloatArray = std::vector<float, ZeroedPages<float>>;
+
 struct VectorArray {
-  std::vector<float> x, y, z;
+  FloatArray x, y, z;
 
   VectorArray() = default;
   explicit VectorArray(std::size_t size) : x(size), y(size), z(size) {}

@@ -16,14 +16,18 @@ constexpr double kSigma = 1.5;   // Ulichney's, of the Gaussian that measures cr
 // Points on a torus and how crowded every place is.
 class Crowd {
  public:
-  Crowd() : taken_(kCount), energy_(kCount) {}
+  Crowd() : taken_(kCount), energy_(kCount) {
+    for (int dy = 0; dy < kWide; ++dy)
+      for (int dx = 0; dx < kWide; ++dx)
+        crowding_[dy][dx] = std::exp(-((dx - kReach) * (dx - kReach) + (dy - kReach) * (dy - kReach)) / (2 * kSigma * kSigma));
+  }
   void set(int place, bool taken) {
     const int x = place % kMaskSide, y = place / kMaskSide;
     taken_[static_cast<std::size_t>(place)] = taken;
     for (int dy = -kReach; dy <= kReach; ++dy)
       for (int dx = -kReach; dx <= kReach; ++dx) {
         const int at = (y + dy + kMaskSide) % kMaskSide * kMaskSide + (x + dx + kMaskSide) % kMaskSide;
-        const double e = std::exp(-(dx * dx + dy * dy) / (2 * kSigma * kSigma));
+        const double e = crowding_[dy + kReach][dx + kReach];
         energy_[static_cast<std::size_t>(at)] += taken ? e : -e;
       }
   }
@@ -42,6 +46,8 @@ class Crowd {
     }
     return best;
   }
+  static constexpr int kWide = 2 * kReach + 1;
+  double crowding_[kWide][kWide];
   std::vector<char> taken_;
   std::vector<double> energy_;
 };

@@ -29,7 +29,7 @@ FilterWeights filter_weights(int stride) {
   return w;
 }
 
-Light filter(const FrameSurfaces& surfaces, const std::vector<float>& width, int stride, const Light& light) {
+Light filter(const FrameSurfaces& surfaces, const FloatArray& width, int stride, const Light& light) {
   const Raster& raster = surfaces.raster;
   const FilterGeometry geometry{surfaces.position, surfaces.normal, width.data()};
   const FilterWeights weights = filter_weights(stride);

@@ -31,7 +31,7 @@ struct FilterTable {
               int first, int last, const Light& from, Light& to);
 };
 
-Light filter(const FrameSurfaces& surfaces, const std::vector<float>& width, int stride, const Light& light);
+Light filter(const FrameSurfaces& surfaces, const FloatArray& width, int stride, const Light& light);
 
 }  // namespace steradian::indirect
 

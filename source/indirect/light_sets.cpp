@@ -46,6 +46,8 @@ class SetMaker {
 
   LightSet make(int index, const std::vector<std::uint32_t>& texels) const {
     LightSet set;
+    set.diffuse.reserve(texels.size());
+    set.glossy.reserve(texels.size());
     // A turn of the mask for every set: neighbouring pixels then differ in what they leave out.
     const double shift = reference::Random(options_.seed, static_cast<std::uint64_t>(index)).uniform();
     for (const std::uint32_t i : texels) {
@@ -68,7 +70,10 @@ class SetMaker {
     const float bound = reach * xi;
     return std::min(bound > 0 ? std::sqrt(stretch / bound) : kEverywhere, kEverywhere);
   }
-  QuadLight quad(std::size_t i) const { return {map_.edge_x[i], map_.edge_y[i], 1 / std::max(map_.area[i], 1e-20f)}; }
+  QuadLight quad(std::size_t i) const {
+    return {map_.edge_x[i], map_.edge_y[i], 1 / std::max(map_.area[i], 1e-20f),
+            dot(map_.edge_x[i], map_.edge_x[i]) + dot(map_.edge_y[i], map_.edge_y[i])};
+  }
 
   void add_diffuse(LightSet& set, std::size_t i, float xi) const {
     const Vec3f p = map_.position[i], n = map_.normal[i];
@@ -164,10 +169,10 @@ std::vector<LightSet> make_sets(const ShadowMap& map, const LobeArrays& lobes, c
   const int sets = options.stride * options.stride;
   std::vector<std::vector<std::uint32_t>> members(static_cast<std::size_t>(sets));
   for (std::size_t i = 0; i < map.count; ++i) {
+    if (!weighs(map.flux[i])) continue;
     const int set = map.row[i] % options.stride * options.stride + map.column[i] % options.stride;
     members[static_cast<std::size_t>(set)].push_back(static_cast<std::uint32_t>(i));
   }
-  blue_noise();
   std::vector<LightSet> result(static_cast<std::size_t>(sets));
   const SetMaker maker(map, lobes, options);
   tbb::parallel_for(0, sets, [&](int s) {
@@ -188,7 +193,7 @@ TexelIrradiance irradiance_at(const ShadowMap& map, const LobeArrays& lobes, std
 }
 
 double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers, int stride, double kept) {
-  constexpr std::size_t kLights = 1024;
+  constexpr std::size_t kLights = 512;
   const std::size_t places = receivers.size(), lights = std::min(kLights, map.count);
   if (map.count == 0 || places == 0 || !(kept > 0)) return 0;
   const double weight = stride * stride, share = static_cast<double>(map.count) / static_cast<double>(lights) / weight;
@@ -214,7 +219,7 @@ double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const Vector
   double low = most * 1e-12, high = most;
   if (kept_at(low) <= kept) return 0;  // too few lights to be worth it
   while (kept_at(high) > kept) high *= 4;
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < 20; ++k) {  // to 2^-20 of the exponents' range
     const double middle = std::sqrt(low * high);
     (kept_at(middle) > kept ? low : high) = middle;
   }

@@ -42,10 +42,11 @@ struct GgxLight {
   float soft;
 };
 
-// The texel as a quad that shines: half axes, and one over its area.
+// The texel as a quad that shines: half axes, one over its area, and the axes' squares.
 struct QuadLight {
   Vec3f edge_x, edge_y;
   float inverse_area;
+  float size2;
 };
 
 // Bounds of where lights matter, in arrays that are read sixteen lights at a time; padding reaches nowhere.

@@ -85,8 +85,10 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
   if constexpr (glossy) {
     PackReal half = k.indirect_glossy_half(at.lobe, way.v, way.d2, PackReal(0.0));
     if constexpr (quads) {
-      if (any_lane(at.sharp && kept > PackReal(0.0)))
-        half = select(at.sharp, quad_half(at, light_normal, *quad, way, soft), half);
+      // Only where the quad is no speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is as good as constant there.
+      const PackVec3 w = k.indirect_under(at.lobe, way.v);
+      const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) > dot(w, w) * PackReal(0.02);
+      if (any_lane(wide)) half = select(wide, quad_half(at, light_normal, *quad, way, soft), half);
     }
     sums.add_glossy(bright * select(cosine > PackReal(0.0), kept * half, PackReal(0.0)), id);
   }

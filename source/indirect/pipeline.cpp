@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "core/float_mode.h"
+#include "indirect/blue_noise.h"
 #include "indirect/filter.h"
 #include "indirect/light_receivers.h"
 #include "indirect/resolve.h"
@@ -28,6 +29,11 @@ Surface surface_of(const FrameSurfaces& s, std::size_t i) {
   surface.f90 = s.f90[i];
   surface.alpha_x = surface.alpha_y = s.alpha[i];
   return surface;
+}
+
+// Ground truth looks at a surface as its material describes it.
+bool needs_materials(const RenderOptions& options) {
+  return options.indirect.mode == IndirectMode::path || options.method == "reference";
 }
 
 // Places spread over the picture, for the culling's threshold.
@@ -53,7 +59,9 @@ Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions
       threads_(threads),
       tables_(ltc_compact_pack_tables()),
       surfaces_(Raster{options.width, options.height}),
-      materials_(surfaces_.raster.size()) {}
+      materials_(needs_materials(options) ? surfaces_.raster.size() : 0) {
+  blue_noise();  // a table, not a part of the frame
+}
 
 void Pipeline::take(const SurfaceTile& tile, TileArea area) {
   for (int y = 0; y < area.height; ++y)
@@ -68,7 +76,7 @@ void Pipeline::take(const SurfaceTile& tile, TileArea area) {
       surfaces_.f0.put(i, f0);
       surfaces_.f90.put(i, f90);
       surfaces_.alpha[i] = std::sqrt(tile.alpha_x[slot] * tile.alpha_y[slot]);
-      materials_[i] = tile.material[slot];
+      if (!materials_.empty()) materials_[i] = tile.material[slot];
     }
 }
 
@@ -82,8 +90,7 @@ auto Pipeline::timed(const char* name, Work work) {
 
 void Pipeline::add_to(Picture& picture) {
   picture.layers["indirect"].resize(picture.pixels.size());
-  const bool truth = options_.indirect.mode == IndirectMode::path || options_.method == "reference";
-  truth ? add_true(picture) : add_sum(picture);
+  materials_.empty() ? add_sum(picture) : add_true(picture);
 }
 
 void Pipeline::add_sum(Picture& picture) {
@@ -107,20 +114,23 @@ void Pipeline::add_sum(Picture& picture) {
   const Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
   LightingOptions lighting;
   lighting.mode = o.mode;
-  lighting.quads = o.quads;
+  lighting.quads = o.quads && !std::getenv("NOQUADS");
   lighting.shadows = &rays_;
   lighting.shadow_rays = o.shadow_rays;
   lighting.seed = options_.seed;
   LightingResult lit = light_receivers(sets, receivers, layout, tables_, lighting);
+  if (std::getenv("IND_DEBUG")) fprintf(stderr, "pairs per pixel %.1f\n", lit.work.pairs / (double(options_.width) * options_.height));
   passes_.push_back({"cull", lit.work.cull_ms / threads_});
   passes_.push_back({"light", lit.work.light_ms / threads_});
   if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
   Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
   if (o.filter && o.interleave > 1)
     light = timed("filter", [&] {
-      std::vector<float> width(surfaces_.raster.size());
-      for (std::size_t i = 0; i < width.size(); ++i)
-        width[i] = surfaces_.f0.x[i] + surfaces_.f0.y[i] + surfaces_.f0.z[i] + surfaces_.f90.x[i] > 0 ? surfaces_.alpha[i] : -1.0f;
+      FloatArray width(surfaces_.raster.size());
+      tbb::parallel_for(std::size_t{0}, width.size() / 16, [&](std::size_t block) {  // a pitch is a multiple of 16
+        for (std::size_t i = 16 * block; i < 16 * block + 16; ++i)
+          width[i] = surfaces_.f0.x[i] + surfaces_.f0.y[i] + surfaces_.f0.z[i] + surfaces_.f90.x[i] > 0 ? surfaces_.alpha[i] : -1.0f;
+      });
       return filter(surfaces_, width, o.interleave, light);
     });
   timed("resolve", [&] {

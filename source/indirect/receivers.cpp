@@ -12,12 +12,15 @@ template <class Use>
 void for_each_pixel(const Layout& layout, Use use) {
   const int side = layout.stride * kTile;
   const Raster raster{layout.width, layout.height};
+  std::vector<std::size_t> columns;
+  for (int x = 0; x < layout.width; ++x) columns.push_back(layout.column_part(x));
   tbb::parallel_for(0, layout.tiles(), [&](int tile) {
     const int x0 = tile % layout.tiles_x * side, y0 = tile / layout.tiles_x * side;
     const int x1 = std::min(x0 + side, layout.width), y1 = std::min(y0 + side, layout.height);
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x)
-        use(raster.at(x, y), layout.at(x, y));
+    for (int y = y0; y < y1; ++y) {
+      const std::size_t row = layout.row_part(y);
+      for (int x = x0; x < x1; ++x) use(raster.at(x, y), row + columns[static_cast<std::size_t>(x)]);
+    }
   });
 }
 
@@ -35,7 +38,7 @@ Receivers interleave(const FrameSurfaces& s, const Layout& layout, IndirectMode 
   r.position.resize(n);
   r.normal.resize(n);
   r.view.resize(n);
-  r.alpha.assign(n, 1.0f);
+  r.alpha.resize(n);
   r.glossy.resize(n);
   if (mode == IndirectMode::ggx) {
     r.f0.resize(n);

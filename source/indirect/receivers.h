@@ -19,10 +19,10 @@ struct Raster {
 struct FrameSurfaces {
   Raster raster;
   VectorArray position, normal, view, albedo, f0, f90;
-  std::vector<float> alpha;
+  FloatArray alpha;
 
   explicit FrameSurfaces(Raster r)
-      : raster(r), position(r.size()), normal(r.size()), view(r.size()), albedo(r.size()), f0(r.size()), f90(r.size()), alpha(r.size(), 1.0f) {}
+      : raster(r), position(r.size()), normal(r.size()), view(r.size()), albedo(r.size()), f0(r.size()), f90(r.size()), alpha(r.size()) {}
 };
 
 inline constexpr int kTile = 16;  // side of a tile of a sub-image, in receivers
@@ -42,18 +42,23 @@ struct Layout {
   int sets() const { return stride * stride; }
   std::size_t size() const { return static_cast<std::size_t>(sets()) * static_cast<std::size_t>(tiles()) * kTileReceivers; }
   std::size_t tile_begin(int set, int tile) const { return (static_cast<std::size_t>(set) * static_cast<std::size_t>(tiles()) + static_cast<std::size_t>(tile)) * kTileReceivers; }
-  std::size_t at(int x, int y) const {
-    const int u = x / stride, v = y / stride;
-    const int slot = ((v % kTile / kBlock) * (kTile / kBlock) + u % kTile / kBlock) * (kBlock * kBlock) + v % kBlock * kBlock + u % kBlock;
-    return tile_begin(y % stride * stride + x % stride, v / kTile * tiles_x + u / kTile) + static_cast<std::size_t>(slot);
+  // A place is the sum of what a row and what a column adds.
+  std::size_t row_part(int y) const {
+    const int v = y / stride;
+    return tile_begin(y % stride * stride, v / kTile * tiles_x) + static_cast<std::size_t>(v % kTile / kBlock * (kTile * kBlock) + v % kBlock * kBlock);
   }
+  std::size_t column_part(int x) const {
+    const int u = x / stride;
+    return tile_begin(x % stride, u / kTile) + static_cast<std::size_t>(u % kTile / kBlock * (kBlock * kBlock) + u % kBlock);
+  }
+  std::size_t at(int x, int y) const { return row_part(y) + column_part(x); }
 };
 
 // What the lighting pass reads. f0 and f90 are filled for mode ggx only.
 struct Receivers {
   VectorArray position, normal, view, f0, f90;
-  std::vector<float> alpha;
-  std::vector<float> glossy;  // 1 where there is a glossy lobe
+  FloatArray alpha;
+  FloatArray glossy;  // 1 where there is a glossy lobe
 };
 
 // Light that arrives, demodulated: `diffuse` times albedo / pi and `glossy` times the mean reflectance is radiance.

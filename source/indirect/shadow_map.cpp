@@ -168,7 +168,7 @@ std::vector<Emitter> emitters_of(const Scene& scene) {
   return emitters;
 }
 
-// Fields of one texel until the map is packed; alpha 0: no surface.
+// One texel before its fields are taken apart.
 struct Texel {
   Surface surface;
   Vec3f incoming, flux, edge_x, edge_y;
@@ -238,9 +238,8 @@ void trace_block(const Scene& scene, const RayScene& rays, const Emitter& emitte
   }
   rays.intersect(valid, packet);
   for (int k = 0; k < 16; ++k) {
-    if (valid[k] == 0 || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
     Texel& texel = texels[k];
-    texel = shade(scene, light_rays[k], packet, k);
+    if (valid[k] != 0 && packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID) texel = shade(scene, light_rays[k], packet, k);
     texel.column = static_cast<std::uint16_t>(x + k % 4);
     texel.row = static_cast<std::uint16_t>(y + k / 4);
   }
@@ -255,27 +254,26 @@ void resize(ShadowMap& map, std::size_t size) {
   map.row.resize(size);
 }
 
-void append(ShadowMap& map, const std::vector<Texel>& texels) {
-  std::size_t n = map.count;
-  map.count += static_cast<std::size_t>(std::count_if(texels.begin(), texels.end(), [](const Texel& t) { return t.lit; }));
-  resize(map, map.count);
-  for (const Texel& t : texels) {
-    if (!t.lit) continue;
-    map.position.put(n, t.surface.position);
-    map.normal.put(n, t.surface.normal);
-    map.incoming.put(n, t.incoming);
-    map.flux.put(n, t.flux);
-    map.albedo.put(n, t.surface.albedo);
-    map.f0.put(n, t.surface.f0);
-    map.f90.put(n, t.surface.f90);
-    map.alpha[n] = std::sqrt(t.surface.alpha_x * t.surface.alpha_y);
-    map.area[n] = t.area;
-    map.edge_x.put(n, t.edge_x);
-    map.edge_y.put(n, t.edge_y);
-    map.column[n] = t.column;
-    map.row[n] = t.row;
-    ++n;
+void put(ShadowMap& map, std::size_t n, const Texel& t) {
+  map.column[n] = t.column;
+  map.row[n] = t.row;
+  if (!t.lit) {
+    map.normal.put(n, {0, 0, 1});
+    map.incoming.put(n, {0, 0, 1});
+    map.alpha[n] = 1;
+    return;
   }
+  map.position.put(n, t.surface.position);
+  map.normal.put(n, t.surface.normal);
+  map.incoming.put(n, t.incoming);
+  map.flux.put(n, t.flux);
+  map.albedo.put(n, t.surface.albedo);
+  map.f0.put(n, t.surface.f0);
+  map.f90.put(n, t.surface.f90);
+  map.alpha[n] = std::sqrt(t.surface.alpha_x * t.surface.alpha_y);
+  map.area[n] = t.area;
+  map.edge_x.put(n, t.edge_x);
+  map.edge_y.put(n, t.edge_y);
 }
 
 }  // namespace
@@ -288,19 +286,18 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count) {
   for (const Emitter& emitter : emitters) {
     // Multiples of eight, so that the grid falls into 64 sets of one size.
     const int side = 8 * std::clamp(static_cast<int>(std::lround(std::sqrt(count * emitter.power / power) / 8)), 1, 512);
-    std::vector<Texel> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    const std::size_t begin = map.count;
+    map.count += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    resize(map, map.count);
     tbb::parallel_for(0, side / 4, [&](int by) {
       const FlushDenormals flush;
-      for (int bx = 0; bx < side / 4; ++bx)
-        trace_block(scene, rays, emitter, 4 * bx, 4 * by, side, &texels[static_cast<std::size_t>(16 * (by * (side / 4) + bx))]);
+      for (int bx = 0; bx < side / 4; ++bx) {
+        Texel texels[16];
+        trace_block(scene, rays, emitter, 4 * bx, 4 * by, side, texels);
+        const std::size_t first = begin + static_cast<std::size_t>(16 * (by * (side / 4) + bx));
+        for (std::size_t k = 0; k < 16; ++k) put(map, first + k, texels[k]);
+      }
     });
-    append(map, texels);
-  }
-  resize(map, (map.count + 15) / 16 * 16);
-  for (std::size_t i = map.count; i < map.alpha.size(); ++i) {
-    map.normal.put(i, {0, 0, 1});
-    map.incoming.put(i, {0, 0, 1});
-    map.alpha[i] = 1;
   }
   return map;
 }

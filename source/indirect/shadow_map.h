@@ -10,16 +10,15 @@
 
 namespace steradian::indirect {
 
-// Texels of all lights, those without a surface left out. Structure of arrays, all padded to a multiple of 16 with texels
-// that carry nothing.
+// Texels of all lights. Those that meet no surface carry no flux. Structure of arrays of a multiple of 16.
 struct ShadowMap {
   std::size_t count = 0;
   VectorArray position, normal;  // normal: unit, to the side that is lit
   VectorArray incoming;          // unit, to the light
   VectorArray flux;              // RGB [W]: what the texel's cone carries
   VectorArray albedo, f0, f90;
-  std::vector<float> alpha;
-  std::vector<float> area;        // of the cone's section with the surface [m2]
+  FloatArray alpha;
+  FloatArray area;        // of the cone's section with the surface [m2]
   VectorArray edge_x, edge_y;     // half axes of that section, a parallelogram about the position
   std::vector<std::uint16_t> column, row;  // place in the light's grid, which is fixed in the light's space
 };

@@ -82,7 +82,7 @@ Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f vi
   for (std::size_t i = 0; i < map.count; ++i) {
     const Vec3d v = wide(map.position[i]) - p;
     const double d2 = dot(v, v);
-    if (!(d2 > 0)) continue;
+    if (!(d2 > 0) || !weighs(map.flux[i])) continue;
     const Vec3d l = v / std::sqrt(d2);
     const Vec3d at_eye = eye.local(l);
     if (!(at_eye.z > 0) || !(dot(wide(map.normal[i]), l) < 0)) continue;
