@@ -194,8 +194,10 @@ class Renderer {
       const auto reaching = lights_reaching(lights_, *tile);
       if (method_.exact_diffuse && tile->any_diffuse)
         direct_clock_.run([&] {
-          const std::vector<const PackLight*> plain = without_textured(reaching);
-          direct_.add_diffuse(*tile, plain.data(), plain.size());
+          std::vector<const PackLight*> plain = without_textured(reaching);
+          if (!method_.estimates())
+            std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(*tile, *light); });
+          if (!plain.empty()) direct_.add_diffuse(*tile, plain.data(), plain.size());
           if (plain.size() < reaching.size()) add_diffuse_from_textured(*tile, reaching);
         });
       if (!method_.estimates()) specular_clock_.run([&] { specular_.add(*tile, reaching); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -21,6 +22,7 @@ namespace steradian {
 struct SpecularPass::Lobe {
   const TilePlane &alpha_x, &alpha_y;
   TileVector f0, f90;
+  bool over_diffuse = false;  // the lobe whose walk may serve the diffuse one
 };
 
 namespace {
@@ -39,6 +41,18 @@ void add_to(TileVector& v, std::size_t i, Vec3f a) {
   v.x[i] += a.x;
   v.y[i] += a.y;
   v.z[i] += a.z;
+}
+
+// One channel of every pixel; the fresnel part is what (1 - v.h)^5 leaves of the plain one.
+void add_coloured(TilePlane& radiance, const TilePlane& f0, const TilePlane& f90, const TilePlane& plain,
+                  const TilePlane& fresnel, float light) {
+  for (std::size_t i = 0; i < kTilePixels; ++i)
+    radiance[i] += light * (f0[i] * (plain[i] - fresnel[i]) + f90[i] * fresnel[i]);
+}
+
+void add_diffuse(TilePlane& radiance, const TilePlane& albedo, const TilePlane& irradiance, float light) {
+  const float factor = light * std::numbers::inv_pi_v<float>;
+  for (std::size_t i = 0; i < kTilePixels; ++i) radiance[i] += albedo[i] * factor * irradiance[i];
 }
 
 PhongMethod phong_method(LobeMethod method) {
@@ -148,18 +162,23 @@ SpecularPass::SpecularPass(const Method& method)
               : method.ggx == LobeMethod::ltc_compact ? ltc_compact_pack_tables()
                                                       : LtcPackTables{}) {}
 
+bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
+  const bool ltc = method_.ggx == LobeMethod::ltc || method_.ggx == LobeMethod::ltc_compact;
+  return ltc && tile.any_specular && tile.any_diffuse && light.kind == PackLight::Kind::polygon && light.textured == nullptr;
+}
+
 // False where the method does not run on packs.
-bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, float* plain,
-                                 float* fresnel) const {
+bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light,
+                                 const LtcSums& sums) const {
   const GgxPoints points = {points_of(tile),         tile.view.x.data(),    tile.view.y.data(),
                             tile.view.z.data(),      tile.tangent.x.data(), tile.tangent.y.data(),
                             tile.tangent.z.data(),   lobe.alpha_x.data(),   lobe.alpha_y.data()};
   if (!light.is_area()) {
-    direct_table_for(active_simd()).punctual_ggx(light, points, plain, fresnel);
+    direct_table_for(active_simd()).punctual_ggx(light, points, sums.specular, sums.grazing);
     return true;
   }
   if (method_.ggx == LobeMethod::closed_form) {
-    closed_form_table_for(active_simd()).ggx(light, points, method_.quality, plain, fresnel);
+    closed_form_table_for(active_simd()).ggx(light, points, method_.quality, sums.specular, sums.grazing);
     return true;
   }
   if (method_.ggx != LobeMethod::ltc && method_.ggx != LobeMethod::ltc_compact) return false;
@@ -167,22 +186,32 @@ bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, cons
   for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(lobe.alpha_x[i]);
   const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
   const LtcPackTable& table = ltc_pack_table_for(active_simd());
-  const LtcSums sums = {nullptr, plain, fresnel};
   (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(&light, 1, seen, tables_, sums);
   return true;
 }
 
 void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const {
-  alignas(64) TilePlane plain, fresnel;
+  alignas(64) TilePlane plain, fresnel, irradiance;
   for (const PackLight* light : lights) {
-    if (integrate_ggx(tile, lobe, *light, plain.data(), fresnel.data())) {
+    const bool diffuse = lobe.over_diffuse && brings_diffuse(tile, *light);
+    if (integrate_ggx(tile, lobe, *light, {diffuse ? irradiance.data() : nullptr, plain.data(), fresnel.data()})) {
+      if (diffuse) {
+        add_diffuse(tile.radiance.x, tile.albedo.x, irradiance, light->radiance.x);
+        add_diffuse(tile.radiance.y, tile.albedo.y, irradiance, light->radiance.y);
+        add_diffuse(tile.radiance.z, tile.albedo.z, irradiance, light->radiance.z);
+      }
+      if (light->textured == nullptr) {
+        add_coloured(tile.radiance.x, lobe.f0.x, lobe.f90.x, plain, fresnel, light->radiance.x);
+        add_coloured(tile.radiance.y, lobe.f0.y, lobe.f90.y, plain, fresnel, light->radiance.y);
+        add_coloured(tile.radiance.z, lobe.f0.z, lobe.f90.z, plain, fresnel, light->radiance.z);
+        continue;
+      }
       for (std::size_t i = 0; i < kTilePixels; ++i) {
+        if (!(plain[i] > 0 || fresnel[i] > 0)) continue;
+        const double lobe_width = width(static_cast<double>(lobe.alpha_x[i]), static_cast<double>(lobe.alpha_y[i]));
+        const Vec3f radiance = light->textured->seen_by_ggx(shading_point(tile, i), lobe_width);
         const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
-        const Vec3f specular = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
-        const bool textured = light->textured != nullptr && (plain[i] > 0 || fresnel[i] > 0);
-        const Vec3f radiance = textured ? light->textured->seen_by_ggx(shading_point(tile, i), width(static_cast<double>(lobe.alpha_x[i]), static_cast<double>(lobe.alpha_y[i])))
-                                        : light->radiance;
-        add_to(tile.radiance, i, radiance * specular);
+        add_to(tile.radiance, i, radiance * (f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i]));
       }
       continue;
     }
@@ -231,7 +260,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 }
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
-  if (tile.any_specular) add_ggx(tile, {tile.alpha_x, tile.alpha_y, tile.f0, tile.f90}, lights);
+  if (tile.any_specular) add_ggx(tile, {tile.alpha_x, tile.alpha_y, tile.f0, tile.f90, true}, lights);
   if (tile.any_coat) {
     Lobe coat = {tile.coat_alpha, tile.coat_alpha, {}, {}};
     for (std::size_t i = 0; i < kTilePixels; ++i) {

@@ -16,15 +16,17 @@ class SpecularPass {
  public:
   explicit SpecularPass(const Method& method);
 
-  // Adds the specular light of the lights to tile.radiance.
+  // Whether add() also brings the diffuse light of a light: a walk along a polygon serves both lobes.
+  bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;
+
+  // Adds the specular light of the lights to tile.radiance, and the diffuse light that it brings.
   void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
 
  private:
   struct Lobe;
   void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
-  bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, float* plain,
-                     float* fresnel) const;
+  bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
 
   const Method method_;
   const LtcPackTables tables_;
