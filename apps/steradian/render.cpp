@@ -25,7 +25,7 @@ struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", stats;
   double exposure = 0;
   int max_lights = 256;
-  bool moments = false, spp_given = false;
+  bool moments = false, multiple_scattering = false, spp_given = false;
   RenderOptions render;
 };
 
@@ -112,8 +112,10 @@ void run(Options& options) {
                                                        : Quality::normal;
 
   parse_indirect(options);
-  const LoadedScene loaded = load_scene(options.scene, {options.max_lights});
+  LoadedScene loaded = load_scene(options.scene, {options.max_lights});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
+
+  loaded.scene.multiple_scattering = options.multiple_scattering;
 
   std::unique_ptr<Progress> progress;
   render_options.progress = [&](std::uint64_t, std::uint64_t total) {
@@ -155,6 +157,8 @@ void add_render(CLI::App& app, Exit&) {
       ->group("Light");
   verb->add_option("--shadows", options->shadows, "cast shadows (reference methods only)")
       ->check(CLI::IsMember({"off", "on"}))
+      ->group("Light");
+  verb->add_flag("--multiple-scattering", options->multiple_scattering, "GGX gives back what one bounce loses between the facets")
       ->group("Light");
   verb->add_option("--indirect", options->indirect, "one bounce: virtual lights by ltc, by the baseline ggx, or path tracing (--spp)")
       ->check(CLI::IsMember({"off", "ltc", "ggx", "path"}))

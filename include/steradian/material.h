@@ -5,18 +5,19 @@
 
 namespace steradian {
 
-enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann };
+enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann, charlie };  // charlie: the sheen of glTF
 
 struct Material {
   Brdf brdf = Brdf::lambert;
-  Vec3d albedo{1, 1, 1};    // lambert, phong
+  Vec3d albedo{1, 1, 1};    // lambert, phong, charlie
   double exponent = 1;      // phong, blinn_phong: n >= 0
-  double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it; roughness squared, >= 1e-4
+  double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it; roughness squared, >= 1e-4; charlie: alpha_x
   double alpha_y = 0.25;
   Vec3d tangent{0, 0, 0};   // ggx, beckmann: direction of alpha_x, projected on the surface; zero: any
   Vec3d f0{1, 1, 1};        // ggx: Schlick's Fresnel; f0 = f90 = 1 is no Fresnel
   Vec3d f90{1, 1, 1};
   bool shadowing = true;    // ggx: height-correlated Smith
+  bool multiple_scattering = false;  // ggx: what is lost between the facets is given back, see albedo.h
 };
 
 // The name in the command line, in JSON and in messages: "lambert", "blinn-phong", ...

@@ -40,6 +40,11 @@ struct SurfaceMaterial {
   TextureUse clearcoat_roughness_texture;  // g
   TextureUse clearcoat_normal_texture;
 
+  Vec3f sheen_color{0, 0, 0};       // of Charlie's lobe over all but the coat; black: none
+  TextureUse sheen_color_texture;   // sRGB
+  float sheen_roughness = 0;
+  TextureUse sheen_roughness_texture;  // a
+
   float ior = 1.5f;                   // F0 of a dielectric is ((ior - 1) / (ior + 1))^2
   float specular = 1;                 // scales a dielectric's F0 and F90
   TextureUse specular_texture;        // a
@@ -113,6 +118,7 @@ struct Scene {
   std::vector<PunctualLight> punctual_lights;
   std::vector<Camera> cameras;   // at least one after load_scene; the first is the default
   Vec3d bounds_min, bounds_max;  // of all meshes; both zero without meshes
+  bool multiple_scattering = false;  // of the GGX lobes of metallic-roughness surfaces, see albedo.h
 
   std::size_t triangle_count() const {
     std::size_t n = 0;

@@ -4,6 +4,7 @@
 #include "steradian/error.h"
 #include "steradian/dual.h"
 #include "steradian/kernels.h"
+#include "steradian/albedo.h"
 #include "steradian/closed_form.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"

@@ -63,6 +63,7 @@ LobeAxis lobe_axis(const Material& material, const ShadingPoint& at) {
   // A turned half vector turns the reflected direction by twice the angle.
   switch (material.brdf) {
     case Brdf::lambert: break;
+    case Brdf::charlie: lobe.axis = at.normal; break;
     case Brdf::phong: lobe.width = 1 / std::sqrt(material.exponent + 1); break;
     case Brdf::blinn_phong: lobe.width = 2 / std::sqrt(material.exponent + 1); break;
     case Brdf::ggx:

@@ -90,7 +90,10 @@ LobeAnswer sampled(const PreparedPolygon& light, const ShadingPoint& at, const M
   return {r.radiance, std::nullopt, r.standard_error};
 }
 
-bool ltc_serves(const Material& m) { return serves(LtcMethod::classic, m); }
+template <LtcMethod method>
+bool ltc_serves(const Material& m) {
+  return serves(method, m);
+}
 
 template <LtcMethod method>
 LobeAnswer ltc(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const MethodOptions& options) {
@@ -109,10 +112,10 @@ constexpr MethodEntry kMethods[] = {
     {Method::pearson, "pearson", phong_only, true, phong<PhongMethod::pearson>},
     {Method::ellipsoid, "ellipsoid", phong_only, true, phong<PhongMethod::ellipsoid>},
     {Method::closed_form, "closed-form", ggx_only, true, closed_form},
-    {Method::ltc, "ltc", ltc_serves, true, ltc<LtcMethod::classic>},
-    {Method::ltc_compact, "ltc-compact", ltc_serves, true, ltc<LtcMethod::compact>},
-    {Method::ltc_clipless, "ltc-clipless", ltc_serves, true, ltc<LtcMethod::clipless>},
-    {Method::representative_point, "representative-point", ltc_serves, true, ltc<LtcMethod::representative_point>},
+    {Method::ltc, "ltc", ltc_serves<LtcMethod::classic>, true, ltc<LtcMethod::classic>},
+    {Method::ltc_compact, "ltc-compact", ltc_serves<LtcMethod::compact>, true, ltc<LtcMethod::compact>},
+    {Method::ltc_clipless, "ltc-clipless", ltc_serves<LtcMethod::clipless>, true, ltc<LtcMethod::clipless>},
+    {Method::representative_point, "representative-point", ltc_serves<LtcMethod::representative_point>, true, ltc<LtcMethod::representative_point>},
     {Method::half_vector, "half-vector", half_vector_lobes, true, half_vector},
     {Method::reference, "reference", every_lobe, false, reference},
     {Method::sampled, "sampled", every_lobe, false, sampled},
@@ -138,7 +141,7 @@ std::string method_names() {
 const MethodEntry& resolve(Method asked_for, const Material& material, Precision precision, Quality quality) {
   // The rule of source/render/cpu/methods.cpp.
   const bool table = asked_for == Method::automatic && quality == Quality::draft && material.brdf == Brdf::ggx &&
-                     !exact_lobes(material) && ltc_serves(material);
+                     !exact_lobes(material) && ltc_serves<LtcMethod::compact>(material);
   const Method method = table ? Method::ltc_compact : asked_for;
   const std::string brdf = name_of(material.brdf);
   std::string serving;

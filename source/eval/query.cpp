@@ -162,7 +162,12 @@ constexpr MaterialField kLambertFields[] = {kAlbedo};
 constexpr MaterialField kPhongFields[] = {kExponent, kAlbedo};
 constexpr MaterialField kBlinnPhongFields[] = {kExponent};
 constexpr MaterialField kBeckmannFields[] = {kAlpha, kRoughness, kAlphaX, kAlphaY, kTangent};
-constexpr MaterialField kGgxFields[] = {kRoughness, kAlpha, kAlphaX, kAlphaY, kTangent, kF0, kF90, kShadowing};
+constexpr MaterialField kMultipleScattering = {
+    "multiple_scattering",
+    [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.material.multiple_scattering = read_bool(p, at, v); }};
+constexpr MaterialField kGgxFields[] = {kRoughness, kAlpha, kAlphaX,    kAlphaY,            kTangent,
+                                        kF0,        kF90,   kShadowing, kMultipleScattering};
+constexpr MaterialField kCharlieFields[] = {kAlpha, kRoughness, kAlbedo};
 
 void anything(Problems&, const Place&, const MaterialKeys&) {}
 void one_width(Problems& p, const Place& at, const MaterialKeys& k) {
@@ -181,7 +186,7 @@ struct MaterialRow {
 constexpr MaterialRow kMaterials[] = {
     {"lambert", Brdf::lambert, kLambertFields, anything},  {"phong", Brdf::phong, kPhongFields, anything},
     {"ggx", Brdf::ggx, kGgxFields, one_width},             {"blinn-phong", Brdf::blinn_phong, kBlinnPhongFields, anything},
-    {"beckmann", Brdf::beckmann, kBeckmannFields, one_width},
+    {"beckmann", Brdf::beckmann, kBeckmannFields, one_width}, {"charlie", Brdf::charlie, kCharlieFields, one_width},
 };
 
 void read_material(Problems& problems, const Place& place, Json value, Query& query) {

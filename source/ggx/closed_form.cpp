@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ggx/clipped_walk.h"
+#include "steradian/albedo.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -80,18 +81,18 @@ Vec3d exact(const PreparedPolygon& light, const ShadingPoint& at, const Material
 
 Vec3d closed_form_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                            Quality quality) {
-  return closed_form<double>(light, at, material, quality);
+  return closed_form<double>(light, at, with_multiple_scattering(material, at), quality);
 }
 Vec3d closed_form_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                                  Quality quality) {
-  return closed_form<float>(light, at, material, quality);
+  return closed_form<float>(light, at, with_multiple_scattering(material, at), quality);
 }
 
 Vec3d exact_ggx_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
-  return exact<double>(light, at, material);
+  return exact<double>(light, at, with_multiple_scattering(material, at));
 }
 Vec3d exact_ggx_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
-  return exact<float>(light, at, material);
+  return exact<float>(light, at, with_multiple_scattering(material, at));
 }
 
 }  // namespace steradian

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "ggx/clipped_walk.h"
+#include "steradian/albedo.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -92,11 +93,11 @@ Vec3d radiance(const PreparedPolygon& light, const ShadingPoint& at, const Mater
 
 Vec3d half_vector_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                            const HalfVectorOptions& options) {
-  return radiance<double>(light, at, material, options);
+  return radiance<double>(light, at, with_multiple_scattering(material, at), options);
 }
 Vec3d half_vector_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                                  const HalfVectorOptions& options) {
-  return radiance<float>(light, at, material, options);
+  return radiance<float>(light, at, with_multiple_scattering(material, at), options);
 }
 
 }  // namespace steradian

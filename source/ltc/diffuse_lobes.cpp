@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ltc/lobe.h"
+#include "reference/charlie.h"
 #include "reference/cosine_sampler.h"
 
 namespace steradian {
@@ -16,32 +17,12 @@ void sample_by_cosine(Lobe& lobe) {
   lobe.pdf = reference::pdf_cosine_hemisphere;
 }
 
-// Charlie's Lambda: a curve fitted by its authors, for the roughest and the smoothest cloth, blended.
-// Source: Estevez, Kulla, "Production friendly microfacet sheen BRDF", 2017, table 1 and eq. 3 and 4.
-double charlie_lambda(double cos_theta, double alpha) {
-  const auto curve = [alpha](double x) {
-    const double t = (1 - alpha) * (1 - alpha);
-    const auto blend = [t](double smooth, double rough) { return t * smooth + (1 - t) * rough; };
-    const double a = blend(25.3245, 21.5473), b = blend(3.32435, 3.82987), c = blend(0.16801, 0.19823);
-    const double d = blend(-1.27393, -1.97760), e = blend(-4.85967, -4.32054);
-    return a / (1 + b * std::pow(x, c)) + d * x + e;
-  };
-  return cos_theta < 0.5 ? std::exp(curve(cos_theta)) : std::exp(2 * curve(0.5) - curve(1 - cos_theta));
-}
-
 }  // namespace
 
 Lobe charlie_lobe(double alpha, Vec3d v) {
-  const double lambda_v = charlie_lambda(v.z, alpha);
   Lobe lobe;
   lobe.view = v;
-  lobe.evaluate = [=](Vec3d l) {
-    if (l.z <= 0) return 0.0;
-    const Vec3d h = normalized(l + v);
-    const double sine = std::sqrt(h.x * h.x + h.y * h.y);
-    const double d = (2 + 1 / alpha) * std::pow(sine, 1 / alpha) / (2 * kPi);
-    return d / (4 * v.z * (1 + lambda_v + charlie_lambda(l.z, alpha)));
-  };
+  lobe.evaluate = [=](Vec3d l) { return reference::charlie_lobe(alpha, v, l); };
   // Even over the hemisphere: the lobe is strongest along the horizon, where a cosine has no samples.
   lobe.sample = [](double a, double b) {
     return reference::direction_at(1 - a, std::sqrt(std::max(1 - (1 - a) * (1 - a), 0.0)), b);

@@ -85,7 +85,8 @@ struct Objective {
     return {std::exp(p[0]) + scale() * p[2] * e20, std::exp(p[1]), p[2], e20};
   }
   std::vector<double> variables(const LtcShape& s) const {
-    return {std::log(s.e00 - scale() * s.e02 * s.e20), std::log(s.e11), s.e02, s.e20 * view.z};
+    // A start from the neighbouring view need not be a map that preserves orientation.
+    return {std::log(std::max(s.e00 - scale() * s.e02 * s.e20, 1e-3)), std::log(s.e11), s.e02, s.e20 * view.z};
   }
   double scale() const { return frame == LobeFrame::mirror ? alpha : 1.0; }
 
@@ -119,9 +120,19 @@ struct Objective {
       error += difference * difference;
       signal += truth[k] * truth[k];
     }
-    return std::sqrt(error / signal);
+    return signal > 0 ? std::sqrt(error / signal) : 0.0;
   }
 };
+
+// Of a lobe that reflects nothing (a smooth sheen away from the horizon): there is no shape to fit.
+constexpr double kDarkest = 1e-9;
+LtcCell dark_cell(const LtcShape& shape, LobeFrame frame, double alpha, Vec3d view) {
+  LtcCell cell;
+  cell.shape = shape;
+  cell.inverse = ltc_inverse(shape, frame, alpha, view);
+  cell.above_horizon = ltc_above_horizon(cell.inverse);
+  return cell;
+}
 
 }  // namespace
 
@@ -138,6 +149,7 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   const double alpha = alpha_from_roughness(roughness);
   const Nodes nodes = place_nodes(lobe, options.nodes);
   const Magnitudes magnitudes = integrate_magnitudes(lobe, options.magnitude_directions);
+  if (!(magnitudes.albedo > kDarkest)) return dark_cell(start, family.frame, alpha, lobe.view);
   const std::vector<TestRectangle> lights = test_rectangles_near(lobe, options.lights, kLightSeed);
   const Objective objective{nodes, family.frame, alpha, lobe.view, magnitudes.albedo, options.norm, lights,
                             true_radiance(lobe, lights, options.light_directions)};
@@ -145,7 +157,10 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   const auto minimise = [&](auto function, double step, int evaluations) {
     nlopt::opt opt(nlopt::LN_BOBYQA, 4);
     opt.set_min_objective(
-        [](unsigned, const double* v, double*, void* data) { return (*static_cast<decltype(function)*>(data))(v); },
+        [](unsigned, const double* v, double*, void* data) {
+          const double value = (*static_cast<decltype(function)*>(data))(v);
+          return std::isfinite(value) ? value : 1e30;  // a map without inverse: as bad as can be, but a number
+        },
         &function);
     opt.set_initial_step(step);
     opt.set_xtol_abs(1e-5);
@@ -164,6 +179,16 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
           return objective.shading_error(m) + options.lobe_share * objective.distance(m, FitNorm::l1) / objective.albedo;
         },
         0.05, 300);
+
+  // A lobe that no map resembles (a very smooth sheen) may lead the continuation astray: start again without it.
+  const auto sane = [&] {
+    const LtcShape e = objective.shape(x.data());
+    return std::fabs(e.e00) + std::fabs(e.e11) + std::fabs(e.e02) + std::fabs(e.e20) < 1e4 &&
+           ltc_above_horizon(objective.inverse(x.data())) > 0.05;
+  };
+  if (!sane())
+    return start == LtcShape{} ? dark_cell({}, family.frame, alpha, lobe.view)
+                               : fit_cell(family, roughness, cos_theta, {}, options);
 
   LtcCell cell;
   cell.shape = objective.shape(x.data());

@@ -5,7 +5,9 @@
 
 // steradian fit --lobe ggx --layout classic -o source/ltc/ggx_classic.h
 // steradian fit --lobe ggx --layout compact -o source/ltc/ggx_compact.h
+// steradian fit --lobe charlie --layout compact -o source/ltc/charlie_compact.h
 #include "ltc/ggx_classic.h"
+#include "ltc/charlie_compact.h"
 #include "ltc/ggx_compact.h"
 
 namespace steradian {
@@ -44,6 +46,14 @@ const CompactTable& ggx_compact_table() {
       LobeFrame::mirror, ltc_ggx_shape_size, ltc_ggx_compact_magnitude_size,
       unpacked<4>(ltc_ggx_shape, ltc_ggx_shape_size * ltc_ggx_shape_size),
       unpacked<2>(ltc_ggx_compact_magnitude, ltc_ggx_compact_magnitude_size * ltc_ggx_compact_magnitude_size)};
+  return table;
+}
+
+const CompactTable& charlie_compact_table() {
+  static const CompactTable table = {
+      LobeFrame::normal, ltc_charlie_shape_size, ltc_charlie_compact_magnitude_size,
+      unpacked<4>(ltc_charlie_shape, ltc_charlie_shape_size * ltc_charlie_shape_size),
+      unpacked<2>(ltc_charlie_compact_magnitude, ltc_charlie_compact_magnitude_size * ltc_charlie_compact_magnitude_size)};
   return table;
 }
 

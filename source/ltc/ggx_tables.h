@@ -1,4 +1,4 @@
-// The shipped GGX tables, as tables. Their text is the fitter's own output, see ggx_tables.cpp.
+// The shipped tables of GGX and of Charlie's sheen, as tables. Their text is the fitter's own output, see ggx_tables.cpp.
 #pragma once
 
 #include "ltc/table.h"
@@ -7,5 +7,6 @@ namespace steradian {
 
 const ClassicTable& ggx_classic_table();
 const CompactTable& ggx_compact_table();
+const CompactTable& charlie_compact_table();
 
 }  // namespace steradian

@@ -3,6 +3,7 @@
 
 #include "ltc/ggx_tables.h"
 #include "moment/clipped_edges.h"
+#include "steradian/albedo.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 #include "steradian/ltc.h"
@@ -73,6 +74,16 @@ struct Evaluation : Kernels<S> {
     return m;
   }
 
+  LtcMatrix compact(const LtcShape& shape, double alpha, const vec3& about) {
+    typename Kernels<S>::vec4 e;
+    e.x = shape.e00, e.y = shape.e11, e.z = shape.e02, e.w = shape.e20;
+    return this->ltc_from_compact(e, alpha, about);
+  }
+
+  Vec3d sheen(const Material& material, double n_a, real integral) {
+    return material.albedo * light.radiance * (n_a * static_cast<double>(integral.v));
+  }
+
   Vec3d coloured(const Material& material, double n_a, double f_a, real integral) {
     const auto channel = [&](double f0, double f90, double radiance) {
       return static_cast<double>((this->ltc_specular_scale(f0, f90, n_a, f_a) * integral * real(radiance)).v);
@@ -122,10 +133,12 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
       return evaluation.coloured(material, value.n_a, value.f_a, integral);
     }
     case LtcMethod::compact: {
+      if (material.brdf == Brdf::charlie) {
+        const CompactTable::Entry entry = charlie_compact_table().entry(roughness, cosine);
+        return evaluation.sheen(material, entry.n_a, evaluation.integrate(evaluation.compact(entry.shape, 1.0, {0.0, 0.0, 1.0})));
+      }
       const CompactTable::Entry entry = ggx_compact_table().entry(roughness, cosine);
-      typename Kernels<S>::vec4 e;
-      e.x = entry.shape.e00, e.y = entry.shape.e11, e.z = entry.shape.e02, e.w = entry.shape.e20;
-      const auto m = evaluation.ltc_from_compact(e, alpha, evaluation.view);
+      const auto m = evaluation.compact(entry.shape, alpha, evaluation.view);
       return evaluation.coloured(material, entry.n_a, entry.f_a, evaluation.integrate(m));
     }
   }
@@ -134,25 +147,26 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
 
 void require_service(LtcMethod method, const Material& material) {
   if (!serves(method, material))
-    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing",
+    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing, and ltc-compact charlie",
                 "use the method closed-form or reference");
 }
 
 }  // namespace
 
-bool serves(LtcMethod, const Material& material) {
+bool serves(LtcMethod method, const Material& material) {
+  if (material.brdf == Brdf::charlie) return method == LtcMethod::compact;
   return material.brdf == Brdf::ggx && material.shadowing && material.alpha_x == material.alpha_y;
 }
 
 Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
   require_service(method, material);
-  return radiance<double>(method, light, at, material);
+  return radiance<double>(method, light, at, with_multiple_scattering(material, at));
 }
 
 Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at,
                          const Material& material) {
   require_service(method, material);
-  return radiance<float>(method, light, at, material);
+  return radiance<float>(method, light, at, with_multiple_scattering(material, at));
 }
 
 }  // namespace steradian

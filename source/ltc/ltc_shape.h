@@ -9,6 +9,7 @@ namespace steradian {
 // About the mirror direction: R turns z into it. About the normal: R and alpha are 1. See ltc_from_compact.
 struct LtcShape {
   double e00 = 1, e11 = 1, e02 = 0, e20 = 0;
+  bool operator==(const LtcShape&) const = default;
 };
 
 // M^-1 up to a factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz).

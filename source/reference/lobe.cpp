@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/charlie.h"
 #include "reference/half_vector_sampler.h"
 #include "reference/cosine_sampler.h"
+#include "steradian/albedo.h"
 #include "steradian/kernels.h"
 
 namespace steradian::reference {
@@ -31,11 +33,16 @@ Lobe::Lobe(const Material& material, Vec3d view)
       mirror_frame_(Frame::from_normal(mirror_)) {
   switch (brdf_) {
     case Brdf::lambert:
-    case Brdf::phong: plain_ = material.albedo; break;
-    case Brdf::ggx:
-      plain_ = material.f0;
-      fresnel_ = material.f90 - material.f0;
+    case Brdf::phong:
+    case Brdf::charlie: plain_ = material.albedo; break;
+    case Brdf::ggx: {
+      Material local = material;
+      local.tangent = {1, 0, 0};
+      const Material lobe = with_multiple_scattering(local, {{}, {0, 0, 1}, view});
+      plain_ = lobe.f0;
+      fresnel_ = lobe.f90 - lobe.f0;
       break;
+    }
     case Brdf::blinn_phong:
     case Brdf::beckmann: plain_ = {1, 1, 1}; break;
   }
@@ -49,6 +56,7 @@ LobeValue Lobe::evaluate(Vec3d light) const {
     case Brdf::phong:
       if (!(dot(light, mirror_) > 0)) return {};  // the kernel's power 0 knows no end of the lobe
       return {kernels.phong_lobe(l, to_kernel(mirror_), n_).v, 0};
+    case Brdf::charlie: return {charlie_lobe(ax_, view_, light), 0};
     default: break;
   }
   const KernelVec3 h = kernels.microfacet_half_vector(l, v);
@@ -68,6 +76,7 @@ Vec3d Lobe::sample(double u, double v) const {
     case Brdf::phong: return mirror_frame_.to_world(sample_cosine_power(n_, u, v));
     case Brdf::blinn_phong: return sample_reflection(view_, sample_blinn_phong_half_vector(n_, u, v));
     case Brdf::beckmann: return sample_reflection(view_, sample_beckmann_half_vector(ax_, ay_, u, v));
+    case Brdf::charlie: return sample_cosine_power(0, u, v);
     case Brdf::ggx: return sample_reflection(view_, sample_ggx_visible_normal(view_, ax_, ay_, u, v));
   }
   return {};
@@ -75,6 +84,7 @@ Vec3d Lobe::sample(double u, double v) const {
 
 double Lobe::pdf(Vec3d l) const {
   if (brdf_ == Brdf::lambert) return pdf_cosine_hemisphere(l);
+  if (brdf_ == Brdf::charlie) return pdf_cosine_power(0, l.z);
   if (brdf_ == Brdf::phong) return pdf_cosine_power(n_, dot(l, mirror_));
   const Vec3d h = normalized(l + view_);
   double half_vector_pdf = 0;
@@ -88,7 +98,7 @@ LobeValue Lobe::largest_factors() const { return {largest_component(plain_), lar
 
 LobeShape Lobe::shape() const {
   const Frame& m = mirror_frame_;
-  if (brdf_ == Brdf::lambert) return {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, 1.0, false};
+  if (brdf_ == Brdf::lambert || brdf_ == Brdf::charlie) return {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, 1.0, false};
   if (brdf_ == Brdf::phong) return {mirror_, m.x, m.y, mirror_, {}, 1 / std::sqrt(n_ + 1), false};
   const double blinn = std::sqrt(2 / (n_ + 2));
   const double ax = brdf_ == Brdf::blinn_phong ? blinn : ax_, ay = brdf_ == Brdf::blinn_phong ? blinn : ay_;
@@ -102,6 +112,8 @@ double Lobe::sensitivity() const {
     case Brdf::phong: return 1 + n_;
     // log h_z moves by the rounding of h_z, which the length of l + v >= 2 v_z enlarges.
     case Brdf::blinn_phong: return 1 + n_ / std::max(view_.z, 1e-6);
+    // Its power of the half vector's sine, likewise.
+    case Brdf::charlie: return 1 + 1 / (std::max(ax_, kSmoothestCharlie) * std::max(view_.z, 1e-6));
     case Brdf::ggx:
     case Brdf::beckmann: return 1 + 4 / (std::min({ax_, ay_, 1.0}) * std::max(view_.z, 1e-6));
   }

@@ -61,6 +61,12 @@ void read_extensions(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& t
     m.clearcoat_roughness_texture = textures.use(*x, "clearcoatRoughnessTexture", ColorSpace::linear);
     m.clearcoat_normal_texture = textures.use(*x, "clearcoatNormalTexture", ColorSpace::linear);
   }
+  if (const auto x = find_extension(json, "KHR_materials_sheen")) {
+    m.sheen_color = color(*x, "sheenColorFactor", {0, 0, 0}, 1);
+    m.sheen_color_texture = textures.use(*x, "sheenColorTexture", ColorSpace::srgb);
+    m.sheen_roughness = factor(*x, "sheenRoughnessFactor", 0);
+    m.sheen_roughness_texture = textures.use(*x, "sheenRoughnessTexture", ColorSpace::linear);
+  }
   if (const auto x = find_extension(json, "KHR_materials_ior")) {
     const double ior = x->number("ior", 1.5, 0, kInfinity);
     if (ior > 0 && ior < 1) x->at("ior").fail("must be 0 or at least 1");
@@ -96,7 +102,7 @@ void read_extras(SurfaceMaterial& m, const JsonCursor& json) {
 Brdf brdf_of(const JsonCursor& brdf) {
   const std::string name = brdf.as_text();
   std::string known;
-  for (const Brdf b : {Brdf::lambert, Brdf::phong, Brdf::ggx, Brdf::blinn_phong, Brdf::beckmann}) {
+  for (const Brdf b : {Brdf::lambert, Brdf::phong, Brdf::ggx, Brdf::blinn_phong, Brdf::beckmann, Brdf::charlie}) {
     if (name == name_of(b)) return b;
     known += (known.empty() ? "" : ", ") + std::string(name_of(b));
   }
@@ -134,11 +140,13 @@ const char* keys_of(Brdf brdf) {
     case Brdf::phong:
       return "exponent albedo";
     case Brdf::ggx:
-      return "roughness alpha alpha_x alpha_y tangent f0 f90 shadowing";
+      return "roughness alpha alpha_x alpha_y tangent f0 f90 shadowing multiple_scattering";
     case Brdf::blinn_phong:
       return "exponent";
     case Brdf::beckmann:
       return "roughness alpha alpha_x alpha_y tangent";
+    case Brdf::charlie:
+      return "roughness alpha albedo";
   }
   return "";
 }
@@ -163,6 +171,7 @@ Material read_lobe(const JsonCursor& lobe) {
   const std::string shadowing = lobe.text("shadowing", "smith");
   if (shadowing != "smith" && shadowing != "none") lobe.at("shadowing").fail("must be \"smith\" or \"none\"");
   m.shadowing = shadowing == "smith";
+  m.multiple_scattering = lobe.flag("multiple_scattering", false);
   return m;
 }
 

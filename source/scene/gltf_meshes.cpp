@@ -185,7 +185,7 @@ void complete(Mesh& mesh, const SurfaceMaterial& material, Warnings& warnings) {
 void check_texture_sets(const SurfaceMaterial& m, const Mesh& mesh, Warnings& warnings) {
   for (const TextureUse* use :
        {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
-        &m.emissive_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture,
+        &m.emissive_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
         &m.clearcoat_normal_texture, &m.specular_texture, &m.specular_color_texture, &m.anisotropy_texture})
     if (use->present() && mesh.texcoords[use->texcoord].empty())
       warnings.say("mesh \"" + mesh.name + "\" has textures but not their coordinates; (0, 0) is used");

@@ -16,7 +16,7 @@ namespace {
 
 bool is_supported(const std::string& extension) {
   for (const char* known :
-       {"EXT_lights_area", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
+       {"EXT_lights_area", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_sheen",
         "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
         "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"})
     if (extension == known) return true;

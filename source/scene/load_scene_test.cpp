@@ -219,6 +219,7 @@ TEST(LoadScene, ReadsMaterialExtensions) {
       R"({"name": "m", "emissiveFactor": [0.5, 0, 0], "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
     "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.6, "roughnessFactor": 0.7},
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}, "KHR_materials_clearcoat": {"clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.2},
+      "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenRoughnessFactor": 0.4},
       "KHR_materials_ior": {"ior": 1.4}, "KHR_materials_specular": {"specularFactor": 0.3, "specularColorFactor": [2, 1, 0]},
       "KHR_materials_anisotropy": {"anisotropyStrength": 0.8, "anisotropyRotation": 1.5}}})");
   const SurfaceMaterial m = load(f).scene.materials[0];
@@ -232,6 +233,8 @@ TEST(LoadScene, ReadsMaterialExtensions) {
   EXPECT_EQ(m.roughness, 0.7f);
   EXPECT_EQ(m.clearcoat, 0.9f);
   EXPECT_EQ(m.clearcoat_roughness, 0.2f);
+  expect_near(m.sheen_color, {0.1, 0.2, 0.3});
+  EXPECT_EQ(m.sheen_roughness, 0.4f);
   EXPECT_EQ(m.ior, 1.4f);
   EXPECT_EQ(m.specular, 0.3f);
   expect_near(m.specular_color, {2, 1, 0});
@@ -425,9 +428,9 @@ TEST(LoadScene, ReadsCamerasAndFramesASceneWithoutOne) {
 
 TEST(LoadScene, NamesUnsupportedFeaturesInOneWarning) {
   GltfTestFile f = GltfTestFile::square();
-  f.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_ior", "KHR_materials_volume"};
+  f.json["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_materials_ior", "KHR_materials_volume"};
   const LoadedScene loaded = load(f);
-  EXPECT_TRUE(warns(loaded, "left out: KHR_materials_sheen, KHR_materials_volume"));
+  EXPECT_TRUE(warns(loaded, "left out: KHR_materials_iridescence, KHR_materials_volume"));
 }
 
 TEST(LoadScene, LoadsEveryValidModelOfOthers) {

@@ -9,6 +9,7 @@ const char* name_of(Brdf brdf) {
     case Brdf::ggx: return "ggx";
     case Brdf::blinn_phong: return "blinn-phong";
     case Brdf::beckmann: return "beckmann";
+    case Brdf::charlie: return "charlie";
   }
   return "?";
 }

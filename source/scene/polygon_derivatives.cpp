@@ -7,6 +7,7 @@
 #include "ltc/ggx_tables.h"
 #include "moment/phong_lobe.h"
 #include "steradian/dual.h"
+#include "steradian/albedo.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -237,8 +238,9 @@ LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec
                 solid_angle_by_vertices(light, position, side < 0), 1);
 }
 
-RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& m,
+RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material,
                                          Quality quality) {
+  const Material m = with_multiple_scattering(material, at);
   if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
   RadianceDerivatives result(stored_count(stored));
@@ -269,7 +271,8 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
 }
 
 RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& stored, const ShadingPoint& at,
-                                             const Material& m) {
+                                             const Material& material) {
+  const Material m = with_multiple_scattering(material, at);
   if (method != LtcMethod::classic && method != LtcMethod::compact)
     throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
   if (!serves(method, m))

@@ -25,6 +25,8 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   put(tile.tangent, i, s.tangent);
   tile.alpha_x[i] = s.alpha_x;
   tile.alpha_y[i] = s.alpha_y;
+  put(tile.sheen, i, s.sheen);
+  tile.sheen_alpha[i] = s.sheen_alpha;
   tile.coat[i] = s.coat;
   tile.coat_alpha[i] = s.coat_alpha;
   put(tile.radiance, i, s.emission);
@@ -32,16 +34,17 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   tile.any_surface = true;
   tile.any_diffuse |= weighs(s.albedo);
   tile.any_specular |= weighs(s.f0) || weighs(s.f90);
+  tile.any_sheen |= weighs(s.sheen);
   tile.any_coat |= s.coat > 0;
   tile.any_override |= !s.material->specular_override.empty();
 }
 
 // What packs read where there is no surface: finite, and weighing nothing.
 void put_nothing(SurfaceTile& tile, std::size_t i) {
-  for (TileVector* v : {&tile.position, &tile.normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent,
+  for (TileVector* v : {&tile.position, &tile.normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent, &tile.sheen,
                         &tile.radiance})
     put(*v, i, {});
-  tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = 1;
+  tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
   tile.coat[i] = 0;
   tile.material[i] = nullptr;
 }
@@ -60,6 +63,8 @@ Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   s.tangent = get(tile.tangent, i);
   s.alpha_x = tile.alpha_x[i];
   s.alpha_y = tile.alpha_y[i];
+  s.sheen = get(tile.sheen, i);
+  s.sheen_alpha = tile.sheen_alpha[i];
   s.coat = tile.coat[i];
   s.coat_alpha = tile.coat_alpha[i];
   s.material = tile.material[i];
@@ -99,7 +104,7 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
 }
 
 void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
-  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_coat = tile.any_override = false;
+  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = false;
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (hits.geometry[i] == RTC_INVALID_GEOMETRY_ID) {
       put_nothing(tile, i);

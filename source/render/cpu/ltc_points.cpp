@@ -1,5 +1,6 @@
 #include "render/cpu/ltc_points.h"
 
+#include "ltc/ggx_tables.h"
 #include "steradian/ltc.h"
 
 namespace steradian {
@@ -22,6 +23,11 @@ LtcPackTables ltc_classic_pack_tables() {
 LtcPackTables ltc_compact_pack_tables() {
   const LtcTableView t = ltc_ggx_tables();
   return {padded(t.shapes, t.shape_size, 4), padded(t.magnitudes, t.magnitude_size, 2)};
+}
+
+LtcPackTables ltc_sheen_pack_tables() {
+  const CompactTable& t = charlie_compact_table();
+  return {padded(t.shapes.data()->data(), t.shape_size, 4), padded(t.magnitudes.data()->data(), t.magnitude_size, 2)};
 }
 
 }  // namespace steradian

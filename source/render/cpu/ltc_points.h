@@ -15,12 +15,13 @@ struct PackTable {
   std::vector<float> nodes;
 };
 
-// The shipped GGX tables. classic: matrix and magnitude; compact: shapes and magnitudes.
+// The shipped tables. classic: matrix and magnitude; compact and sheen: shapes and magnitudes.
 struct LtcPackTables {
   PackTable matrix, magnitude;
 };
 LtcPackTables ltc_classic_pack_tables();
 LtcPackTables ltc_compact_pack_tables();
+LtcPackTables ltc_sheen_pack_tables();
 
 // Surface points that are seen from somewhere. All arrays hold at.count floats.
 struct SeenPoints {
@@ -44,6 +45,9 @@ struct LtcPackTable {
                   const LtcPackTables& tables, const LtcSums& sums);
   void (*compact)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
                   const LtcPackTables& tables, const LtcSums& sums);
+  // Charlie's lobe of colour 1: its specular; it has no grazing.
+  void (*sheen)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
+                const LtcPackTables& tables, const LtcSums& sums);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(LtcPackTable, ltc_pack_table)

@@ -110,10 +110,17 @@ __attribute__((flatten)) void compact(const PackLight* lights, std::size_t light
     run<false>(lights, light_count, points, tables, sums, decode);
 }
 
+__attribute__((flatten)) void sheen(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
+                                    const LtcPackTables& tables, const LtcSums& sums) {
+  run<false>(lights, light_count, points, tables, sums, [](const PackKernels::vec4& e, PackReal, const PackVec3&) {
+    return PackKernels{}.ltc_from_compact(e, PackReal(1.0), PackVec3(0.0, 0.0, 1.0));
+  });
+}
+
 }  // namespace
 
 const LtcPackTable& ltc_pack_table() {
-  static constexpr LtcPackTable table = {classic, compact};
+  static constexpr LtcPackTable table = {classic, compact, sheen};
   return table;
 }
 

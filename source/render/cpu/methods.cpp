@@ -30,6 +30,7 @@ std::vector<SpecularLobe> specular_lobes_in(const Scene& scene) {
     for (const Material& lobe : m.specular_override)
       if (lobe.brdf != Brdf::lambert)
         lobes.push_back({m.name, lobe.brdf, lobe.alpha_x != lobe.alpha_y, lobe.exponent});
+    if (weighs(m.sheen_color)) lobes.push_back({m.name, Brdf::charlie});
     if (m.clearcoat > 0) lobes.push_back({m.name, Brdf::ggx});
     const bool metal = m.metallic > 0 && weighs({m.base_color.x, m.base_color.y, m.base_color.z});
     if (m.specular_override.empty() && (metal || m.specular > 0))
@@ -45,8 +46,9 @@ struct Entry {
 };
 
 const std::vector<Entry>& entries() {
-  const auto ggx = [](const SpecularLobe& l) { return l.brdf == Brdf::ggx; };
-  const auto isotropic_ggx = [](const SpecularLobe& l) { return l.brdf == Brdf::ggx && !l.anisotropic; };
+  // Sheen goes by its table beside every method of GGX.
+  const auto ggx = [](const SpecularLobe& l) { return l.brdf == Brdf::ggx || l.brdf == Brdf::charlie; };
+  const auto isotropic_ggx = [ggx](const SpecularLobe& l) { return ggx(l) && !l.anisotropic; };
   const auto phong = [](const SpecularLobe& l) { return l.brdf == Brdf::phong; };
   const auto integer_phong = [](const SpecularLobe& l) {
     return l.brdf == Brdf::phong && l.exponent == std::floor(l.exponent);
@@ -79,18 +81,19 @@ std::string describe(const SpecularLobe& lobe) {
 // The most accurate real-time method of each lobe; a draft takes the table for GGX where it can.
 Method automatic(const std::vector<SpecularLobe>& lobes, Quality quality) {
   Method method;
-  bool ggx = false, anisotropic = false, phong = false, other = false;
+  bool ggx = false, anisotropic = false, phong = false, sheen = false, other = false;
   for (const SpecularLobe& l : lobes) {
     ggx |= l.brdf == Brdf::ggx;
     anisotropic |= l.brdf == Brdf::ggx && l.anisotropic;
     phong |= l.brdf == Brdf::phong;
+    sheen |= l.brdf == Brdf::charlie;
     other |= l.brdf == Brdf::blinn_phong || l.brdf == Brdf::beckmann;
   }
   if (quality == Quality::draft && !anisotropic) method.ggx = LobeMethod::ltc_compact;
   for (const auto& [present, name] : {std::pair{ggx, method.ggx == LobeMethod::ltc_compact ? "ltc-compact" : "closed-form"},
                                       std::pair{phong, "series"}, std::pair{other, "half-vector"}})
     if (present) method.name += (method.name.empty() ? "" : "+") + std::string(name);
-  if (method.name.empty()) method.name = "exact";
+  if (method.name.empty()) method.name = sheen ? "ltc-compact" : "exact";
   return method;
 }
 

@@ -116,6 +116,7 @@ Vec3d point_radiance_of_mean(const Method& method, const PackLight& light, const
       if (method.ggx != LobeMethod::closed_form && serves(ltc_method(method.ggx), material))
         return ltc_radiance_float(ltc_method(method.ggx), polygon, at, material);
       return closed_form_radiance_float(polygon, at, material, method.quality);
+    case Brdf::charlie: return ltc_radiance_float(LtcMethod::compact, polygon, at, material);
     case Brdf::blinn_phong:
     case Brdf::beckmann: return half_vector_radiance_float(polygon, at, material);
   }
@@ -160,7 +161,8 @@ SpecularPass::SpecularPass(const Method& method)
     : method_(method),
       tables_(method.ggx == LobeMethod::ltc           ? ltc_classic_pack_tables()
               : method.ggx == LobeMethod::ltc_compact ? ltc_compact_pack_tables()
-                                                      : LtcPackTables{}) {}
+                                                      : LtcPackTables{}),
+      sheen_tables_(ltc_sheen_pack_tables()) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == LobeMethod::ltc || method_.ggx == LobeMethod::ltc_compact;
@@ -228,6 +230,26 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
   }
 }
 
+// By its table whatever the method of GGX: nobody has a closed form for it.
+void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
+  alignas(64) TilePlane plain, grazing, roughness;
+  for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(tile.sheen_alpha[i]);
+  const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
+  for (const PackLight* light : lights) {
+    if (light->is_area()) {
+      ltc_pack_table_for(active_simd()).sheen(light, 1, seen, sheen_tables_, {nullptr, plain.data(), grazing.data()});
+      for (std::size_t i = 0; i < kTilePixels; ++i) add_to(tile.radiance, i, get(tile.sheen, i) * light->radiance * plain[i]);
+      continue;
+    }
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const Vec3f color = get(tile.sheen, i);
+      if (!(color.x + color.y + color.z > 0)) continue;
+      const Material m = sheen_of(surface_in(tile, i));
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance_punctual(*light, shading_point(tile, i), m)));
+    }
+  }
+}
+
 void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
   const std::set<const SurfaceMaterial*> materials(tile.material.begin(), tile.material.end());
   for (const SurfaceMaterial* surface : materials) {
@@ -261,6 +283,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
   if (tile.any_specular) add_ggx(tile, {tile.alpha_x, tile.alpha_y, tile.f0, tile.f90, true}, lights);
+  if (tile.any_sheen) add_sheen(tile, lights);
   if (tile.any_coat) {
     Lobe coat = {tile.coat_alpha, tile.coat_alpha, {}, {}};
     for (std::size_t i = 0; i < kTilePixels; ++i) {

@@ -25,11 +25,12 @@ class SpecularPass {
  private:
   struct Lobe;
   void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
+  void add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
 
   const Method method_;
-  const LtcPackTables tables_;
+  const LtcPackTables tables_, sheen_tables_;
 };
 
 }  // namespace steradian

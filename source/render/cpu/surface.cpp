@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "steradian/albedo.h"
+
 namespace steradian {
 namespace {
 
@@ -57,6 +59,49 @@ Vec3f tangent_of(const Mesh& mesh, const Corner& at, Vec3f n, float& handedness)
   if (!(dot(perpendicular, perpendicular) > 0.5f)) return any_tangent(n);
   handedness = t4.w < 0 ? -1.0f : 1.0f;
   return perpendicular;
+}
+
+double cosine_of_view(const Surface& s, Vec3f view) {
+  return std::clamp(static_cast<double>(dot(s.normal, view)), 0.0, 1.0);
+}
+
+Material ggx_of(const Surface& s) {
+  Material m;
+  m.brdf = Brdf::ggx;
+  m.alpha_x = static_cast<double>(s.alpha_x);
+  m.alpha_y = static_cast<double>(s.alpha_y);
+  m.tangent = static_cast<Vec3d>(s.tangent);
+  m.f0 = static_cast<Vec3d>(s.f0);
+  m.f90 = static_cast<Vec3d>(s.f90);
+  return m;
+}
+
+void scatter_between_facets(Surface& s, Vec3f view) {
+  Material m = ggx_of(s);
+  m.multiple_scattering = true;
+  m = with_multiple_scattering(m, {{}, static_cast<Vec3d>(s.normal), static_cast<Vec3d>(view)});
+  s.f0 = static_cast<Vec3f>(m.f0);
+  s.f90 = static_cast<Vec3f>(m.f90);
+}
+
+// KHR_materials_sheen: what the fibres reflect does not reach the layers below.
+void add_sheen(Surface& s, const Scene& scene, const Mesh& mesh, const Corner& at, Vec3f view) {
+  const SurfaceMaterial& m = *s.material;
+  s.sheen = m.sheen_color;
+  if (m.sheen_color_texture.present()) {
+    const Vec4f c = texel(scene, mesh, at, m.sheen_color_texture);
+    s.sheen = s.sheen * Vec3f{c.x, c.y, c.z};
+  }
+  const float strongest = std::max({s.sheen.x, s.sheen.y, s.sheen.z});
+  if (!(strongest > 0)) return;
+  float roughness = m.sheen_roughness;
+  if (m.sheen_roughness_texture.present()) roughness *= texel(scene, mesh, at, m.sheen_roughness_texture).w;
+  s.sheen_alpha = std::clamp(roughness * roughness, kMinAlpha, 1.0f);
+  const auto albedo = static_cast<float>(charlie_albedo(static_cast<double>(s.sheen_alpha), cosine_of_view(s, view)));
+  const float under = std::clamp(1 - strongest * albedo, 0.0f, 1.0f);
+  s.albedo *= under;
+  s.f0 *= under;
+  s.f90 *= under;
 }
 
 Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1 - t) + b * t; }
@@ -149,6 +194,9 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   s.f0 = mix(dielectric, color, metallic);
   s.f90 = mix(Vec3f{specular, specular, specular}, Vec3f{1, 1, 1}, metallic);
 
+  if (scene.multiple_scattering) scatter_between_facets(s, view);
+  add_sheen(s, scene, mesh, at, view);
+
   s.coat = m.clearcoat;
   if (m.clearcoat_texture.present()) s.coat *= texel(scene, mesh, at, m.clearcoat_texture).x;
   if (s.coat > 0) {
@@ -162,10 +210,19 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     s.albedo *= under;
     s.f0 *= under;
     s.f90 *= under;
+    s.sheen *= under;
     s.emission *= under;
   }
   if (!m.specular_override.empty()) s.f0 = s.f90 = {};
   return s;
+}
+
+Material sheen_of(const Surface& s) {
+  Material m;
+  m.brdf = Brdf::charlie;
+  m.alpha_x = m.alpha_y = static_cast<double>(s.sheen_alpha);
+  m.albedo = static_cast<Vec3d>(s.sheen);
+  return m;
 }
 
 std::vector<SurfaceLobe> lobes_of(const Surface& s) {
@@ -178,15 +235,9 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s) {
     lobes.push_back({m, true});
   }
   if (weighs(s.f0) || weighs(s.f90)) {
-    Material m;
-    m.brdf = Brdf::ggx;
-    m.alpha_x = s.alpha_x;
-    m.alpha_y = s.alpha_y;
-    m.tangent = static_cast<Vec3d>(s.tangent);
-    m.f0 = static_cast<Vec3d>(s.f0);
-    m.f90 = static_cast<Vec3d>(s.f90);
-    lobes.push_back({m, false});
+    lobes.push_back({ggx_of(s), false});
   }
+  if (weighs(s.sheen)) lobes.push_back({sheen_of(s), false});
   for (const Material& m : s.material->specular_override) lobes.push_back({m, m.brdf == Brdf::lambert});
   if (s.coat > 0) {
     Material m;

@@ -7,7 +7,7 @@ namespace steradian {
 
 // The metallic-roughness surface at one point, textures looked up.
 //
-// Radiance = emission + diffuse + specular (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - max F0 of
+// Radiance = emission + diffuse + specular (+ sheen) (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - max F0 of
 // the dielectric): what its specular lobe reflects at the normal does not reach it.
 struct Surface {
   Vec3f position;
@@ -17,6 +17,8 @@ struct Surface {
   Vec3f albedo;      // diffuse
   Vec3f f0, f90;     // specular; both 0: no such lobe
   float alpha_x = 1, alpha_y = 1;
+  Vec3f sheen;       // colour of Charlie's lobe; black: none
+  float sheen_alpha = 1;
   float coat = 0, coat_alpha = 1;  // clear coat: weight, width; F0 0.04
   const SurfaceMaterial* material = nullptr;
 };
@@ -26,6 +28,8 @@ Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, flo
 
 // `view` points to the viewer, unit.
 Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view);
+
+Material sheen_of(const Surface& surface);
 
 // The lobes of a surface as the scalar integrators take them: diffuse, specular or its override, coat. Lobes of
 // zero weight are left out.

@@ -34,9 +34,11 @@ struct SurfaceTile {
   TileVector tangent;
   alignas(64) TilePlane alpha_x, alpha_y;
   alignas(64) TilePlane coat, coat_alpha;
+  TileVector sheen;           // colour of Charlie's lobe, black where there is none
+  alignas(64) TilePlane sheen_alpha;
   TileVector radiance;        // the result
   std::array<const SurfaceMaterial*, kTilePixels> material;  // null without a surface
-  bool any_surface, any_diffuse, any_specular, any_coat, any_override;
+  bool any_surface, any_diffuse, any_specular, any_sheen, any_coat, any_override;
 };
 
 }  // namespace steradian
