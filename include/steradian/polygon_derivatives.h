@@ -25,16 +25,22 @@ LightDerivatives polygon_irradiance_derivatives(const PolygonLight& light, Vec3d
 // Solid angle (polygon_solid_angle) and its derivatives; the normal does not matter.
 LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& light, Vec3d position);
 
-// By each vertex as stored, one vector per channel.
-using RadianceDerivatives = std::vector<std::array<Vec3d, 3>>;
+// One vector per channel. By the normal: of the function of n/|n|, view and tangent held, so perpendicular to it. The factor
+// of multiple scattering counts as a constant.
+struct RadianceDerivatives {
+  std::vector<std::array<Vec3d, 3>> vertices;  // by each vertex as stored
+  std::array<Vec3d, 3> normal;
 
-// Derivatives of a light's radiance by its vertices: of phong_radiance by `series` for Phong, of closed_form_radiance for
+  explicit RadianceDerivatives(std::size_t vertex_count) : vertices(vertex_count), normal{} {}
+};
+
+// Derivatives of a light's radiance by its vertices and the normal: of phong_radiance by `series` for Phong, of closed_form_radiance for
 // GGX, of the exact form for Lambert. Throws Error for other lobes. Zero for a view below the surface and from behind.
 // Error: of GGX 1e-8 of the derivative's size, where the last step of the poles' iteration was.
 RadianceDerivatives radiance_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& material,
                                          Quality quality = Quality::normal);
 
-// Of ltc_radiance by `classic` or `compact`: of the polygon's integral; the table's values depend on roughness and view alone.
+// Of ltc_radiance by `classic` or `compact`. By the normal, the table's values change too: its interpolation is differentiated.
 // Throws Error for the other methods and for what ltc_radiance does not serve.
 RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at,
                                              const Material& material);

@@ -40,9 +40,11 @@ void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoi
   const RadianceDerivatives d =
       transformed ? ltc_radiance_derivatives(method == Method::ltc ? LtcMethod::classic : LtcMethod::compact, light, at, m)
                   : radiance_derivatives(light, at, m, quality);
-  answer.by_vertex.resize(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i)
-    for (std::size_t channel = 0; channel < 3; ++channel) answer.by_vertex[i][channel] += d[i][channel];
+  if (!answer.derivatives) answer.derivatives.emplace(d.vertices.size());
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    answer.derivatives->normal[channel] += d.normal[channel];
+    for (std::size_t i = 0; i < d.vertices.size(); ++i) answer.derivatives->vertices[i][channel] += d.vertices[i][channel];
+  }
 }
 
 class Sum {

@@ -1,13 +1,12 @@
 // Answer: what `steradian eval` says to one query, and the line of JSON that says it.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "eval/query.h"
+#include "steradian/polygon_derivatives.h"
 
 namespace steradian::eval {
 
@@ -17,8 +16,7 @@ struct Answer {
   std::optional<double> bound;
   std::optional<double> standard_error;
   Precision precision = Precision::double_;
-  // Of the three channels by every vertex: the outline, then the holes. Empty where the query does not ask.
-  std::vector<std::array<Vec3d, 3>> by_vertex;  // [vertex][channel]
+  std::optional<RadianceDerivatives> derivatives;  // where the query asks
 };
 
 // Throws Error (key and hint) for what the query's method cannot do and for results that are not finite.

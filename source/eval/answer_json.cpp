@@ -28,24 +28,29 @@ void append_vector(std::string& out, const Vec3d& v, Precision precision) {
   out += ']';
 }
 
-// d_vertices: [channel][vertex][x, y, z]; d_position: [channel][x, y, z].
-void append_derivatives(std::string& out, const Answer& answer) {
+void append_channels(std::string& out, const char* key, const std::array<Vec3d, 3>& value, Precision precision) {
+  out += key;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    out += channel == 0 ? '[' : ',';
+    append_vector(out, value[channel], precision);
+  }
+  out += ']';
+}
+
+// d_vertices: [channel][vertex][x, y, z]; d_position, d_normal: [channel][x, y, z].
+void append_derivatives(std::string& out, const RadianceDerivatives& d, Precision precision) {
   out += ",\"d_vertices\":";
   for (std::size_t channel = 0; channel < 3; ++channel) {
     out += channel == 0 ? '[' : ',';
-    for (std::size_t i = 0; i < answer.by_vertex.size(); ++i) {
+    for (std::size_t i = 0; i < d.vertices.size(); ++i) {
       out += i == 0 ? '[' : ',';
-      append_vector(out, answer.by_vertex[i][channel], answer.precision);
+      append_vector(out, d.vertices[i][channel], precision);
     }
     out += ']';
   }
-  out += "],\"d_position\":";
-  const std::array<Vec3d, 3> position = by_position(answer.by_vertex);
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    out += channel == 0 ? '[' : ',';
-    append_vector(out, position[channel], answer.precision);
-  }
   out += ']';
+  append_channels(out, ",\"d_position\":", by_position(d), precision);
+  append_channels(out, ",\"d_normal\":", d.normal, precision);
 }
 
 }  // namespace
@@ -64,7 +69,7 @@ void write_answer(std::string& out, const Answer& answer) {
     out += ",\"standard_error\":";
     append_number(out, *answer.standard_error, Precision::double_);
   }
-  if (!answer.by_vertex.empty()) append_derivatives(out, answer);
+  if (answer.derivatives) append_derivatives(out, *answer.derivatives, answer.precision);
   out += "}\n";
 }
 

@@ -373,6 +373,8 @@ TEST(Eval, DerivativesOfTransformedCosinesAreServed) {
                                         std::string(R"("derivatives":true,"method":")") + method + '"'));
     ASSERT_TRUE(a.contains("d_vertices")) << a;
     EXPECT_NE(a["d_vertices"][0][0][0].get<double>(), 0.0) << a;
+    EXPECT_EQ(a.at("d_normal").size(), 3u) << a;
+    EXPECT_NEAR(a["d_normal"][0][1].get<double>(), 0.0, 1e-15) << a;  // perpendicular to the normal
   }
 }
 
