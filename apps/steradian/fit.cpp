@@ -42,24 +42,35 @@ void write_table(const LtcTable& table, const Options& options, const std::strin
   for (const TableFile& file : files) fmt::print("{}\n", file.path);
 }
 
+LookUp look_up_of(const LtcTable& table, const Options& options) {
+  if (options.layout == "compact")
+    return [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
+  const auto normalisation = options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
+  return [t = classic_table(table, normalisation)](double r, double c) { return t.look_up(r, c); };
+}
+
 void report(const LtcTable& table, const Options& options) {
-  LookUp look_up;
-  if (options.layout == "classic") {
-    const auto normalisation =
-        options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
-    look_up = [t = classic_table(table, normalisation)](double r, double c) { return t.look_up(r, c); };
-  } else {
-    look_up = [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
-    fmt::print("bytes        {}\n", compact_table(table, options.compact).bytes());
-  }
+  const LookUp look_up = look_up_of(table, options);
+  if (options.layout == "compact") fmt::print("bytes        {}\n", compact_table(table, options.compact).bytes());
   const Report whole = measure(table.family, look_up, whole_grid());
   const Report nodes = measure(table.family, look_up, node_grid());
   fmt::print("{}", describe(whole, nodes, measure_between_nodes(table, look_up)));
   if (!options.picture.empty()) write_picture(draw(whole, whole_grid()), options.picture);
 }
 
+void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const Options& options) {
+  fmt::print("\nFresnel, F90 = 1, whole grid: relative error by n_A and f_A, and with the lobe of its own\n");
+  for (double f0 : {0.04, 0.2, 0.9}) {
+    const FresnelError e =
+        measure_fresnel(table.family, look_up_of(table, options), look_up_of(fresnel, options), f0, whole_grid());
+    fmt::print("F0 = {:.2f}  {:6.2f} %  {:6.2f} %\n", f0, 100 * e.split, 100 * e.lobe);
+  }
+}
+
 void run(const Options& options) {
   if (options.output.empty() && !options.report) throw CLI::RequiredError("-o or --report");
+  if (options.fresnel_lobe && options.layout == "compact")
+    throw CLI::ValidationError("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
   const LobeFamily& family = lobe_family(options.lobe);
   // A wrong ending is found before the work, not after it.
   if (!options.output.empty()) {
@@ -74,13 +85,15 @@ void run(const Options& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.report) fmt::print("fit          {} x {} in {:.1f} s\n", table.size, table.size, seconds);
   if (!options.output.empty()) write_table(table, options, options.output);
+  if (options.report) report(table, options);
   if (options.fresnel_lobe) {
     LobeFamily fresnel = family;
     fresnel.name += "-fresnel";
     fresnel.at = [&family](double roughness, double cosine) { return with_grazing_fresnel(family.at(roughness, cosine)); };
-    write_table(fit_with_progress(fresnel, options.fit), options, with_suffix(options.output, "_fresnel"));
+    const LtcTable fitted = fit_with_progress(fresnel, options.fit);
+    write_table(fitted, options, with_suffix(options.output, "_fresnel"));
+    if (options.report) report_fresnel(table, fitted, options);
   }
-  if (options.report) report(table, options);
 }
 
 }  // namespace
@@ -96,7 +109,7 @@ void add_fit(CLI::App& app, Exit&) {
       ->check(CLI::IsMember({"classic", "compact"}));
   verb->add_option("-o,--output", options->output,
                    "Table: .h .glsl .json; classic also .dds .exr, as NAME_1 (matrix) and NAME_2 (magnitudes)");
-  verb->add_flag("--fresnel-lobe", options->fresnel_lobe, "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel")
+  verb->add_flag("--fresnel-lobe", options->fresnel_lobe, "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel; with --report, what it gains")
       ->needs("--output");
   verb->add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
   verb->add_option("--report-picture", options->picture, "The error over roughness and view (.png, .exr)")->needs("--report");

@@ -124,8 +124,12 @@ struct Objective {
   }
 };
 
-// Of a lobe that reflects nothing (a smooth sheen away from the horizon): there is no shape to fit.
-constexpr double kDarkest = 1e-9;
+// An L1 distance from the lobe that no table of GGX reaches; 2 is no overlap.
+constexpr double kAstray = 0.75;
+
+// Of a lobe that reflects next to nothing (a smooth sheen away from the horizon, the grazing share of a polished surface):
+// there is no shape to fit.
+constexpr double kDarkest = 1e-5;
 LtcCell dark_cell(const LtcShape& shape, LobeFrame frame, double alpha, Vec3d view) {
   LtcCell cell;
   cell.shape = shape;
@@ -180,10 +184,9 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
         },
         0.05, 300);
 
-  // A lobe that no map resembles (a very smooth sheen) may lead the continuation astray: start again without it.
   const auto sane = [&] {
     const LtcShape e = objective.shape(x.data());
-    return std::fabs(e.e00) + std::fabs(e.e11) + std::fabs(e.e02) + std::fabs(e.e20) < 1e4 &&
+    return std::fabs(e.e00) + std::fabs(e.e02) + std::fabs(e.e20) < 1e4 && e.e11 > 1e-3 && e.e11 < 1e3 &&
            ltc_above_horizon(objective.inverse(x.data())) > 0.05;
   };
   if (!sane())
@@ -197,6 +200,11 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   cell.grazing = magnitudes.grazing;
   cell.above_horizon = ltc_above_horizon(cell.inverse);
   cell.error = objective.distance(cell.inverse, FitNorm::l1) / magnitudes.albedo;
+  // A lobe that is hardly like its neighbour's may have led the continuation astray: try again without it.
+  if (cell.error > kAstray && !(start == LtcShape{})) {
+    const LtcCell fresh = fit_cell(family, roughness, cos_theta, {}, options);
+    if (fresh.error < cell.error) return fresh;
+  }
   return cell;
 }
 

@@ -77,6 +77,40 @@ Report measure(const LobeFamily& family, const LookUp& table, const ReportOption
   return report;
 }
 
+FresnelError measure_fresnel(const LobeFamily& family, const LookUp& table, const LookUp& fresnel_table, double f0,
+                             const ReportOptions& options) {
+  struct Sums {
+    double split = 0, lobe = 0, signal = 0;
+  };
+  const std::size_t columns = options.roughness.size();
+  std::vector<Sums> cells(columns * options.degrees.size());
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t index) {
+    const double roughness = options.roughness[index % columns];
+    const double cosine = std::max(std::cos(options.degrees[index / columns] * kPi / 180), kSmallestCosine);
+    const Lobe lobe = family.at(roughness, cosine);
+    const LtcValue value = table(roughness, cosine), fresnel = fresnel_table(roughness, cosine);
+    const auto rectangles = test_rectangles(options.rectangles, options.seed + index);
+    const std::vector<double> plain = true_radiance(lobe, rectangles, options.directions);
+    const std::vector<double> grazing = true_radiance(with_grazing_fresnel(lobe), rectangles, options.directions);
+    for (std::size_t k = 0; k < plain.size(); ++k) {
+      const double truth = f0 * plain[k] + (1 - f0) * grazing[k];
+      const double integral = integrate_rectangle(value.inverse, rectangles[k]);
+      const double split = (f0 * value.n_a + (1 - f0) * value.f_a) * integral - truth;
+      const double own = f0 * value.n_a * integral + (1 - f0) * fresnel.n_a * integrate_rectangle(fresnel.inverse, rectangles[k]) - truth;
+      cells[index].split += split * split;
+      cells[index].lobe += own * own;
+      cells[index].signal += truth * truth;
+    }
+  });
+  Sums sum;
+  for (const Sums& cell : cells) {
+    sum.split += cell.split;
+    sum.lobe += cell.lobe;
+    sum.signal += cell.signal;
+  }
+  return {std::sqrt(sum.split / sum.signal), std::sqrt(sum.lobe / sum.signal)};
+}
+
 std::vector<BetweenNodes> measure_between_nodes(const LtcTable& fit, const LookUp& table) {
   std::vector<BetweenNodes> result;
   const int n = fit.size, step = std::max(n / 16, 1);

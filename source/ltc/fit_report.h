@@ -63,6 +63,14 @@ Picture draw(const Report& report, const ReportOptions& options);
 
 Report measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options);
 
+// The error relative to the signal, both root mean squares over the grid, with Schlick's Fresnel of F90 = 1.
+struct FresnelError {
+  double split = 0;  // by n_A and f_A under one matrix
+  double lobe = 0;   // by the table of the lobe times (1 - v.h)^5 beside it
+};
+FresnelError measure_fresnel(const LobeFamily& family, const LookUp& table, const LookUp& fresnel_table, double f0,
+                             const ReportOptions& options);
+
 // Integral of |lobe - table's lobe| over the lobe's albedo, by quadrature in the lobe's coordinates, n x n on a half.
 double lobe_l1(const Lobe& lobe, const LtcValue& value, int n);
 

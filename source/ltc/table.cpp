@@ -120,7 +120,8 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
       for (int i = 0; i < fit.size; ++i) {
         const double scale = fit.family.frame == LobeFrame::mirror ? alpha_from_roughness(ltc_roughness_at(i, fit.size)) : 1;
         fine.push_back(value(fit.at(i, j)));
-        weights.push_back(importance(fit.at(i, j), scale));
+        // The shape of a lobe that reflects next to nothing says little.
+        weights.push_back(importance(fit.at(i, j), scale) * std::clamp(10 * fit.at(i, j).albedo, 1e-6, 1.0));
       }
     const std::vector<double> result = fit.size == coarse ? fine : fit_coarse(fine, weights, fit.size, coarse);
     for (std::size_t k = 0; k < result.size(); ++k) put(k) = round_to_half(static_cast<float>(result[k]));
