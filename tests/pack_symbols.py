@@ -4,7 +4,8 @@
 The linker keeps one copy of a weak symbol, whichever unit it comes from. If that copy was compiled for AVX-512, the
 program dies on an older processor in code that never asked for AVX-512. So everything that a pack unit defines for
 others to see must name its instruction set: the namespace isa_sse2, isa_avx2, isa_avx512 (include/steradian/config.h),
-or the architecture in xsimd's types.
+or the architecture in xsimd's types. And no two units may define the same strong symbol: from an archive, the linker takes
+whichever it needs first and is silent about the other.
 """
 import re
 import subprocess
@@ -18,7 +19,10 @@ ALLOWED = {
 }
 
 
-def leaks(nm, isa, path):
+STRONG = "TDBRG"  # nm's letters
+
+
+def leaks(nm, isa, path, owners):
     listing = subprocess.run([nm, "-C", "--defined-only", "--extern-only", path], capture_output=True, text=True,
                              check=True).stdout
     found, checked = [], 0
@@ -30,6 +34,9 @@ def leaks(nm, isa, path):
         kind, name = match.groups()
         if name in ALLOWED:
             continue
+        if kind in STRONG and owners.setdefault(name, path) != path:
+            found.append(f"{path}: {kind} {name} is defined in {owners[name]} too")
+            continue
         own = re.search(rf"\bisa_{isa}(_strict)?::", name) or re.search(ARCHITECTURE[isa], name)
         others = [o for o in ARCHITECTURE if o != isa and re.search(rf"\bisa_{o}(_strict)?::", name)]
         if not own or others:
@@ -39,13 +46,14 @@ def leaks(nm, isa, path):
 
 def main():
     nm, isa, *objects = sys.argv[1:]
-    found, checked = [], 0
+    found, checked, owners = [], 0, {}
     for path in objects:
-        more, count = leaks(nm, isa, path)
+        more, count = leaks(nm, isa, path, owners)
         found += more
         checked += count
     for leak in found:
-        print(f"{leak}\n    does not name {isa}: put it in STERADIAN_BEGIN_ISA, an unnamed namespace, or inline it away")
+        print(leak if leak.endswith(" too") else
+              f"{leak}\n    does not name {isa}: put it in STERADIAN_BEGIN_ISA, an unnamed namespace, or inline it away")
     print(f"{isa}: {checked} symbols in {len(objects)} objects, {len(found)} leaks")
     sys.exit(bool(found) or checked == 0)
 
