@@ -147,8 +147,6 @@ PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, real radius, vec3 mid
 
     // Where the cap's rim crosses: azimuths left and right of the cap's own.
     real flat2 = max(center.x * center.x + center.y * center.y, 1.0e-36);
-    real scale = 1.0 / flat2;
-    real ct = tangent * sqrt(flat2) * inverse;
     vec2 azimuth = vec2(center.x, center.y) * inversesqrt(flat2);
     vec2 tilt = complex_sign(vec2(tangent, root));
     vec2 comes = complex_product(azimuth, tilt);

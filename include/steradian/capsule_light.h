@@ -21,6 +21,9 @@ float line_irradiance_float(Vec3d end_a, Vec3d end_b, Vec3d position, Vec3d norm
 // Distance of a point from the capsule's segment: inside where it is not above the radius.
 double distance_to_axis(const Capsule& capsule, Vec3d position);
 
+// How far along a ray (unit direction) it comes nearest to the capsule's segment; not negative.
+double distance_along(const Capsule& capsule, Vec3d origin, Vec3d direction);
+
 // The polygon with that many vertices (6 to 2048) that stands in for a capsule seen from a point outside, its corners
 // gathered where the lobe is sharp. No vertices from inside, and for a capsule too thin to have an outline.
 PolygonLight polygon_for_lobe(const Capsule& capsule, Vec3d position, const LobeAxis& lobe, int vertices = 8);

@@ -98,6 +98,15 @@ double distance_to_axis(const Capsule& capsule, Vec3d position) {
   return t > 0.5 ? length(capsule.end_b - position - span * (1 - t)) : length(a + span * t);
 }
 
+double distance_along(const Capsule& capsule, Vec3d origin, Vec3d direction) {
+  const Vec3d a = capsule.end_a - origin, span = capsule.end_b - capsule.end_a;
+  // Across the ray, the segment is a segment of the plane, and the ray the origin of the plane.
+  const Vec3d flat_a = a - direction * dot(a, direction), flat_span = span - direction * dot(span, direction);
+  const double flat2 = dot(flat_span, flat_span);
+  const double t = flat2 > 0 ? std::clamp(-dot(flat_a, flat_span) / flat2, 0.0, 1.0) : 0.0;
+  return std::max(dot(a + span * t, direction), 0.0);
+}
+
 PolygonLight polygon_for_lobe(const Capsule& capsule, Vec3d position, const LobeAxis& lobe, int vertices) {
   if (vertices < 6 || vertices > 2048)
     throw Error("vertices", "must be from 6 to 2048, here is " + std::to_string(vertices));
@@ -107,7 +116,7 @@ PolygonLight polygon_for_lobe(const Capsule& capsule, Vec3d position, const Lobe
   const auto fan = k.capsule_fan(seen, {lobe.axis.x, lobe.axis.y, lobe.axis.z}, lobe.width, vertices);
   std::vector<Vec3d> corners;
   for (int i = 0; i < vertices; ++i) corners.push_back(normalized(to_vector(k.capsule_fan_corner(fan, i))));
-  return flattened(corners, position, middle_of(seen), 1 / unit_of(capsule, position));
+  return flattened(corners, position, middle_of(seen), distance_to_axis(capsule, position));
 }
 
 PolygonLight polygon_of_equal_steps(const Capsule& capsule, Vec3d position, int vertices) {
