@@ -65,7 +65,9 @@ Vec3d middle_of(const Seen<double>& c) {
 
 // Directions of the corners, brought into one plane across the axis: the outline of a capsule is not flat.
 PolygonLight flattened(const std::vector<Vec3d>& corners, Vec3d position, Vec3d axis, double distance) {
-  constexpr double kLeast = 1e-4;  // of the cosine: near the surface, a corner pushed out may lie beyond a right angle
+  // Of the cosine. Near the surface of a long tube its ends are nearly a right angle from the axis, and a corner that was pushed out
+  // may lie beyond; coordinates keep half of their digits.
+  constexpr double kLeast = 1e-9;
   PolygonLight light;
   for (auto corner = corners.rbegin(); corner != corners.rend(); ++corner) {  // stored order is the reverse of walk order
     const double along = dot(*corner, axis);
@@ -103,7 +105,8 @@ double distance_along(const Capsule& capsule, Vec3d origin, Vec3d direction) {
   // Across the ray, the segment is a segment of the plane, and the ray the origin of the plane.
   const Vec3d flat_a = a - direction * dot(a, direction), flat_span = span - direction * dot(span, direction);
   const double flat2 = dot(flat_span, flat_span);
-  const double t = flat2 > 0 ? std::clamp(-dot(flat_a, flat_span) / flat2, 0.0, 1.0) : 0.0;
+  // Along the segment: its nearer end.
+  const double t = flat2 > 0 ? std::clamp(-dot(flat_a, flat_span) / flat2, 0.0, 1.0) : dot(span, direction) < 0 ? 1.0 : 0.0;
   return std::max(dot(a + span * t, direction), 0.0);
 }
 

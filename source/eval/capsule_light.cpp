@@ -58,13 +58,13 @@ PolygonLight strip(const Capsule& c, const Axis& axis, double half_width) {
 //   radiance  times width
 LobeAnswer line_answer(const Capsule& c, const Axis& axis, Vec3d radiance, const ShadingPoint& at, const Material& m,
                        const MethodEntry& entry, const MethodOptions& options) {
+  // Towards the point nothing of a line is seen.
+  if (!(length(axis.moment) > 1e-14 * axis.distance)) return nothing(entry.method);
   if (m.brdf == Brdf::lambert && entry.method == Method::exact)
     return lambert_answer(options.precision == Precision::float_
                               ? static_cast<double>(line_irradiance_float(c.end_a, c.end_b, {}, at.normal))
                               : line_irradiance(c.end_a, c.end_b, {}, at.normal),
                           radiance, m);
-  // Towards the point nothing of a line is seen.
-  if (!(length(axis.moment) > 1e-14 * axis.distance)) return nothing(entry.method);
   const auto of_half_width = [&](double share) {
     const double half_width = share * axis.distance;
     PolygonLight light = strip(c, axis, half_width);
@@ -91,8 +91,8 @@ LobeAnswer capsule_light_answer(const CapsuleLight& light, const ShadingPoint& t
   const bool line = c.radius == 0;
   if (!(axis.distance > c.radius)) return nothing(entry.method);
 
-  // A light of a billionth of its distance is one direction.
-  if (axis.length + c.radius < 1e-9 * axis.distance) {
+  // A light of so small a part of its distance is one direction: about its middle, the error is of second order.
+  if (axis.length + c.radius < 1e-7 * axis.distance) {
     const Vec3d middle = (c.end_a + c.end_b) * 0.5;
     const double across = axis.length * length(axis.moment) / axis.distance;
     const double area = line ? across : 2 * c.radius * across + kPi * c.radius * c.radius;

@@ -141,7 +141,11 @@ TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
       Vec3d direction = random_direction(random);
       direction.y = std::fabs(direction.y);
       const Vec3d half = random_direction(random) * random.uniform(0.1, 0.8);
-      const Vec3d a = direction - half, b = direction + half;
+      Vec3d a = direction - half, b = direction + half;
+      const CapsuleLight light = tube(a, b, 0);
+      // Midpoints do not go well with a step: the part above the horizon.
+      if (a.y < 0) a = a + (b - a) * (a.y / (a.y - b.y));
+      if (b.y < 0) b = b + (a - b) * (b.y / (b.y - a.y));
       const ShadingPoint at = looking_near(random, direction);
       const Frame frame = Frame::from_normal_and_tangent(at.normal, c.material.tangent);
       const reference::Lobe lobe(c.material, frame.to_local(at.view));
@@ -150,12 +154,11 @@ TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
       for (int k = 0; k < kSteps; ++k) {
         const Vec3d p = a + (b - a) * ((k + 0.5) / kSteps);
         const double d = length(p);
-        if (p.y > 0)
-          sum += lobe.radiance(lobe.evaluate(frame.to_local(p / d))).x * length(cross(b - a, p / d)) / (d * d) / kSteps;
+        sum += lobe.radiance(lobe.evaluate(frame.to_local(p / d))).x * length(cross(b - a, p / d)) / (d * d) / kSteps;
       }
-      const Answer truth = ask(tube(a, b, 0), at, c.material, Method::reference);
+      const Answer truth = ask(light, at, c.material, Method::reference);
       EXPECT_NEAR(truth.radiance.x, sum, *truth.bound + 1e-6 * (1 + sum)) << c.name;
-      worst = std::max(worst, std::fabs(ask(tube(a, b, 0), at, c.material, c.method, c.quality).radiance.x - sum) / (1 + sum));
+      worst = std::max(worst, std::fabs(ask(light, at, c.material, c.method, c.quality).radiance.x - sum) / (1 + sum));
       largest = std::max(largest, sum);
     }
     EXPECT_GT(largest, 0.01) << c.name;
@@ -190,12 +193,12 @@ TEST(EvalLine, ScalesWithTheInverseOfLengths) {
 }
 
 TEST(EvalCapsule, ATinyOneIsAPointLight) {
-  for (double size : {1e-8, 1e-10, 1e-14}) {
+  for (double size : {1e-6, 1e-7, 1e-8, 1e-12}) {
     const Vec3d center{1, 2, 2}, half = Vec3d{0.3, -0.1, 0.2} * size;
     const double sine = length(cross(normalized(half), normalized(center)));
     const double area = 2 * length(half) * 2 * (0.2 * size) * sine + kPi * 0.04 * size * size;
     const double expected = ask(PointLight{center, {area, area, area}}, kFloor, ggx(0.3)).radiance.x;
-    EXPECT_NEAR(ask(tube(center - half, center + half, 0.2 * size), kFloor, ggx(0.3)).radiance.x / expected, 1, 0.01) << size;
+    EXPECT_NEAR(ask(tube(center - half, center + half, 0.2 * size), kFloor, ggx(0.3)).radiance.x / expected, 1, 1e-3) << size;
   }
 }
 
@@ -234,9 +237,8 @@ TEST(EvalCapsule, EveryMethodGivesFiniteNumbersWhereverThePointIs) {
 TEST(EvalCapsule, ReadsItsKeysAndNamesWrongOnes) {
   QueryReader reader;
   const auto read = [&](const std::string& light) {
-    std::string line = R"({"light": )" + light +
+    const std::string line = R"({"light": )" + light +
                        R"(, "position": [0,0,0], "normal": [0,1,0], "material": {"brdf": "lambert"}})";
-    line.resize(line.size());
     std::string out, padded = line + std::string(kQueryPadding, ' ');
     answer_line(reader, std::string_view(padded).substr(0, line.size()), out);
     return out;
