@@ -862,11 +862,14 @@ vec4 case_ellipse_corner_concentrated(CaseInput i) {
     return case_of_vec3(ellipse_fan_corner(ellipse_fan_concentrated(e, case_xyz(i.d), i.a.w), 3, 8));
 }
 
+// Where the rim of an end only just meets the horizon, error analysis cannot tell on which side of a root's 0 it is.
+
 // capsule, irradiance vector
 //   a.xyz  vector(1, 5)
 //   b.xyz  vector(1, 5)
 //   c.x    log(0.01, 0.5)
 // Values: 3
+// Bound: statistical
 vec4 case_capsule_irradiance(CaseInput i) {
     return case_of_vec3(capsule_irradiance_vector(capsule_prepare(case_xyz(i.a), case_xyz(i.b), i.c.x)));
 }
