@@ -213,7 +213,9 @@ TEST(LineIrradiance, IsTheLimitOfThinCapsules) {
   for (double share : {1e-1, 1e-2, 1e-4, 1e-6}) {
     double worst = 0;
     for (int i = 0; i < 500; ++i) {
-      const Vec3d a = random_direction(random) * random.uniform(0.2, 3), b = random_direction(random) * random.uniform(0.2, 3);
+      const Vec3d a = random_direction(random) * random.uniform(0.2, 3);
+      Vec3d b = random_direction(random) * random.uniform(0.2, 3);
+      if (i % 3 == 0) b = a * random.uniform(1, 9) + b * (share * random.uniform(0, 3));  // seen almost end-on
       const Vec3d normal = random_direction(random);
       const double distance = distance_to_axis({a, b, 0}, {}), radius = share * distance;
       const double over_width = capsule_irradiance({a, b, radius}, {}, normal) / (2 * radius);
