@@ -59,44 +59,6 @@ vec2 steradian_xy(vec3 v) { return v.xy; }
 vec3 steradian_transform(mat3 m, vec3 v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
 vec3 steradian_transform_transposed(mat3 m, vec3 v) { return vec3(dot(m[0], v), dot(m[1], v), dot(m[2], v)); }
 
-// ==== complex ====
-
-// Complex numbers: vec2(real part, imaginary part).
-
-// a b.
-vec2 complex_product(vec2 a, vec2 b) {
-    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
-
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
-vec2 complex_quotient(vec2 a, vec2 b) {
-    float scale = 1.0 / max(dot(b, b), 1.0e-36);
-    return vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
-}
-
-// a / |a|. Degenerate: the zero vector stays zero.
-vec2 complex_sign(vec2 a) {
-    return a * inversesqrt(max(dot(a, a), 1.0e-36));
-}
-
-// exp(i x) for x in [-pi, pi].
-//
-// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
-// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
-vec2 complex_unit(float x) {
-    float y = 0.5 * x;
-    float t = y * y;
-    float c = 1.0;
-    float s = 1.0;
-    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
-    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
-    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
-    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
-    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
-    s = y * (1.0 - t * 0.166666666666666667 * s);
-    return vec2(c * c - s * s, 2.0 * c * s);
-}
-
 // ==== inverse_trig ====
 
 // Inverse trigonometry for the kernels, the same in every language.
@@ -183,6 +145,226 @@ float trig_atan2(float y, float x) {
 float trig_atan2_unwrapped(float y, float x) {
     float angle = trig_atan2(y, x);
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
+}
+
+// ==== frame ====
+
+// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// vector into it, transform(frame, l) back.
+
+// Orthonormal right-handed frame with z along n and x, y in any direction.
+//
+//   n        unit normal
+//
+// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
+mat3 frame_from_normal(vec3 n) {
+    float s = steradian_select(n.z < 0.0, -1.0, 1.0);
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    vec3 y = vec3(b, s + n.y * n.y * a, -n.y);
+    return mat3(x, y, n);
+}
+
+// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+//
+//   n, v     unit normal and view
+//
+// Degenerate: a view along the normal (closer than 1e-6) gives any x.
+mat3 frame_from_normal_and_view(vec3 n, vec3 v) {
+    mat3 other = frame_from_normal(n);
+    vec3 t = v - n * dot(n, v);
+    float t2 = dot(t, t);
+    vec3 x = steradian_select(t2 > 1.0e-12, t * inversesqrt(max(t2, 1.0e-12)), steradian_transform(other, vec3(1.0, 0.0, 0.0)));
+    return mat3(x, cross(n, x), n);
+}
+
+// ==== polygon ====
+
+// Irradiance and solid angle of polygonal lights: the boundary integrals of Lambert and Girard.
+//
+// A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
+// way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
+// point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
+
+// The state of a walk.
+//   edges    sum over the edges, each clipped to the horizon, of half its angle times its plane's unit normal [rad]
+//   horizon  product of unit complex numbers: its angle is the arc of the horizon that closes the clipped outline
+struct PolygonWalk {
+    vec3 edges;
+    vec2 horizon;
+};
+
+// Unit direction of a vertex.
+//
+//   v        vertex relative to the shading point, any unit of length
+//
+// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
+// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
+vec3 polygon_direction(vec3 v) {
+    float d2 = dot(v, v);
+    float scale = steradian_select(d2 < 1.0e36, inversesqrt(max(d2, 1.0e-36)), 0.0);
+    return v * scale;
+}
+
+// Irradiance vector of one edge: half the edge's angle times its plane's unit normal [rad].
+//
+//   a, b     unit directions of the edge's ends, in walk order
+//   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
+//
+// Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
+// Error: see docs/accuracy.md, "polygon edge".
+// Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
+// determined form-factors", 1989, eq. 6.
+vec3 polygon_edge(vec3 a, vec3 b) {
+    vec3 n = cross(a, b);
+    float f = trig_angle_over_sine(dot(a, b), dot(n, n));
+    return n * (0.5 * f);
+}
+
+// A walk before its first edge: no edges, and a horizon of angle 0.
+PolygonWalk polygon_begin() {
+    PolygonWalk walk;
+    walk.edges = vec3(0.0, 0.0, 0.0);
+    walk.horizon = vec2(1.0, 0.0);
+    return walk;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
+//
+// What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
+// these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
+// counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
+    PolygonWalk next = walk;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    if (!a_below || !b_below) {
+        vec3 start = a;
+        vec3 end = b;
+        if (a_below || b_below) {
+            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            float wa = abs(b.z);
+            float wb = abs(a.z);
+            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+            p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+            vec3 crossing = vec3(p.x, p.y, 0.0);
+            start = steradian_select(a_below, crossing, a);
+            end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
+            bool crosses = (a_below && !b_below) || (b_below && !a_below);
+            float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
+            vec2 h = walk.horizon;
+            next.horizon = steradian_select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
+        }
+        next.edges = walk.edges + polygon_edge(start, end);
+    }
+    return next;
+}
+
+// Irradiance vector of the part of the light above the horizon [sr times radiance 1].
+//
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//   returns  in the shading frame; z is the irradiance, the direction is where the light is, seen on average
+//
+// Degenerate: a point in the light's plane gives 0 up to rounding.
+vec3 polygon_irradiance_vector(PolygonWalk walk, bool reversed) {
+    float facing = steradian_select(reversed, -1.0, 1.0);
+    float arc = 0.0;
+    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
+        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    }
+    vec3 e = walk.edges * facing;
+    return vec3(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
+}
+
+// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
+//
+// Error: see docs/accuracy.md, "polygon irradiance".
+float polygon_irradiance(PolygonWalk walk, bool reversed) {
+    vec3 e = polygon_irradiance_vector(walk, reversed);
+    return e.z;
+}
+
+// The state of a solid angle's walk: a product of complex numbers, each with half a triangle's solid angle.
+struct SolidAngleWalk {
+    vec3 first;
+    vec2 product;
+};
+
+// Starts at a vertex.
+//
+//   first    unit direction of any vertex of the light
+SolidAngleWalk solid_angle_begin(vec3 first) {
+    SolidAngleWalk walk;
+    walk.first = first;
+    walk.product = vec2(1.0, 0.0);
+    return walk;
+}
+
+// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
+//
+// Degenerate: a triangle without area has a real factor and adds nothing.
+// Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
+SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, vec3 a, vec3 b) {
+    SolidAngleWalk next = walk;
+    float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
+    float im = dot(walk.first, cross(a, b));
+    float scale = inversesqrt(max(re * re + im * im, 1.0e-36));
+    re = re * scale;
+    im = im * scale;
+    vec2 p = walk.product;
+    next.product = vec2(p.x * re - p.y * im, p.x * im + p.y * re);
+    return next;
+}
+
+// Solid angle of a plane light, in [0, 2 pi] [sr].
+//
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Error: see docs/accuracy.md, "polygon solid angle".
+float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
+    float y = steradian_select(reversed, -walk.product.y, walk.product.y);
+    return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
+}
+
+// ==== complex ====
+
+// Complex numbers: vec2(real part, imaginary part).
+
+// a b.
+vec2 complex_product(vec2 a, vec2 b) {
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+vec2 complex_quotient(vec2 a, vec2 b) {
+    float scale = 1.0 / max(dot(b, b), 1.0e-36);
+    return vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
+}
+
+// a / |a|. Degenerate: the zero vector stays zero.
+vec2 complex_sign(vec2 a) {
+    return a * inversesqrt(max(dot(a, a), 1.0e-36));
+}
+
+// exp(i x) for x in [-pi, pi].
+//
+// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
+// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
+vec2 complex_unit(float x) {
+    float y = 0.5 * x;
+    float t = y * y;
+    float c = 1.0;
+    float s = 1.0;
+    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
+    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
+    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
+    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
+    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
+    s = y * (1.0 - t * 0.166666666666666667 * s);
+    return vec2(c * c - s * s, 2.0 * c * s);
 }
 
 // ==== quartic ====
@@ -674,36 +856,401 @@ vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
 }
 
-// ==== frame ====
+// ==== capsule ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
-// vector into it, transform(frame, l) back.
+// Tubes as lights: a capsule is all that lies within a radius of a segment; and the line that it becomes as the radius goes
+// to 0.
+//
+// Seen from outside, a capsule fills the convex hull of two round caps, the images of its end balls. Two planes through the
+// point touch both balls; the outline is an arc about each cap and two great circles between them. All four pieces have
+// antiderivatives in elementary functions: the irradiance needs no more than four arc tangents. Where the point sees one
+// cap within the other, it sees a sphere.
+// Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
 
-// Orthonormal right-handed frame with z along n and x, y in any direction.
+// A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
+// direction across: half of the sphere's outline belongs to each.
+//   end_a, end_b  centres of the end balls
+//   along         unit, from end_a to end_b
+//   toward        unit, from the point to the nearest place of the axis' line
+//   at_a, at_b    places of the ends along the line, counted from there; span their distance
+//   height        distance of the line
+//   outside       whether the point is; inside there is no light
+struct Capsule {
+    vec3 end_a;
+    vec3 end_b;
+    vec3 along;
+    vec3 toward;
+    float at_a;
+    float at_b;
+    float span;
+    float height;
+    float radius;
+    bool outside;
+};
+
+// Prepares a capsule.
 //
-//   n        unit normal
+//   end_a, end_b  centres of the end balls, from the shading point
+//   radius        not negative
 //
-// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
-mat3 frame_from_normal(vec3 n) {
-    float s = steradian_select(n.z < 0.0, -1.0, 1.0);
-    float a = -1.0 / (s + n.z);
-    float b = n.x * n.y * a;
-    vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    vec3 y = vec3(b, s + n.y * n.y * a, -n.y);
-    return mat3(x, y, n);
+// Degenerate: ends that meet make a sphere. A point inside gives finite members.
+Capsule capsule_prepare(vec3 end_a, vec3 end_b, float radius) {
+    vec3 difference = end_b - end_a;
+    float span2 = dot(difference, difference);
+    float a2 = dot(end_a, end_a);
+    float b2 = dot(end_b, end_b);
+    vec3 nearer = steradian_select(a2 < b2, end_a, end_b);
+    float nearer2 = min(a2, b2);
+    vec3 along = difference * inversesqrt(max(span2, 1.0e-36));
+    vec3 moment = cross(nearer, along);
+    float height2 = dot(moment, moment);
+    float at_a = dot(end_a, along);
+    float at_b = dot(end_b, along);
+    float radius2 = radius * radius;
+    // From within the endless cylinder, the nearer ball hides the other.
+    bool tube = height2 > radius2 && span2 > 1.0e-30;
+    bool beside = at_a < 0.0 && at_b > 0.0 && span2 > 1.0e-30;
+
+    float nearest = sqrt(nearer2);
+    vec3 direction = steradian_select(nearer2 > 1.0e-36, nearer * inversesqrt(max(nearer2, 1.0e-36)), vec3(0.0, 0.0, 1.0));
+    mat3 across = frame_from_normal(direction);
+    Capsule c;
+    c.end_a = steradian_select(tube, end_a, nearer);
+    c.end_b = steradian_select(tube, end_b, nearer);
+    c.along = steradian_select(tube, along, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
+    c.toward = steradian_select(tube, cross(along, moment) * inversesqrt(max(height2, 1.0e-36)), direction);
+    c.at_a = steradian_select(tube, at_a, 0.0);
+    c.at_b = steradian_select(tube, at_b, 0.0);
+    c.span = steradian_select(tube, sqrt(span2), 0.0);
+    c.height = steradian_select(tube, sqrt(height2), nearest);
+    c.radius = radius;
+    c.outside = steradian_select(beside, height2, nearer2) > radius2;
+    return c;
 }
 
-// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+// Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
+float capsule_touch(Capsule c) {
+    return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
+}
+
+// Half the angle of an end's arc [rad], in [0, pi], counted about the cap's centre. Those of the two ends sum to pi where they
+// meet.
 //
-//   n, v     unit normal and view
+//   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
+//   distance  of the end's centre
+float capsule_half_angle(Capsule c, float place, float distance) {
+    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, 1.0e-18));
+}
+
+// Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
 //
-// Degenerate: a view along the normal (closer than 1e-6) gives any x.
-mat3 frame_from_normal_and_view(vec3 n, vec3 v) {
-    mat3 other = frame_from_normal(n);
-    vec3 t = v - n * dot(n, v);
-    float t2 = dot(t, t);
-    vec3 x = steradian_select(t2 > 1.0e-12, t * inversesqrt(max(t2, 1.0e-12)), steradian_transform(other, vec3(1.0, 0.0, 0.0)));
-    return mat3(x, cross(n, x), n);
+//   angle    of the great circles [rad]
+//   share    of the chords' length in the width: sqrt(1 - (radius / height)^2), 1 for a line; the others as in Capsule
+//
+// The chords' parts nearly cancel for a short or distant light; their difference is formed on paper.
+vec3 capsule_straight_part(vec3 along, vec3 toward, float at_a, float at_b, float span, float height, float angle, float share) {
+    float h2 = height * height;
+    float both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
+    float chords = share * span * height / max(both, 1.0e-36);
+    return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
+}
+
+// Irradiance vector of the whole capsule, the horizon left out [sr].
+//
+//   c        prepared; the point is outside
+//
+// Degenerate: radius 0 gives 0.
+// Error: relative to the value, but for what height and at_a, at_b lose of a capsule seen end-on.
+// Source: this project; Stokes' theorem as in conic.glsl. Small circles: Lambert 1760.
+vec3 capsule_whole_vector(Capsule c) {
+    float touch = capsule_touch(c);
+    float angle = trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
+    float share = touch / max(c.height, 1.0e-18);
+    float slope = c.radius / max(c.height, 1.0e-18);
+    vec3 e = capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
+    float a2 = max(dot(c.end_a, c.end_a), 1.0e-36);
+    float b2 = max(dot(c.end_b, c.end_b), 1.0e-36);
+    float ia = inversesqrt(a2);
+    float ib = inversesqrt(b2);
+    float sine_a = c.radius * ia;
+    float sine_b = c.radius * ib;
+    e = e + c.end_a * (sine_a * sine_a * ia * capsule_half_angle(c, -c.at_a, sqrt(a2)));
+    return e + c.end_b * (sine_b * sine_b * ib * capsule_half_angle(c, c.at_b, sqrt(b2)));
+}
+
+// Adds the arc of an end to a walk, clipped to the horizon z = 0.
+//
+//   center      of the end's ball
+//   middle      unit, across `center`: where the arc's middle lies
+//   half_angle  of the arc [rad], in [0, pi]
+//   start, finish  unit directions of its ends, in walk order
+//
+// Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
+// the joints; an arc between two ends on one side crosses twice or not at all.
+PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, float radius, vec3 middle, float half_angle, vec3 start, vec3 finish) {
+    float d2 = max(dot(center, center), 1.0e-36);
+    float distance = sqrt(d2);
+    float inverse = 1.0 / distance;
+    float tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
+    float root = sqrt(max((radius - center.z) * (radius + center.z), 0.0));
+
+    // Angles about the cap's centre, from its highest point: of the horizon and of the arc's middle (mirrored: >= 0).
+    float horizon = trig_atan2(distance * root, -tangent * center.z);
+    horizon = steradian_select(root > 0.0, horizon, steradian_select(center.z > 0.0, steradian_pi(), 0.0));
+    float turn = trig_atan2(abs(middle.x * center.y - middle.y * center.x) * inverse, middle.z);
+    float low = turn - half_angle;
+    float high = turn + half_angle;
+    float seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
+
+    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    float flat2 = max(center.x * center.x + center.y * center.y, 1.0e-36);
+    vec2 azimuth = vec2(center.x, center.y) * inversesqrt(flat2);
+    vec2 tilt = complex_sign(vec2(tangent, root));
+    vec2 comes = complex_product(azimuth, tilt);
+    vec2 goes = complex_product(azimuth, vec2(tilt.x, -tilt.y));
+
+    bool start_below = start.z < 0.0;
+    bool finish_below = finish.z < 0.0;
+    bool meets = root > 0.0;
+    bool twice = meets && ((!start_below && !finish_below && high > steradian_pi()) || (start_below && finish_below && turn < half_angle));
+    bool comes_up = twice || (start_below && !finish_below);
+    bool goes_down = twice || (finish_below && !start_below);
+    vec3 nowhere = vec3(0.0, 0.0, 0.0);
+    vec3 chord = steradian_select(start_below, nowhere, start) - steradian_select(finish_below, nowhere, finish);
+    chord = chord + steradian_select(comes_up, vec3(comes.x, comes.y, 0.0), nowhere);
+    chord = chord - steradian_select(goes_down, vec3(goes.x, goes.y, 0.0), nowhere);
+
+    float sine = radius * inverse;
+    PolygonWalk next = walk;
+    next.edges = walk.edges + center * (0.5 * sine * sine * inverse * seen) -
+                 cross(center, chord) * (0.5 * tangent * inverse * inverse);
+    vec2 up = steradian_select(comes_up, comes, vec2(1.0, 0.0));
+    vec2 down = steradian_select(goes_down, vec2(goes.x, -goes.y), vec2(1.0, 0.0));
+    next.horizon = complex_product(walk.horizon, complex_product(up, down));
+    return next;
+}
+
+// Irradiance vector of the part of the capsule above the horizon [sr]; z is the irradiance for radiance 1, in [0, pi].
+//
+//   c        of capsule_prepare
+//
+// Degenerate: a capsule below the horizon and a point inside give 0.
+// Error: see docs/accuracy.md, "capsule irradiance". Exact: two arcs, two edges and an arc of the horizon.
+vec3 capsule_irradiance_vector(Capsule c) {
+    vec3 e = capsule_whole_vector(c);
+    bool cut = min(c.end_a.z, c.end_b.z) < c.radius;
+    if (cut) {
+        float a2 = dot(c.end_a, c.end_a);
+        float b2 = dot(c.end_b, c.end_b);
+        float r2 = c.radius * c.radius;
+        vec3 side = cross(c.toward, c.along);
+        vec3 inward = c.toward * (r2 / max(c.height, 1.0e-18));
+        vec3 aside = side * (c.radius * capsule_touch(c) / max(c.height, 1.0e-18));
+        float ia = inversesqrt(max(a2 - r2, 1.0e-36));
+        float ib = inversesqrt(max(b2 - r2, 1.0e-36));
+        vec3 a_left = (c.end_a - inward + aside) * ia;
+        vec3 a_right = (c.end_a - inward - aside) * ia;
+        vec3 b_left = (c.end_b - inward + aside) * ib;
+        vec3 b_right = (c.end_b - inward - aside) * ib;
+        float da = sqrt(max(a2, 1.0e-36));
+        float db = sqrt(max(b2, 1.0e-36));
+        vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
+        vec3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
+        PolygonWalk walk = polygon_begin();
+        walk = capsule_add_arc(walk, c.end_a, c.radius, a_middle, capsule_half_angle(c, -c.at_a, da), a_left, a_right);
+        walk = polygon_add_edge(walk, a_right, b_right);
+        walk = capsule_add_arc(walk, c.end_b, c.radius, b_middle, capsule_half_angle(c, c.at_b, db), b_right, b_left);
+        walk = polygon_add_edge(walk, b_left, a_left);
+        bool shows = max(c.end_a.z, c.end_b.z) > -c.radius;
+        vec3 above = polygon_irradiance_vector(walk, !(c.radius <= c.radius));
+        e = steradian_select(cut, steradian_select(shows, above, vec3(0.0, 0.0, 0.0)), e);
+    }
+    e = vec3(e.x, e.y, clamp(e.z, 0.0, steradian_pi()));
+    return steradian_select(c.outside, e, vec3(0.0, 0.0, 0.0));
+}
+
+// Irradiance vector of the part of a line above the horizon [1 / m]: the limit of a capsule's over its width 2 radius.
+//
+//   end_a, end_b  from the shading point
+//
+// Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
+// Error: see docs/accuracy.md, "line irradiance". A capsule differs by at most docs/eval.md's bound.
+// Source: as for any linear light; here the limit of capsule_whole_vector.
+vec3 line_irradiance_vector(vec3 end_a, vec3 end_b) {
+    float wa = abs(end_a.z);
+    float wb = abs(end_b.z);
+    vec3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, 1.0e-36));
+    vec3 a = steradian_select(end_a.z < 0.0, crossing, end_a);
+    vec3 b = steradian_select(end_b.z < 0.0, crossing, end_b);
+    vec3 difference = b - a;
+    float span2 = dot(difference, difference);
+    vec3 along = difference * inversesqrt(max(span2, 1.0e-36));
+    vec3 moment = cross(steradian_select(dot(a, a) < dot(b, b), a, b), along);
+    float height2 = max(dot(moment, moment), 1.0e-36);
+    float height = sqrt(height2);
+    vec3 toward = cross(along, moment) * (1.0 / height);
+    float span = sqrt(span2);
+    float at_a = dot(a, along);
+    float at_b = dot(b, along);
+    float angle = trig_atan2_unwrapped(span * height, height2 + at_a * at_b);
+    vec3 e = capsule_straight_part(along, toward, at_a, at_b, span, height, angle, 1.0) * (1.0 / height);
+    e = vec3(e.x, e.y, max(e.z, 0.0));
+    return steradian_select(end_a.z <= 0.0 && end_b.z <= 0.0, vec3(0.0, 0.0, 0.0), e);
+}
+
+// Corners about the arc of one end.
+//   center, middle, side  the rim is center + middle cos t + side sin t, vectors from the shading point
+//   half_angle            the arc runs from -half_angle to half_angle [rad]
+//   corners               how many, 1 or more
+//   turn                  (cos, sin) of the place nearest to the lobe
+//   beta                  1: equal steps; below, corners gather there
+//   first, step           of the arc's parameter, half a turn a corner
+struct CapsuleEnd {
+    vec3 center;
+    vec3 middle;
+    vec3 side;
+    float half_angle;
+    float corners;
+    vec2 turn;
+    float beta;
+    float first;
+    float step;
+};
+
+// A polygon about a capsule's outline: straight edges stay straight, each arc becomes a chain of corners.
+struct CapsuleFan {
+    CapsuleEnd a;
+    CapsuleEnd b;
+};
+
+// Prepares the arc of one end as a single step; capsule_fan divides it.
+//
+//   center      of the ball
+//   middle      unit, across `center`, where the arc's middle lies
+//   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
+CapsuleEnd capsule_end(vec3 center, float radius, vec3 middle, float half_angle, vec3 r, float width) {
+    float d2 = max(dot(center, center), 1.0e-36);
+    float inverse = inversesqrt(d2);
+    float sine = max(radius * inverse, 1.0e-18);
+    float cosine2 = max(1.0 - sine * sine, 1.0e-18);
+    float cosine = sqrt(cosine2);
+    vec3 axis = center * inverse;
+    vec3 side = cross(axis, middle);
+    CapsuleEnd end;
+    end.center = center * cosine2;
+    end.middle = middle * (radius * cosine);
+    end.side = side * (radius * cosine);
+    end.half_angle = half_angle;
+
+    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    float along = dot(r, axis);
+    vec2 place = vec2(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
+    float nearest = clamp(trig_atan2(place.y, place.x), -half_angle, half_angle);
+    end.turn = complex_unit(nearest);
+    vec2 apart = place - end.turn;
+    float blur = min(1.6 * width / sine, 1.0e3);
+    float beta = sqrt(min(0.5 * dot(apart, apart), 1.0e6) + blur * blur);
+    end.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
+
+    vec2 low = complex_unit(-0.5 * (half_angle + nearest));
+    vec2 high = complex_unit(0.5 * (half_angle - nearest));
+    end.first = trig_atan2(low.y, end.beta * low.x);
+    end.step = trig_atan2(high.y, end.beta * high.x) - end.first;
+    end.corners = 1.0;
+    return end;
+}
+
+// (cos t, sin t) of corner j of an end, in the middle of its step.
+//
+// The outer ones lie on the straight edges' continuation and keep within 0.35 of the arc's ends: of 0.35, 0.5 and 0.7 the one
+// with the smallest errors in the test CapsulePolygons.
+vec2 capsule_corner(CapsuleEnd end, float j) {
+    vec2 u = complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
+    vec2 w = complex_sign(vec2(u.x, end.beta * u.y));
+    vec2 corner = complex_product(complex_product(w, w), end.turn);
+    vec2 last = complex_unit(end.half_angle);
+    vec2 limit = vec2(0.939372712847378920, 0.342897807455451364);  // (cos, sin) of 0.35
+    bool outer_low = j < 0.5;
+    bool outer_high = j > end.corners - 1.5;
+    vec2 low = vec2(last.x, -last.y);
+    corner = steradian_select(outer_low && dot(corner, low) < limit.x, complex_product(low, limit), corner);
+    corner = steradian_select(outer_high && dot(corner, last) < limit.x, complex_product(last, vec2(limit.x, -limit.y)), corner);
+    return steradian_select(outer_low && outer_high, vec2(1.0, 0.0), corner);
+}
+
+// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
+// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+//
+//   joint    (cos, sin) of the arc's end behind the neighbour
+float capsule_gap(vec2 corner, vec2 neighbour, vec2 joint, bool outer) {
+    float cosine = dot(corner, neighbour);
+    float sine = abs(corner.x * neighbour.y - corner.y * neighbour.x);
+    float angle = clamp(trig_atan2(sine, cosine), 0.0, 2.6);
+    sine = steradian_select(cosine > -0.856888753368947234, sine, 0.515501371821464235);
+    float even = steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
+    float c = max(dot(neighbour, joint), 0.5);
+    float s = abs(neighbour.x * joint.y - neighbour.y * joint.x);
+    float given = (even + (trig_atan2(s, c) - s / c) / max(sine, 1.0e-4)) * c;
+    given = steradian_select(angle < 1.0e-3, 1.0, max(given, 0.5));
+    return steradian_select(outer, given * given, even);
+}
+
+// Corner j of an end, as a vector from the shading point.
+vec3 capsule_end_corner(CapsuleEnd end, float j) {
+    vec2 here = capsule_corner(end, j);
+    vec2 last = complex_unit(end.half_angle);
+    vec2 low = vec2(last.x, -last.y);
+    bool outer_low = j < 0.5;
+    bool outer_high = j > end.corners - 1.5;
+    float before = capsule_gap(here, capsule_corner(end, j - 1.0), low, j < 1.5);
+    float after = capsule_gap(here, capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
+    float even = sqrt(0.5 * (before + after));
+    float outer = 1.0 / max(dot(here, steradian_select(outer_low, low, last)), 0.5);
+    float radius = steradian_select(outer_low || outer_high, outer, even);
+    return end.center + (end.middle * here.x + end.side * here.y) * radius;
+}
+
+// Prepares a polygon about a capsule.
+//
+//   c        prepared; the point is outside
+//   r        unit axis of the lobe
+//   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
+//   count    of all corners, 6 or more; each end has its share of the steps, at least one
+CapsuleFan capsule_fan(Capsule c, vec3 r, float width, int count) {
+    float da = sqrt(max(dot(c.end_a, c.end_a), 1.0e-36));
+    float db = sqrt(max(dot(c.end_b, c.end_b), 1.0e-36));
+    float angle_a = capsule_half_angle(c, -c.at_a, da);
+    float angle_b = capsule_half_angle(c, c.at_b, db);
+    vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
+    vec3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
+    CapsuleFan fan;
+    fan.a = capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
+    fan.b = capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
+    float share = fan.a.step / max(fan.a.step + fan.b.step, 1.0e-18);
+    fan.a.corners = 1.0 + floor(0.5 + float(count - 2) * share);
+    fan.b.corners = float(count) - fan.a.corners;
+    fan.a.step = fan.a.step / fan.a.corners;
+    fan.b.step = fan.b.step / fan.b.corners;
+    return fan;
+}
+
+// Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
+// corners of the two ends lie in different planes.
+//
+// Error: see docs/ggx.md, "Round lights".
+vec3 capsule_fan_corner(CapsuleFan fan, int k) {
+    bool first = float(k) < fan.a.corners;
+    CapsuleEnd end;
+    end.center = steradian_select(first, fan.a.center, fan.b.center);
+    end.middle = steradian_select(first, fan.a.middle, fan.b.middle);
+    end.side = steradian_select(first, fan.a.side, fan.b.side);
+    end.half_angle = steradian_select(first, fan.a.half_angle, fan.b.half_angle);
+    end.corners = steradian_select(first, fan.a.corners, fan.b.corners);
+    end.turn = steradian_select(first, fan.a.turn, fan.b.turn);
+    end.beta = steradian_select(first, fan.a.beta, fan.b.beta);
+    end.first = steradian_select(first, fan.a.first, fan.b.first);
+    end.step = steradian_select(first, fan.a.step, fan.b.step);
+    return capsule_end_corner(end, steradian_select(first, float(k), float(k) - fan.a.corners));
 }
 
 // ==== ellipsoid ====
@@ -1709,156 +2256,6 @@ float moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float share, floa
     float n2 = dot(n, n);
     float inward = dot(n, v) * inversesqrt(max(n2, 1.0e-30));
     return dot(r, v) * share + steradian_select(n2 > 1.0e-30, inward * cosines, 0.0);
-}
-
-// ==== polygon ====
-
-// Irradiance and solid angle of polygonal lights: the boundary integrals of Lambert and Girard.
-//
-// A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
-// way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
-// point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
-
-// The state of a walk.
-//   edges    sum over the edges, each clipped to the horizon, of half its angle times its plane's unit normal [rad]
-//   horizon  product of unit complex numbers: its angle is the arc of the horizon that closes the clipped outline
-struct PolygonWalk {
-    vec3 edges;
-    vec2 horizon;
-};
-
-// Unit direction of a vertex.
-//
-//   v        vertex relative to the shading point, any unit of length
-//
-// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
-// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
-vec3 polygon_direction(vec3 v) {
-    float d2 = dot(v, v);
-    float scale = steradian_select(d2 < 1.0e36, inversesqrt(max(d2, 1.0e-36)), 0.0);
-    return v * scale;
-}
-
-// Irradiance vector of one edge: half the edge's angle times its plane's unit normal [rad].
-//
-//   a, b     unit directions of the edge's ends, in walk order
-//   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
-//
-// Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge".
-// Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
-// determined form-factors", 1989, eq. 6.
-vec3 polygon_edge(vec3 a, vec3 b) {
-    vec3 n = cross(a, b);
-    float f = trig_angle_over_sine(dot(a, b), dot(n, n));
-    return n * (0.5 * f);
-}
-
-// A walk before its first edge: no edges, and a horizon of angle 0.
-PolygonWalk polygon_begin() {
-    PolygonWalk walk;
-    walk.edges = vec3(0.0, 0.0, 0.0);
-    walk.horizon = vec2(1.0, 0.0);
-    return walk;
-}
-
-// Adds one edge, clipped to the horizon z = 0.
-//
-//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
-//
-// What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
-// these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
-// counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
-PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
-    PolygonWalk next = walk;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        vec3 start = a;
-        vec3 end = b;
-        if (a_below || b_below) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), 1.0e-36));
-            vec3 crossing = vec3(p.x, p.y, 0.0);
-            start = steradian_select(a_below, crossing, a);
-            end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
-            vec2 h = walk.horizon;
-            next.horizon = steradian_select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
-        }
-        next.edges = walk.edges + polygon_edge(start, end);
-    }
-    return next;
-}
-
-// Irradiance vector of the part of the light above the horizon [sr times radiance 1].
-//
-//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
-//   returns  in the shading frame; z is the irradiance, the direction is where the light is, seen on average
-//
-// Degenerate: a point in the light's plane gives 0 up to rounding.
-vec3 polygon_irradiance_vector(PolygonWalk walk, bool reversed) {
-    float facing = steradian_select(reversed, -1.0, 1.0);
-    float arc = 0.0;
-    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
-        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
-    }
-    vec3 e = walk.edges * facing;
-    return vec3(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
-}
-
-// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
-//
-// Error: see docs/accuracy.md, "polygon irradiance".
-float polygon_irradiance(PolygonWalk walk, bool reversed) {
-    vec3 e = polygon_irradiance_vector(walk, reversed);
-    return e.z;
-}
-
-// The state of a solid angle's walk: a product of complex numbers, each with half a triangle's solid angle.
-struct SolidAngleWalk {
-    vec3 first;
-    vec2 product;
-};
-
-// Starts at a vertex.
-//
-//   first    unit direction of any vertex of the light
-SolidAngleWalk solid_angle_begin(vec3 first) {
-    SolidAngleWalk walk;
-    walk.first = first;
-    walk.product = vec2(1.0, 0.0);
-    return walk;
-}
-
-// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
-//
-// Degenerate: a triangle without area has a real factor and adds nothing.
-// Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
-SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, vec3 a, vec3 b) {
-    SolidAngleWalk next = walk;
-    float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
-    float im = dot(walk.first, cross(a, b));
-    float scale = inversesqrt(max(re * re + im * im, 1.0e-36));
-    re = re * scale;
-    im = im * scale;
-    vec2 p = walk.product;
-    next.product = vec2(p.x * re - p.y * im, p.x * im + p.y * re);
-    return next;
-}
-
-// Solid angle of a plane light, in [0, 2 pi] [sr].
-//
-//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
-//
-// Error: see docs/accuracy.md, "polygon solid angle".
-float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
-    float y = steradian_select(reversed, -walk.product.y, walk.product.y);
-    return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
 }
 
 // ==== half_vector ====

@@ -56,44 +56,6 @@ fn steradian_transform_transposed(m: mat3x3f, v: vec3f) -> vec3f {
     return vec3f(dot(m[0], v), dot(m[1], v), dot(m[2], v));
 }
 
-// ==== complex ====
-
-// Complex numbers: vec2(real part, imaginary part).
-
-// a b.
-fn complex_product(a: vec2f, b: vec2f) -> vec2f {
-    return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
-
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
-fn complex_quotient(a: vec2f, b: vec2f) -> vec2f {
-    let scale = 1.0 / max(dot(b, b), 1.0e-36);
-    return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
-}
-
-// a / |a|. Degenerate: the zero vector stays zero.
-fn complex_sign(a: vec2f) -> vec2f {
-    return a * inverseSqrt(max(dot(a, a), 1.0e-36));
-}
-
-// exp(i x) for x in [-pi, pi].
-//
-// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
-// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
-fn complex_unit(x: f32) -> vec2f {
-    let y = 0.5 * x;
-    let t = y * y;
-    var c = 1.0;
-    var s = 1.0;
-    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
-    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
-    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
-    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
-    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
-    s = y * (1.0 - t * 0.166666666666666667 * s);
-    return vec2f(c * c - s * s, 2.0 * c * s);
-}
-
 // ==== inverse_trig ====
 
 // Inverse trigonometry for the kernels, the same in every language.
@@ -180,6 +142,226 @@ fn trig_atan2(y: f32, x: f32) -> f32 {
 fn trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
     let angle = trig_atan2(y, x);
     return select(angle, angle + 2.0 * steradian_pi(), angle < -0.5 * steradian_pi());
+}
+
+// ==== frame ====
+
+// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// vector into it, transform(frame, l) back.
+
+// Orthonormal right-handed frame with z along n and x, y in any direction.
+//
+//   n        unit normal
+//
+// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
+fn frame_from_normal(n: vec3f) -> mat3x3f {
+    let s = select(1.0, -1.0, n.z < 0.0);
+    let a = -1.0 / (s + n.z);
+    let b = n.x * n.y * a;
+    let x = vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    let y = vec3f(b, s + n.y * n.y * a, -n.y);
+    return mat3x3f(x, y, n);
+}
+
+// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+//
+//   n, v     unit normal and view
+//
+// Degenerate: a view along the normal (closer than 1e-6) gives any x.
+fn frame_from_normal_and_view(n: vec3f, v: vec3f) -> mat3x3f {
+    let other = frame_from_normal(n);
+    let t = v - n * dot(n, v);
+    let t2 = dot(t, t);
+    let x = select(steradian_transform(other, vec3f(1.0, 0.0, 0.0)), t * inverseSqrt(max(t2, 1.0e-12)), t2 > 1.0e-12);
+    return mat3x3f(x, cross(n, x), n);
+}
+
+// ==== polygon ====
+
+// Irradiance and solid angle of polygonal lights: the boundary integrals of Lambert and Girard.
+//
+// A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
+// way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
+// point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
+
+// The state of a walk.
+//   edges    sum over the edges, each clipped to the horizon, of half its angle times its plane's unit normal [rad]
+//   horizon  product of unit complex numbers: its angle is the arc of the horizon that closes the clipped outline
+struct PolygonWalk {
+    edges: vec3f,
+    horizon: vec2f,
+}
+
+// Unit direction of a vertex.
+//
+//   v        vertex relative to the shading point, any unit of length
+//
+// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
+// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
+fn polygon_direction(v: vec3f) -> vec3f {
+    let d2 = dot(v, v);
+    let scale = select(0.0, inverseSqrt(max(d2, 1.0e-36)), d2 < 1.0e36);
+    return v * scale;
+}
+
+// Irradiance vector of one edge: half the edge's angle times its plane's unit normal [rad].
+//
+//   a, b     unit directions of the edge's ends, in walk order
+//   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
+//
+// Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
+// Error: see docs/accuracy.md, "polygon edge".
+// Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
+// determined form-factors", 1989, eq. 6.
+fn polygon_edge(a: vec3f, b: vec3f) -> vec3f {
+    let n = cross(a, b);
+    let f = trig_angle_over_sine(dot(a, b), dot(n, n));
+    return n * (0.5 * f);
+}
+
+// A walk before its first edge: no edges, and a horizon of angle 0.
+fn polygon_begin() -> PolygonWalk {
+    var walk: PolygonWalk;
+    walk.edges = vec3f(0.0, 0.0, 0.0);
+    walk.horizon = vec2f(1.0, 0.0);
+    return walk;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
+//
+// What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
+// these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
+// counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+fn polygon_add_edge(walk: PolygonWalk, a: vec3f, b: vec3f) -> PolygonWalk {
+    var next = walk;
+    let a_below = a.z < 0.0;
+    let b_below = b.z < 0.0;
+    if (!a_below || !b_below) {
+        var start = a;
+        var end = b;
+        if (a_below || b_below) {
+            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            let wa = abs(b.z);
+            let wb = abs(a.z);
+            var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+            p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
+            let crossing = vec3f(p.x, p.y, 0.0);
+            start = select(a, crossing, a_below);
+            end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
+            let crosses = (a_below && !b_below) || (b_below && !a_below);
+            let y = select(-p.y, p.y, a_below);  // coming up: the azimuth; going down: its conjugate
+            let h = walk.horizon;
+            next.horizon = select(h, vec2f(h.x * p.x - h.y * y, h.x * y + h.y * p.x), crosses);
+        }
+        next.edges = walk.edges + polygon_edge(start, end);
+    }
+    return next;
+}
+
+// Irradiance vector of the part of the light above the horizon [sr times radiance 1].
+//
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//   returns  in the shading frame; z is the irradiance, the direction is where the light is, seen on average
+//
+// Degenerate: a point in the light's plane gives 0 up to rounding.
+fn polygon_irradiance_vector(walk: PolygonWalk, reversed: bool) -> vec3f {
+    let facing = select(1.0, -1.0, reversed);
+    var arc = 0.0;
+    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
+        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    }
+    let e = walk.edges * facing;
+    return vec3f(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
+}
+
+// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
+//
+// Error: see docs/accuracy.md, "polygon irradiance".
+fn polygon_irradiance(walk: PolygonWalk, reversed: bool) -> f32 {
+    let e = polygon_irradiance_vector(walk, reversed);
+    return e.z;
+}
+
+// The state of a solid angle's walk: a product of complex numbers, each with half a triangle's solid angle.
+struct SolidAngleWalk {
+    first: vec3f,
+    product: vec2f,
+}
+
+// Starts at a vertex.
+//
+//   first    unit direction of any vertex of the light
+fn solid_angle_begin(first: vec3f) -> SolidAngleWalk {
+    var walk: SolidAngleWalk;
+    walk.first = first;
+    walk.product = vec2f(1.0, 0.0);
+    return walk;
+}
+
+// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
+//
+// Degenerate: a triangle without area has a real factor and adds nothing.
+// Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
+fn solid_angle_add_edge(walk: SolidAngleWalk, a: vec3f, b: vec3f) -> SolidAngleWalk {
+    var next = walk;
+    var re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
+    var im = dot(walk.first, cross(a, b));
+    let scale = inverseSqrt(max(re * re + im * im, 1.0e-36));
+    re = re * scale;
+    im = im * scale;
+    let p = walk.product;
+    next.product = vec2f(p.x * re - p.y * im, p.x * im + p.y * re);
+    return next;
+}
+
+// Solid angle of a plane light, in [0, 2 pi] [sr].
+//
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Error: see docs/accuracy.md, "polygon solid angle".
+fn solid_angle_finish(walk: SolidAngleWalk, reversed: bool) -> f32 {
+    let y = select(walk.product.y, -walk.product.y, reversed);
+    return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
+}
+
+// ==== complex ====
+
+// Complex numbers: vec2(real part, imaginary part).
+
+// a b.
+fn complex_product(a: vec2f, b: vec2f) -> vec2f {
+    return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+fn complex_quotient(a: vec2f, b: vec2f) -> vec2f {
+    let scale = 1.0 / max(dot(b, b), 1.0e-36);
+    return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
+}
+
+// a / |a|. Degenerate: the zero vector stays zero.
+fn complex_sign(a: vec2f) -> vec2f {
+    return a * inverseSqrt(max(dot(a, a), 1.0e-36));
+}
+
+// exp(i x) for x in [-pi, pi].
+//
+// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
+// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
+fn complex_unit(x: f32) -> vec2f {
+    let y = 0.5 * x;
+    let t = y * y;
+    var c = 1.0;
+    var s = 1.0;
+    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
+    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
+    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
+    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
+    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
+    s = y * (1.0 - t * 0.166666666666666667 * s);
+    return vec2f(c * c - s * s, 2.0 * c * s);
 }
 
 // ==== quartic ====
@@ -671,36 +853,401 @@ fn ellipse_fan_corner(fan: EllipseFan, k: i32, count: i32) -> vec3f {
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
 }
 
-// ==== frame ====
+// ==== capsule ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
-// vector into it, transform(frame, l) back.
+// Tubes as lights: a capsule is all that lies within a radius of a segment; and the line that it becomes as the radius goes
+// to 0.
+//
+// Seen from outside, a capsule fills the convex hull of two round caps, the images of its end balls. Two planes through the
+// point touch both balls; the outline is an arc about each cap and two great circles between them. All four pieces have
+// antiderivatives in elementary functions: the irradiance needs no more than four arc tangents. Where the point sees one
+// cap within the other, it sees a sphere.
+// Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
 
-// Orthonormal right-handed frame with z along n and x, y in any direction.
-//
-//   n        unit normal
-//
-// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
-fn frame_from_normal(n: vec3f) -> mat3x3f {
-    let s = select(1.0, -1.0, n.z < 0.0);
-    let a = -1.0 / (s + n.z);
-    let b = n.x * n.y * a;
-    let x = vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    let y = vec3f(b, s + n.y * n.y * a, -n.y);
-    return mat3x3f(x, y, n);
+// A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
+// direction across: half of the sphere's outline belongs to each.
+//   end_a, end_b  centres of the end balls
+//   along         unit, from end_a to end_b
+//   toward        unit, from the point to the nearest place of the axis' line
+//   at_a, at_b    places of the ends along the line, counted from there; span their distance
+//   height        distance of the line
+//   outside       whether the point is; inside there is no light
+struct Capsule {
+    end_a: vec3f,
+    end_b: vec3f,
+    along: vec3f,
+    toward: vec3f,
+    at_a: f32,
+    at_b: f32,
+    span: f32,
+    height: f32,
+    radius: f32,
+    outside: bool,
 }
 
-// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+// Prepares a capsule.
 //
-//   n, v     unit normal and view
+//   end_a, end_b  centres of the end balls, from the shading point
+//   radius        not negative
 //
-// Degenerate: a view along the normal (closer than 1e-6) gives any x.
-fn frame_from_normal_and_view(n: vec3f, v: vec3f) -> mat3x3f {
-    let other = frame_from_normal(n);
-    let t = v - n * dot(n, v);
-    let t2 = dot(t, t);
-    let x = select(steradian_transform(other, vec3f(1.0, 0.0, 0.0)), t * inverseSqrt(max(t2, 1.0e-12)), t2 > 1.0e-12);
-    return mat3x3f(x, cross(n, x), n);
+// Degenerate: ends that meet make a sphere. A point inside gives finite members.
+fn capsule_prepare(end_a: vec3f, end_b: vec3f, radius: f32) -> Capsule {
+    let difference = end_b - end_a;
+    let span2 = dot(difference, difference);
+    let a2 = dot(end_a, end_a);
+    let b2 = dot(end_b, end_b);
+    let nearer = select(end_b, end_a, a2 < b2);
+    let nearer2 = min(a2, b2);
+    let along = difference * inverseSqrt(max(span2, 1.0e-36));
+    let moment = cross(nearer, along);
+    let height2 = dot(moment, moment);
+    let at_a = dot(end_a, along);
+    let at_b = dot(end_b, along);
+    let radius2 = radius * radius;
+    // From within the endless cylinder, the nearer ball hides the other.
+    let tube = height2 > radius2 && span2 > 1.0e-30;
+    let beside = at_a < 0.0 && at_b > 0.0 && span2 > 1.0e-30;
+
+    let nearest = sqrt(nearer2);
+    let direction = select(vec3f(0.0, 0.0, 1.0), nearer * inverseSqrt(max(nearer2, 1.0e-36)), nearer2 > 1.0e-36);
+    let across = frame_from_normal(direction);
+    var c: Capsule;
+    c.end_a = select(nearer, end_a, tube);
+    c.end_b = select(nearer, end_b, tube);
+    c.along = select(steradian_transform(across, vec3f(1.0, 0.0, 0.0)), along, tube);
+    c.toward = select(direction, cross(along, moment) * inverseSqrt(max(height2, 1.0e-36)), tube);
+    c.at_a = select(0.0, at_a, tube);
+    c.at_b = select(0.0, at_b, tube);
+    c.span = select(0.0, sqrt(span2), tube);
+    c.height = select(nearest, sqrt(height2), tube);
+    c.radius = radius;
+    c.outside = select(nearer2, height2, beside) > radius2;
+    return c;
+}
+
+// Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
+fn capsule_touch(c: Capsule) -> f32 {
+    return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
+}
+
+// Half the angle of an end's arc [rad], in [0, pi], counted about the cap's centre. Those of the two ends sum to pi where they
+// meet.
+//
+//   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
+//   distance  of the end's centre
+fn capsule_half_angle(c: Capsule, place: f32, distance: f32) -> f32 {
+    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, 1.0e-18));
+}
+
+// Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
+//
+//   angle    of the great circles [rad]
+//   share    of the chords' length in the width: sqrt(1 - (radius / height)^2), 1 for a line; the others as in Capsule
+//
+// The chords' parts nearly cancel for a short or distant light; their difference is formed on paper.
+fn capsule_straight_part(along: vec3f, toward: vec3f, at_a: f32, at_b: f32, span: f32, height: f32, angle: f32, share: f32) -> vec3f {
+    let h2 = height * height;
+    let both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
+    let chords = share * span * height / max(both, 1.0e-36);
+    return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
+}
+
+// Irradiance vector of the whole capsule, the horizon left out [sr].
+//
+//   c        prepared; the point is outside
+//
+// Degenerate: radius 0 gives 0.
+// Error: relative to the value, but for what height and at_a, at_b lose of a capsule seen end-on.
+// Source: this project; Stokes' theorem as in conic.glsl. Small circles: Lambert 1760.
+fn capsule_whole_vector(c: Capsule) -> vec3f {
+    let touch = capsule_touch(c);
+    let angle = trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
+    let share = touch / max(c.height, 1.0e-18);
+    let slope = c.radius / max(c.height, 1.0e-18);
+    var e = capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
+    let a2 = max(dot(c.end_a, c.end_a), 1.0e-36);
+    let b2 = max(dot(c.end_b, c.end_b), 1.0e-36);
+    let ia = inverseSqrt(a2);
+    let ib = inverseSqrt(b2);
+    let sine_a = c.radius * ia;
+    let sine_b = c.radius * ib;
+    e = e + c.end_a * (sine_a * sine_a * ia * capsule_half_angle(c, -c.at_a, sqrt(a2)));
+    return e + c.end_b * (sine_b * sine_b * ib * capsule_half_angle(c, c.at_b, sqrt(b2)));
+}
+
+// Adds the arc of an end to a walk, clipped to the horizon z = 0.
+//
+//   center      of the end's ball
+//   middle      unit, across `center`: where the arc's middle lies
+//   half_angle  of the arc [rad], in [0, pi]
+//   start, finish  unit directions of its ends, in walk order
+//
+// Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
+// the joints; an arc between two ends on one side crosses twice or not at all.
+fn capsule_add_arc(walk: PolygonWalk, center: vec3f, radius: f32, middle: vec3f, half_angle: f32, start: vec3f, finish: vec3f) -> PolygonWalk {
+    let d2 = max(dot(center, center), 1.0e-36);
+    let distance = sqrt(d2);
+    let inverse = 1.0 / distance;
+    let tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
+    let root = sqrt(max((radius - center.z) * (radius + center.z), 0.0));
+
+    // Angles about the cap's centre, from its highest point: of the horizon and of the arc's middle (mirrored: >= 0).
+    var horizon = trig_atan2(distance * root, -tangent * center.z);
+    horizon = select(select(0.0, steradian_pi(), center.z > 0.0), horizon, root > 0.0);
+    let turn = trig_atan2(abs(middle.x * center.y - middle.y * center.x) * inverse, middle.z);
+    let low = turn - half_angle;
+    let high = turn + half_angle;
+    let seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
+
+    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    let flat2 = max(center.x * center.x + center.y * center.y, 1.0e-36);
+    let azimuth = vec2f(center.x, center.y) * inverseSqrt(flat2);
+    let tilt = complex_sign(vec2f(tangent, root));
+    let comes = complex_product(azimuth, tilt);
+    let goes = complex_product(azimuth, vec2f(tilt.x, -tilt.y));
+
+    let start_below = start.z < 0.0;
+    let finish_below = finish.z < 0.0;
+    let meets = root > 0.0;
+    let twice = meets && ((!start_below && !finish_below && high > steradian_pi()) || (start_below && finish_below && turn < half_angle));
+    let comes_up = twice || (start_below && !finish_below);
+    let goes_down = twice || (finish_below && !start_below);
+    let nowhere = vec3f(0.0, 0.0, 0.0);
+    var chord = select(start, nowhere, start_below) - select(finish, nowhere, finish_below);
+    chord = chord + select(nowhere, vec3f(comes.x, comes.y, 0.0), comes_up);
+    chord = chord - select(nowhere, vec3f(goes.x, goes.y, 0.0), goes_down);
+
+    let sine = radius * inverse;
+    var next = walk;
+    next.edges = walk.edges + center * (0.5 * sine * sine * inverse * seen) -
+                 cross(center, chord) * (0.5 * tangent * inverse * inverse);
+    let up = select(vec2f(1.0, 0.0), comes, comes_up);
+    let down = select(vec2f(1.0, 0.0), vec2f(goes.x, -goes.y), goes_down);
+    next.horizon = complex_product(walk.horizon, complex_product(up, down));
+    return next;
+}
+
+// Irradiance vector of the part of the capsule above the horizon [sr]; z is the irradiance for radiance 1, in [0, pi].
+//
+//   c        of capsule_prepare
+//
+// Degenerate: a capsule below the horizon and a point inside give 0.
+// Error: see docs/accuracy.md, "capsule irradiance". Exact: two arcs, two edges and an arc of the horizon.
+fn capsule_irradiance_vector(c: Capsule) -> vec3f {
+    var e = capsule_whole_vector(c);
+    let cut = min(c.end_a.z, c.end_b.z) < c.radius;
+    if (cut) {
+        let a2 = dot(c.end_a, c.end_a);
+        let b2 = dot(c.end_b, c.end_b);
+        let r2 = c.radius * c.radius;
+        let side = cross(c.toward, c.along);
+        let inward = c.toward * (r2 / max(c.height, 1.0e-18));
+        let aside = side * (c.radius * capsule_touch(c) / max(c.height, 1.0e-18));
+        let ia = inverseSqrt(max(a2 - r2, 1.0e-36));
+        let ib = inverseSqrt(max(b2 - r2, 1.0e-36));
+        let a_left = (c.end_a - inward + aside) * ia;
+        let a_right = (c.end_a - inward - aside) * ia;
+        let b_left = (c.end_b - inward + aside) * ib;
+        let b_right = (c.end_b - inward - aside) * ib;
+        let da = sqrt(max(a2, 1.0e-36));
+        let db = sqrt(max(b2, 1.0e-36));
+        let a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
+        let b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
+        var walk = polygon_begin();
+        walk = capsule_add_arc(walk, c.end_a, c.radius, a_middle, capsule_half_angle(c, -c.at_a, da), a_left, a_right);
+        walk = polygon_add_edge(walk, a_right, b_right);
+        walk = capsule_add_arc(walk, c.end_b, c.radius, b_middle, capsule_half_angle(c, c.at_b, db), b_right, b_left);
+        walk = polygon_add_edge(walk, b_left, a_left);
+        let shows = max(c.end_a.z, c.end_b.z) > -c.radius;
+        let above = polygon_irradiance_vector(walk, !(c.radius <= c.radius));
+        e = select(e, select(vec3f(0.0, 0.0, 0.0), above, shows), cut);
+    }
+    e = vec3f(e.x, e.y, clamp(e.z, 0.0, steradian_pi()));
+    return select(vec3f(0.0, 0.0, 0.0), e, c.outside);
+}
+
+// Irradiance vector of the part of a line above the horizon [1 / m]: the limit of a capsule's over its width 2 radius.
+//
+//   end_a, end_b  from the shading point
+//
+// Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
+// Error: see docs/accuracy.md, "line irradiance". A capsule differs by at most docs/eval.md's bound.
+// Source: as for any linear light; here the limit of capsule_whole_vector.
+fn line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
+    let wa = abs(end_a.z);
+    let wb = abs(end_b.z);
+    let crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, 1.0e-36));
+    let a = select(end_a, crossing, end_a.z < 0.0);
+    let b = select(end_b, crossing, end_b.z < 0.0);
+    let difference = b - a;
+    let span2 = dot(difference, difference);
+    let along = difference * inverseSqrt(max(span2, 1.0e-36));
+    let moment = cross(select(b, a, dot(a, a) < dot(b, b)), along);
+    let height2 = max(dot(moment, moment), 1.0e-36);
+    let height = sqrt(height2);
+    let toward = cross(along, moment) * (1.0 / height);
+    let span = sqrt(span2);
+    let at_a = dot(a, along);
+    let at_b = dot(b, along);
+    let angle = trig_atan2_unwrapped(span * height, height2 + at_a * at_b);
+    var e = capsule_straight_part(along, toward, at_a, at_b, span, height, angle, 1.0) * (1.0 / height);
+    e = vec3f(e.x, e.y, max(e.z, 0.0));
+    return select(e, vec3f(0.0, 0.0, 0.0), end_a.z <= 0.0 && end_b.z <= 0.0);
+}
+
+// Corners about the arc of one end.
+//   center, middle, side  the rim is center + middle cos t + side sin t, vectors from the shading point
+//   half_angle            the arc runs from -half_angle to half_angle [rad]
+//   corners               how many, 1 or more
+//   turn                  (cos, sin) of the place nearest to the lobe
+//   beta                  1: equal steps; below, corners gather there
+//   first, step           of the arc's parameter, half a turn a corner
+struct CapsuleEnd {
+    center: vec3f,
+    middle: vec3f,
+    side: vec3f,
+    half_angle: f32,
+    corners: f32,
+    turn: vec2f,
+    beta: f32,
+    first: f32,
+    step: f32,
+}
+
+// A polygon about a capsule's outline: straight edges stay straight, each arc becomes a chain of corners.
+struct CapsuleFan {
+    a: CapsuleEnd,
+    b: CapsuleEnd,
+}
+
+// Prepares the arc of one end as a single step; capsule_fan divides it.
+//
+//   center      of the ball
+//   middle      unit, across `center`, where the arc's middle lies
+//   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
+fn capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: f32, r: vec3f, width: f32) -> CapsuleEnd {
+    let d2 = max(dot(center, center), 1.0e-36);
+    let inverse = inverseSqrt(d2);
+    let sine = max(radius * inverse, 1.0e-18);
+    let cosine2 = max(1.0 - sine * sine, 1.0e-18);
+    let cosine = sqrt(cosine2);
+    let axis = center * inverse;
+    let side = cross(axis, middle);
+    var end: CapsuleEnd;
+    end.center = center * cosine2;
+    end.middle = middle * (radius * cosine);
+    end.side = side * (radius * cosine);
+    end.half_angle = half_angle;
+
+    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    let along = dot(r, axis);
+    let place = vec2f(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
+    let nearest = clamp(trig_atan2(place.y, place.x), -half_angle, half_angle);
+    end.turn = complex_unit(nearest);
+    let apart = place - end.turn;
+    let blur = min(1.6 * width / sine, 1.0e3);
+    let beta = sqrt(min(0.5 * dot(apart, apart), 1.0e6) + blur * blur);
+    end.beta = select(1.0, clamp(beta, 0.05, 1.0), along > 0.0);
+
+    let low = complex_unit(-0.5 * (half_angle + nearest));
+    let high = complex_unit(0.5 * (half_angle - nearest));
+    end.first = trig_atan2(low.y, end.beta * low.x);
+    end.step = trig_atan2(high.y, end.beta * high.x) - end.first;
+    end.corners = 1.0;
+    return end;
+}
+
+// (cos t, sin t) of corner j of an end, in the middle of its step.
+//
+// The outer ones lie on the straight edges' continuation and keep within 0.35 of the arc's ends: of 0.35, 0.5 and 0.7 the one
+// with the smallest errors in the test CapsulePolygons.
+fn capsule_corner(end: CapsuleEnd, j: f32) -> vec2f {
+    let u = complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
+    let w = complex_sign(vec2f(u.x, end.beta * u.y));
+    var corner = complex_product(complex_product(w, w), end.turn);
+    let last = complex_unit(end.half_angle);
+    let limit = vec2f(0.939372712847378920, 0.342897807455451364);  // (cos, sin) of 0.35
+    let outer_low = j < 0.5;
+    let outer_high = j > end.corners - 1.5;
+    let low = vec2f(last.x, -last.y);
+    corner = select(corner, complex_product(low, limit), outer_low && dot(corner, low) < limit.x);
+    corner = select(corner, complex_product(last, vec2f(limit.x, -limit.y)), outer_high && dot(corner, last) < limit.x);
+    return select(corner, vec2f(1.0, 0.0), outer_low && outer_high);
+}
+
+// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
+// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+//
+//   joint    (cos, sin) of the arc's end behind the neighbour
+fn capsule_gap(corner: vec2f, neighbour: vec2f, joint: vec2f, outer: bool) -> f32 {
+    let cosine = dot(corner, neighbour);
+    var sine = abs(corner.x * neighbour.y - corner.y * neighbour.x);
+    let angle = clamp(trig_atan2(sine, cosine), 0.0, 2.6);
+    sine = select(0.515501371821464235, sine, cosine > -0.856888753368947234);
+    let even = select(angle / max(sine, 1.0e-4), 1.0, angle < 1.0e-3);
+    let c = max(dot(neighbour, joint), 0.5);
+    let s = abs(neighbour.x * joint.y - neighbour.y * joint.x);
+    var given = (even + (trig_atan2(s, c) - s / c) / max(sine, 1.0e-4)) * c;
+    given = select(max(given, 0.5), 1.0, angle < 1.0e-3);
+    return select(even, given * given, outer);
+}
+
+// Corner j of an end, as a vector from the shading point.
+fn capsule_end_corner(end: CapsuleEnd, j: f32) -> vec3f {
+    let here = capsule_corner(end, j);
+    let last = complex_unit(end.half_angle);
+    let low = vec2f(last.x, -last.y);
+    let outer_low = j < 0.5;
+    let outer_high = j > end.corners - 1.5;
+    let before = capsule_gap(here, capsule_corner(end, j - 1.0), low, j < 1.5);
+    let after = capsule_gap(here, capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
+    let even = sqrt(0.5 * (before + after));
+    let outer = 1.0 / max(dot(here, select(last, low, outer_low)), 0.5);
+    let radius = select(even, outer, outer_low || outer_high);
+    return end.center + (end.middle * here.x + end.side * here.y) * radius;
+}
+
+// Prepares a polygon about a capsule.
+//
+//   c        prepared; the point is outside
+//   r        unit axis of the lobe
+//   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
+//   count    of all corners, 6 or more; each end has its share of the steps, at least one
+fn capsule_fan(c: Capsule, r: vec3f, width: f32, count: i32) -> CapsuleFan {
+    let da = sqrt(max(dot(c.end_a, c.end_a), 1.0e-36));
+    let db = sqrt(max(dot(c.end_b, c.end_b), 1.0e-36));
+    let angle_a = capsule_half_angle(c, -c.at_a, da);
+    let angle_b = capsule_half_angle(c, c.at_b, db);
+    let a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
+    let b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
+    var fan: CapsuleFan;
+    fan.a = capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
+    fan.b = capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
+    let share = fan.a.step / max(fan.a.step + fan.b.step, 1.0e-18);
+    fan.a.corners = 1.0 + floor(0.5 + f32(count - 2) * share);
+    fan.b.corners = f32(count) - fan.a.corners;
+    fan.a.step = fan.a.step / fan.a.corners;
+    fan.b.step = fan.b.step / fan.b.corners;
+    return fan;
+}
+
+// Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
+// corners of the two ends lie in different planes.
+//
+// Error: see docs/ggx.md, "Round lights".
+fn capsule_fan_corner(fan: CapsuleFan, k: i32) -> vec3f {
+    let first = f32(k) < fan.a.corners;
+    var end: CapsuleEnd;
+    end.center = select(fan.b.center, fan.a.center, first);
+    end.middle = select(fan.b.middle, fan.a.middle, first);
+    end.side = select(fan.b.side, fan.a.side, first);
+    end.half_angle = select(fan.b.half_angle, fan.a.half_angle, first);
+    end.corners = select(fan.b.corners, fan.a.corners, first);
+    end.turn = select(fan.b.turn, fan.a.turn, first);
+    end.beta = select(fan.b.beta, fan.a.beta, first);
+    end.first = select(fan.b.first, fan.a.first, first);
+    end.step = select(fan.b.step, fan.a.step, first);
+    return capsule_end_corner(end, select(f32(k) - fan.a.corners, f32(k), first));
 }
 
 // ==== ellipsoid ====
@@ -1706,156 +2253,6 @@ fn moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, share: f32, 
     let n2 = dot(n, n);
     let inward = dot(n, v) * inverseSqrt(max(n2, 1.0e-30));
     return dot(r, v) * share + select(0.0, inward * cosines, n2 > 1.0e-30);
-}
-
-// ==== polygon ====
-
-// Irradiance and solid angle of polygonal lights: the boundary integrals of Lambert and Girard.
-//
-// A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
-// way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
-// point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
-
-// The state of a walk.
-//   edges    sum over the edges, each clipped to the horizon, of half its angle times its plane's unit normal [rad]
-//   horizon  product of unit complex numbers: its angle is the arc of the horizon that closes the clipped outline
-struct PolygonWalk {
-    edges: vec3f,
-    horizon: vec2f,
-}
-
-// Unit direction of a vertex.
-//
-//   v        vertex relative to the shading point, any unit of length
-//
-// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
-// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
-fn polygon_direction(v: vec3f) -> vec3f {
-    let d2 = dot(v, v);
-    let scale = select(0.0, inverseSqrt(max(d2, 1.0e-36)), d2 < 1.0e36);
-    return v * scale;
-}
-
-// Irradiance vector of one edge: half the edge's angle times its plane's unit normal [rad].
-//
-//   a, b     unit directions of the edge's ends, in walk order
-//   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
-//
-// Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge".
-// Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
-// determined form-factors", 1989, eq. 6.
-fn polygon_edge(a: vec3f, b: vec3f) -> vec3f {
-    let n = cross(a, b);
-    let f = trig_angle_over_sine(dot(a, b), dot(n, n));
-    return n * (0.5 * f);
-}
-
-// A walk before its first edge: no edges, and a horizon of angle 0.
-fn polygon_begin() -> PolygonWalk {
-    var walk: PolygonWalk;
-    walk.edges = vec3f(0.0, 0.0, 0.0);
-    walk.horizon = vec2f(1.0, 0.0);
-    return walk;
-}
-
-// Adds one edge, clipped to the horizon z = 0.
-//
-//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
-//
-// What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
-// these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
-// counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
-fn polygon_add_edge(walk: PolygonWalk, a: vec3f, b: vec3f) -> PolygonWalk {
-    var next = walk;
-    let a_below = a.z < 0.0;
-    let b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        var start = a;
-        var end = b;
-        if (a_below || b_below) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
-            let wa = abs(b.z);
-            let wb = abs(a.z);
-            var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
-            let crossing = vec3f(p.x, p.y, 0.0);
-            start = select(a, crossing, a_below);
-            end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
-            let crosses = (a_below && !b_below) || (b_below && !a_below);
-            let y = select(-p.y, p.y, a_below);  // coming up: the azimuth; going down: its conjugate
-            let h = walk.horizon;
-            next.horizon = select(h, vec2f(h.x * p.x - h.y * y, h.x * y + h.y * p.x), crosses);
-        }
-        next.edges = walk.edges + polygon_edge(start, end);
-    }
-    return next;
-}
-
-// Irradiance vector of the part of the light above the horizon [sr times radiance 1].
-//
-//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
-//   returns  in the shading frame; z is the irradiance, the direction is where the light is, seen on average
-//
-// Degenerate: a point in the light's plane gives 0 up to rounding.
-fn polygon_irradiance_vector(walk: PolygonWalk, reversed: bool) -> vec3f {
-    let facing = select(1.0, -1.0, reversed);
-    var arc = 0.0;
-    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
-        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
-    }
-    let e = walk.edges * facing;
-    return vec3f(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
-}
-
-// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
-//
-// Error: see docs/accuracy.md, "polygon irradiance".
-fn polygon_irradiance(walk: PolygonWalk, reversed: bool) -> f32 {
-    let e = polygon_irradiance_vector(walk, reversed);
-    return e.z;
-}
-
-// The state of a solid angle's walk: a product of complex numbers, each with half a triangle's solid angle.
-struct SolidAngleWalk {
-    first: vec3f,
-    product: vec2f,
-}
-
-// Starts at a vertex.
-//
-//   first    unit direction of any vertex of the light
-fn solid_angle_begin(first: vec3f) -> SolidAngleWalk {
-    var walk: SolidAngleWalk;
-    walk.first = first;
-    walk.product = vec2f(1.0, 0.0);
-    return walk;
-}
-
-// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
-//
-// Degenerate: a triangle without area has a real factor and adds nothing.
-// Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
-fn solid_angle_add_edge(walk: SolidAngleWalk, a: vec3f, b: vec3f) -> SolidAngleWalk {
-    var next = walk;
-    var re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
-    var im = dot(walk.first, cross(a, b));
-    let scale = inverseSqrt(max(re * re + im * im, 1.0e-36));
-    re = re * scale;
-    im = im * scale;
-    let p = walk.product;
-    next.product = vec2f(p.x * re - p.y * im, p.x * im + p.y * re);
-    return next;
-}
-
-// Solid angle of a plane light, in [0, 2 pi] [sr].
-//
-//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
-//
-// Error: see docs/accuracy.md, "polygon solid angle".
-fn solid_angle_finish(walk: SolidAngleWalk, reversed: bool) -> f32 {
-    let y = select(walk.product.y, -walk.product.y, reversed);
-    return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
 }
 
 // ==== half_vector ====

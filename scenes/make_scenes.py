@@ -378,6 +378,28 @@ def textured_floor(color=window_color, strips=ROUGHNESS_OF_STRIPS):
     return g
 
 
+def tubes():
+    """Three tubes of light over a floor that grows rougher to the right, before a diffuse wall: one leans, one stands, one lies."""
+    g = Gltf()
+    widths = (0.15, 0.3, 0.5)
+    for i, roughness in enumerate(widths):
+        x = -3.0 + 2.0 * i
+        g.node("strip %d" % (i + 1), mesh=g.mesh("strip %d" % (i + 1), plate((x, 0, 3), (x + 2, 0, 3), (x + 2, 0, -2), (x, 0, -2)),
+                                                 g.material("roughness %g" % roughness, (0.5, 0.5, 0.52), 1.0, roughness)))
+    g.node("wall", mesh=g.mesh("wall", plate((-3, 0, -2), (3, 0, -2), (3, 3, -2), (-3, 3, -2)), g.diffuse("wall", (0.7, 0.68, 0.64))))
+    ball = g.mesh("ball", sphere(), g.diffuse("plaster", (0.75, 0.73, 0.7)))
+    g.node("ball", mesh=ball, translation=[0.55, 0.35, -0.9], scale=[0.35, 0.35, 0.35])
+    c, s = math.cos(math.pi / 6), math.sin(math.pi / 6)  # half the angle of 60 degrees about z
+    g.area_light("leaning", {"type": "capsule", "color": [1.0, 0.75, 0.5], "intensity": 14.0, "size": 0.1, "capsule": {"length": 1.8}},
+                 translation=[-1.7, 1.1, -1.2], rotation=[0.0, 0.0, s, c])
+    g.area_light("standing", {"type": "capsule", "color": [0.5, 0.7, 1.0], "intensity": 10.0, "size": 0.16, "capsule": {"length": 0.9}},
+                 translation=[1.9, 0.65, -1.0], rotation=[0.0, 0.0, HALF, HALF])
+    g.area_light("lying", {"type": "capsule", "color": [1.0, 0.95, 0.9], "intensity": 30.0, "size": 0.04, "capsule": {"length": 1.6}},
+                 translation=[0.3, 1.9, -1.2])
+    g.camera("main", [0.0, 1.5, 5.6], [0.0, 0.9, -0.6], 0.6)
+    return g
+
+
 def ring():
     g = Gltf()
     g.node("floor", mesh=g.mesh("floor", plate((-9, 0, 6), (9, 0, 6), (9, 0, -9), (-9, 0, -9)), g.diffuse("floor", (0.7, 0.68, 0.65))))
@@ -456,7 +478,8 @@ def arcade():
     return g
 
 
-SCENES = {"gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "ring": ring, "arcade": arcade}
+SCENES = {"gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
+          "ring": ring, "arcade": arcade}
 
 
 def main():

@@ -1,4 +1,4 @@
-// AreaLight: a light of a scene with an extent: a polygon, a disk (or ellipse), a sphere (or ellipsoid).
+// AreaLight: a light of a scene with an extent: a polygon, a disk (or ellipse), a sphere (or ellipsoid), a capsule (a tube).
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace steradian {
 
-enum class LightShape { polygon, disk, sphere };
+enum class LightShape { polygon, disk, sphere, capsule };
 
 // Texture coordinates of a textured flat light: u = dot(p - origin, du) + u0, v likewise.
 struct LightTexture {
@@ -24,20 +24,31 @@ struct LightTexture {
 struct AreaLight {
   std::string name;
   LightShape shape = LightShape::polygon;
-  // polygon: the light. disk: the equal-area 64-gon that stands in for it. sphere: no vertices (its outline
-  // depends on the point: silhouette_polygon), but radiance and two_sided hold.
+  // polygon: the light. disk: the equal-area 64-gon that stands in for it. sphere, capsule: no vertices (their outline
+  // depends on the point: polygon_seen_from), but radiance and two_sided hold.
   PolygonLight polygon;
   // disk: conjugate half axes x, y (x cross y points to the lit side). sphere: half axes x, y, z of the
-  // ellipsoid.
+  // ellipsoid. capsule: the segment from center - x to center + x.
   Vec3d center, x, y, z;
+  double radius = 0;                    // capsule
   std::optional<LightTexture> texture;  // polygon only; polygon.radiance is then the mean
   double power = 0;                     // luminance of the radiance times area: what max_lights ranks by
+
+  bool is_solid() const { return shape == LightShape::sphere || shape == LightShape::capsule; }
 };
 
 // A planar ellipse: points center + x cos t + y sin t.
 struct Ellipse {
   Vec3d center, x, y;
 };
+
+// A tube: all points within the radius of the segment between the ends.
+struct Capsule {
+  Vec3d end_a, end_b;
+  double radius = 0;
+};
+
+Capsule capsule_of(const AreaLight& light);
 
 // K-gon of the ellipse's area (all vertices pushed out by one factor), in stored order: counter-clockwise as
 // seen from the side to which x cross y points. vertices >= 3.
@@ -48,8 +59,8 @@ PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vert
 // ellipsoid without volume.
 std::optional<Ellipse> silhouette(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position);
 
-// The flat light that a point sees in place of `light`: its polygon, for a sphere the equal-area polygon of
-// its silhouette (no vertices from inside).
+// The flat light that a point sees in place of `light`: its polygon, for a sphere or capsule the equal-area polygon of
+// its outline (no vertices from inside).
 PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int vertices = 64);
 
 // Radiance of a textured light at a point of its plane.

@@ -80,6 +80,8 @@ struct Kernels {
 
 #include "ellipse.glsl"
 
+#include "capsule.glsl"
+
 #include "indirect.glsl"
 
 #include "plane.glsl"

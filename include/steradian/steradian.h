@@ -6,6 +6,7 @@
 #include "steradian/kernels.h"
 #include "steradian/albedo.h"
 #include "steradian/closed_form.h"
+#include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
 #include "steradian/load_scene.h"

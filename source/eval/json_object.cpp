@@ -129,17 +129,22 @@ Vec3d read_colour(Problems& problems, const Place& place, Json value) {
   return {x, x, x};
 }
 
-std::vector<Vec3d> read_contour(Problems& problems, const Place& place, Json value) {
-  std::vector<Vec3d> contour;
+std::optional<std::vector<Vec3d>> read_points(Problems& problems, const Place& place, const char* wants, Json value) {
   simdjson::dom::array array;
   if (value.get(array) != simdjson::SUCCESS) {
-    wrong_type(problems, place, "a list of vertices", value);
-    return contour;
+    wrong_type(problems, place, wants, value);
+    return {};
   }
-  for (const Json vertex : array) contour.push_back(read_vector(problems, place.at(contour.size()), vertex));
-  if (contour.size() < 3)
-    problems.add(place, "a polygon needs at least 3 vertices, here are " + std::to_string(contour.size()));
-  return contour;
+  std::vector<Vec3d> points;
+  for (const Json point : array) points.push_back(read_vector(problems, place.at(points.size()), point));
+  return points;
+}
+
+std::vector<Vec3d> read_contour(Problems& problems, const Place& place, Json value) {
+  const auto contour = read_points(problems, place, "a list of vertices", value);
+  if (contour && contour->size() < 3)
+    problems.add(place, "a polygon needs at least 3 vertices, here are " + std::to_string(contour->size()));
+  return contour.value_or(std::vector<Vec3d>{});
 }
 
 }  // namespace steradian::eval

@@ -119,6 +119,8 @@ std::string_view read_string(Problems& problems, const Place& place, Json value)
 Vec3d read_vector(Problems& problems, const Place& place, Json value);
 Vec3d read_direction(Problems& problems, const Place& place, Json value);  // made unit; zero is a problem
 Vec3d read_colour(Problems& problems, const Place& place, Json value);     // a number or [r,g,b], not negative
+// None where it is no list; wants is what a message says was expected.
+std::optional<std::vector<Vec3d>> read_points(Problems& problems, const Place& place, const char* wants, Json value);
 std::vector<Vec3d> read_contour(Problems& problems, const Place& place, Json value);
 
 }  // namespace steradian::eval

@@ -15,6 +15,7 @@ struct LightKeys {
   PolygonLight polygon;
   Vec3d center, x, y, z;
   double radius = 0;
+  Capsule shape;  // without its radius
   PointLight point_light;
 };
 
@@ -51,6 +52,17 @@ constexpr LightField kPolygonFields[] = {
 constexpr LightField kRectFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kRadiance, kTwoSided};
 constexpr LightField kSphereFields[] = {kCenter, kRadius, kRadiance};
 constexpr LightField kEllipsoidFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kHalfAxisZ, kRadiance};
+constexpr LightField kCapsuleFields[] = {
+    {"ends",
+     [](Problems& p, const Place& at, Json v, LightKeys& k) {
+       const auto ends = read_points(p, at, "a list of two points", v);
+       if (ends && ends->size() != 2) p.add(at, "expected 2 points, found " + std::to_string(ends->size()));
+       if (ends && ends->size() == 2) k.shape = {(*ends)[0], (*ends)[1], 0};
+     },
+     true},
+    kRadius,
+    kRadiance,
+};
 constexpr LightField kPointFields[] = {
     {"position",
      [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
@@ -75,6 +87,9 @@ Light sphere_of(LightKeys&& k) {
   k.z = {0, 0, k.radius};
   return ellipsoid_of(std::move(k));
 }
+Light capsule_of(LightKeys&& k) {
+  return CapsuleLight{{k.shape.end_a, k.shape.end_b, k.radius}, k.polygon.radiance};
+}
 Light point_of(LightKeys&& k) { return k.point_light; }
 
 struct LightRow {
@@ -88,6 +103,7 @@ constexpr LightRow kLights[] = {
     {"disk", kRectFields, disk_of},
     {"sphere", kSphereFields, sphere_of},
     {"ellipsoid", kEllipsoidFields, ellipsoid_of},
+    {"capsule", kCapsuleFields, capsule_of},
     {"point", kPointFields, point_of},
 };
 

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "eval/capsule_light.h"
 #include "eval/methods.h"
 #include "eval/round_light.h"
 #include "steradian/material.h"
@@ -20,7 +21,7 @@ struct PointLight {
   Vec3d intensity{1, 1, 1};  // W/sr or candela, linear RGB
 };
 
-using Light = std::variant<PolygonLight, RoundLight, PointLight>;
+using Light = std::variant<PolygonLight, RoundLight, CapsuleLight, PointLight>;
 
 struct Query {
   Light light;

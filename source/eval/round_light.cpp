@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eval/outline_answer.h"
 #include "eval/point_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/error.h"
@@ -11,7 +12,6 @@ namespace steradian::eval {
 namespace {
 
 constexpr double kPi = 3.14159265358979324;
-constexpr int kFineVertices = 1024;
 
 // The light from the point, in units in which its largest number is 1: no square leaves the range of double.
 RoundLight seen_from(const RoundLight& light, Vec3d position) {
@@ -25,32 +25,6 @@ RoundLight seen_from(const RoundLight& light, Vec3d position) {
   if (!(largest > 0)) return seen;
   for (Vec3d* v : {&seen.center, &seen.x, &seen.y, &seen.z}) *v = *v / largest;
   return seen;
-}
-
-PolygonLight polygon_of(const Ellipse& outline, const RoundLight& light, const ShadingPoint& at, const Material& m,
-                        const MethodOptions& options) {
-  const int vertices = options.quality == Quality::high ? 16 : 12;
-  PolygonLight polygon = polygon_for_lobe(outline, {}, lobe_axis(m, at), vertices);
-  polygon.radiance = light.radiance;
-  return polygon;
-}
-
-LobeAnswer form_factor(const Ellipse& outline, const RoundLight& light, const ShadingPoint& at, const Material& m,
-                       const MethodOptions& options) {
-  const double irradiance = options.precision == Precision::float_
-                                ? static_cast<double>(ellipse_irradiance_float(outline, {}, at.normal))
-                                : ellipse_irradiance(outline, {}, at.normal);
-  LobeAnswer answer;
-  answer.radiance = light.radiance * m.albedo * (irradiance / kPi);
-  return answer;
-}
-
-// 0 as the method says it.
-LobeAnswer nothing(Method method) {
-  LobeAnswer answer;
-  if (method == Method::reference) answer.bound = 0.0;
-  if (method == Method::sampled) answer.standard_error = 0.0;
-  return answer;
 }
 
 }  // namespace
@@ -69,7 +43,11 @@ LobeAnswer round_light_answer(const RoundLight& light, const ShadingPoint& there
   const ShadingPoint at = {{}, there.normal, there.view};
   const std::optional<Ellipse> outline = outline_of(seen);
   if (!outline) return nothing(entry.method);
-  if (m.brdf == Brdf::lambert && entry.method == Method::exact) return form_factor(*outline, light, at, m, options);
+  if (m.brdf == Brdf::lambert && entry.method == Method::exact)
+    return lambert_answer(options.precision == Precision::float_
+                              ? static_cast<double>(ellipse_irradiance_float(*outline, {}, at.normal))
+                              : ellipse_irradiance(*outline, {}, at.normal),
+                          light.radiance, m);
 
   // A light of a billionth of its distance is one direction; the vertices of its polygon would be rounded to one place.
   if (length(outline->x) + length(outline->y) < 1e-9 * length(outline->center)) {
@@ -80,19 +58,9 @@ LobeAnswer round_light_answer(const RoundLight& light, const ShadingPoint& there
     return answer;
   }
 
-  const auto by_fine_polygon = [&](int vertices) {
-    return entry.polygon(prepare_polygon(equal_area_polygon(*outline, light.radiance, vertices)), at, m, options);
-  };
-  if (entry.method == Method::reference) {
-    LobeAnswer answer = by_fine_polygon(kFineVertices);
-    // The error falls with the square of the number at least: what is left is at most a third of the difference.
-    const Vec3d change = answer.radiance - by_fine_polygon(kFineVertices / 2).radiance;
-    const double largest = std::max({std::fabs(change.x), std::fabs(change.y), std::fabs(change.z)});
-    answer.bound = answer.bound.value_or(0.0) + largest;
-    return answer;
-  }
-  if (entry.method == Method::exact || entry.method == Method::sampled) return by_fine_polygon(kFineVertices);
-  return entry.polygon(prepare_polygon(polygon_of(*outline, light, at, m, options)), at, m, options);
+  return outline_answer([&](const LobeAxis& lobe, int vertices) { return polygon_for_lobe(*outline, {}, lobe, vertices); },
+                        [&](int vertices) { return equal_area_polygon(*outline, light.radiance, vertices); }, light.radiance,
+                        at, m, entry, options);
 }
 
 }  // namespace steradian::eval

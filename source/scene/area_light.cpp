@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "steradian/capsule_light.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -45,8 +46,15 @@ std::optional<Ellipse> silhouette(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d
   return result;
 }
 
+Capsule capsule_of(const AreaLight& light) { return {light.center - light.x, light.center + light.x, light.radius}; }
+
 PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int vertices) {
-  if (light.shape != LightShape::sphere) return light.polygon;
+  if (!light.is_solid()) return light.polygon;
+  if (light.shape == LightShape::capsule) {
+    PolygonLight seen = polygon_of_equal_steps(capsule_of(light), position, vertices);
+    seen.radiance = light.polygon.radiance;
+    return seen;
+  }
   const auto outline = silhouette(light.center, light.x, light.y, light.z, position);
   if (outline) return equal_area_polygon(*outline, light.polygon.radiance, vertices);
   PolygonLight nothing;

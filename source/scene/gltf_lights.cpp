@@ -78,8 +78,17 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     light.y = world.y * half;
     light.z = world.z * half;
     area = ellipsoid_area(light.x, light.y, light.z);
+  } else if (type == "capsule") {
+    // Along the node's x. Across it the tube stays round: with the geometric mean of the node's two scales there.
+    const auto capsule = json.find("capsule");
+    const double between = capsule ? capsule->number("length", 1, 0, 1e30) : 1;
+    light.shape = LightShape::capsule;
+    light.center = world.t;
+    light.x = world.x * (between / 2);
+    light.radius = half * std::sqrt(length(world.y)) * std::sqrt(length(world.z));
+    area = 4 * kPi * light.radius * (light.radius + length(light.x));
   } else {
-    json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk and sphere");
+    json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk, sphere and capsule");
   }
   light.polygon.radiance = radiance;
   light.power = luminance(radiance) * area;
@@ -135,10 +144,34 @@ Mesh ellipsoid_mesh(const AreaLight& light) {
   return mesh;
 }
 
+// Two half balls and the wall between them.
+Mesh capsule_mesh(const AreaLight& light) {
+  constexpr std::uint32_t kAround = 64, kRows = 34;  // two of the rows are the wall's rims
+  const Frame frame = length(light.x) > 0 ? Frame::from_normal(normalized(light.x)) : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Mesh mesh;
+  for (std::uint32_t j = 0; j < kRows; ++j)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const bool second = j >= kRows / 2;
+      const double theta = kPi * (second ? j - 1 : j) / (kRows - 2), phi = 2 * kPi * i / kAround;
+      const Vec3d u = frame.to_world({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+      mesh.positions.push_back(static_cast<Vec3f>(light.center + (second ? -light.x : light.x) + u * light.radius));
+      mesh.normals.push_back(static_cast<Vec3f>(u));
+    }
+  for (std::uint32_t j = 0; j + 1 < kRows; ++j)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const std::uint32_t a = j * kAround + i, b = j * kAround + (i + 1) % kAround, c = a + kAround, d = b + kAround;
+      if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, c, b});
+      if (j + 2 < kRows) mesh.indices.insert(mesh.indices.end(), {b, c, d});
+    }
+  return mesh;
+}
+
 }  // namespace
 
 Mesh mesh_of_light(const AreaLight& light) {
-  Mesh mesh = light.shape == LightShape::sphere ? ellipsoid_mesh(light) : flat_mesh(light.polygon);
+  Mesh mesh = light.shape == LightShape::sphere    ? ellipsoid_mesh(light)
+              : light.shape == LightShape::capsule ? capsule_mesh(light)
+                                                   : flat_mesh(light.polygon);
   mesh.name = light.name;
   mesh.is_light_shape = true;
   return mesh;

@@ -12,7 +12,7 @@ void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene
 
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes);
 
-// The triangles of a light's shape: a fan for flat ones, 64 x 32 quadrilaterals for an ellipsoid.
+// The triangles of a light's shape: a fan for flat ones, 64 x 32 quadrilaterals for an ellipsoid, 64 x 33 for a capsule.
 Mesh mesh_of_light(const AreaLight& light);
 
 }  // namespace steradian

@@ -348,6 +348,29 @@ TEST(LoadScene, ReadsDisksAndSpheresUnderUnevenScale) {
   EXPECT_GT(signed_area(sphere.scene.meshes[1]), 0) << "faces outwards";
 }
 
+TEST(LoadScene, ReadsCapsulesAlongX) {
+  const LoadedScene loaded = load(with_area_light(
+      {{"type", "capsule"}, {"size", 0.2}, {"capsule", {{"length", 3}}}, {"intensity", 2}},
+      {{"scale", {2, 4, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {0, 5, 0}}}));
+  ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
+  const AreaLight& light = loaded.scene.area_lights[0];
+  EXPECT_EQ(light.shape, LightShape::capsule);
+  expect_near(capsule_of(light).end_a, {0, 2, 0}, 1e-12);
+  expect_near(capsule_of(light).end_b, {0, 8, 0}, 1e-12);
+  EXPECT_NEAR(light.radius, 0.2, 1e-12) << "0.1 times the geometric mean of 4 and 1";
+  const double area = 2 * std::numbers::pi * 0.2 * 6 + 4 * std::numbers::pi * 0.04;
+  EXPECT_NEAR(light.power, 2 * area, 1e-12);
+  // Facing outwards, each triangle: 64 x 33 quadrilaterals inscribed lose (pi / 64)^2 * 2/3 of the area at most.
+  EXPECT_NEAR(signed_area(loaded.scene.meshes[1]) / area, 1, 0.002);
+  EXPECT_LT(signed_area(loaded.scene.meshes[1]), area);
+
+  const LoadedScene line = load(with_area_light({{"type", "capsule"}, {"size", 0}}, json::object()));
+  for (const AreaLight& l : line.scene.area_lights) EXPECT_NE(l.shape, LightShape::capsule) << "a line has no area";
+  const LoadedScene ball = load(with_area_light({{"type", "capsule"}, {"size", 2}, {"capsule", {{"length", 0}}}}, json::object()));
+  ASSERT_EQ(ball.scene.area_lights.size(), 1u);
+  EXPECT_NEAR(ball.scene.area_lights[0].power, 4 * std::numbers::pi, 1e-12);
+}
+
 TEST(LoadScene, MergesAnEmissiveSquareIntoOneLight) {
   GltfTestFile f = GltfTestFile::square();
   f.material() = {{"emissiveFactor", {1, 1, 1}},

@@ -34,12 +34,12 @@ protected:
 };
 
 TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
-  for (const std::string name : {"gallery", "plane", "ring", "diffuse_floor", "glossy_floor", "textured_floor"}) {
+  for (const std::string name : {"gallery", "plane", "ring", "diffuse_floor", "glossy_floor", "textured_floor", "tubes"}) {
     const std::string checked_in = bytes_of(kScenes + "/" + name + ".glb");
     EXPECT_FALSE(checked_in.empty()) << name;
     EXPECT_LT(checked_in.size(), 1'000'000u) << name;
     EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb"))
-        << name << ": run scenes/make_scenes.py scenes gallery plane ring diffuse_floor glossy_floor textured_floor";
+        << name << ": run scenes/make_scenes.py scenes gallery plane ring diffuse_floor glossy_floor textured_floor tubes";
   }
 }
 
@@ -62,12 +62,17 @@ TEST_F(OwnScenes, HaveTheLightsAndSizesTheyAreMadeFor) {
   EXPECT_NEAR(quad.normal.z, 1, 1e-9);
   EXPECT_NEAR(plane.cameras[0].position.z, 6, 1e-12);
 
+  const Scene tubes = made("tubes");
+  ASSERT_EQ(tubes.area_lights.size(), 3u);
+  for (const AreaLight& light : tubes.area_lights) EXPECT_EQ(light.shape, LightShape::capsule);
+  EXPECT_NEAR(tubes.area_lights[1].x.y, 0.45, 1e-6) << "the second stands";
+
   EXPECT_EQ(made("ring").punctual_lights.size(), 1u);
   EXPECT_GE(made("arcade").triangle_count(), 200'000u);
 }
 
 TEST_F(OwnScenes, HaveTrianglesThatFaceWhereTheirNormalsPoint) {
-  for (const char* name : {"gallery", "plane", "ring", "arcade"})
+  for (const char* name : {"gallery", "plane", "tubes", "ring", "arcade"})
     for (const Mesh& mesh : made(name).meshes) {
       std::size_t against = 0;
       for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -15,7 +15,7 @@
 //   log(low, high)                 positive, its logarithm uniform
 //   signed_log(low, high)          the same with either sign
 //   integer(low, high)             whole numbers
-// Needs: inverse_trig.glsl, frame.glsl, polygon.glsl, lambert.glsl, phong.glsl, microfacet.glsl, ellipsoid.glsl, plane.glsl, horizon_clip.glsl, moment.glsl, moment_series.glsl, moment_cosine.glsl, moment_arvo.glsl, moment_quadrature.glsl, moment_peak_fits.glsl, lobe_product.glsl, ltc.glsl, ltc_clipless.glsl, representative_point.glsl, complex.glsl, quartic.glsl, gauss_legendre.glsl, conic.glsl, ellipse.glsl, ggx_closed_form.glsl, ggx_cubature.glsl, half_vector.glsl, ltc_texture.glsl, indirect.glsl
+// Needs: inverse_trig.glsl, frame.glsl, polygon.glsl, lambert.glsl, phong.glsl, microfacet.glsl, ellipsoid.glsl, plane.glsl, horizon_clip.glsl, moment.glsl, moment_series.glsl, moment_cosine.glsl, moment_arvo.glsl, moment_quadrature.glsl, moment_peak_fits.glsl, lobe_product.glsl, ltc.glsl, ltc_clipless.glsl, representative_point.glsl, complex.glsl, quartic.glsl, gauss_legendre.glsl, conic.glsl, ellipse.glsl, capsule.glsl, ggx_closed_form.glsl, ggx_cubature.glsl, half_vector.glsl, ltc_texture.glsl, indirect.glsl
 // Topics: case
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -860,6 +860,43 @@ vec4 case_ellipse_corner(CaseInput i) {
 vec4 case_ellipse_corner_concentrated(CaseInput i) {
     Ellipse e = ellipse_prepare(case_xyz(i.a), case_xyz(i.b), case_xyz(i.c));
     return case_of_vec3(ellipse_fan_corner(ellipse_fan_concentrated(e, case_xyz(i.d), i.a.w), 3, 8));
+}
+
+// Where the rim of an end only just meets the horizon, error analysis cannot tell on which side of a root's 0 it is.
+
+// capsule, irradiance vector
+//   a.xyz  vector(1, 5)
+//   b.xyz  vector(1, 5)
+//   c.x    log(0.01, 0.5)
+// Values: 3
+// Bound: statistical
+vec4 case_capsule_irradiance(CaseInput i) {
+    return case_of_vec3(capsule_irradiance_vector(capsule_prepare(case_xyz(i.a), case_xyz(i.b), i.c.x)));
+}
+
+// line, irradiance vector
+//   a.xyz  vector(1, 5)
+//   b.xyz  vector(1, 5)
+// Values: 3
+vec4 case_line_irradiance(CaseInput i) {
+    return case_of_vec3(line_irradiance_vector(case_xyz(i.a), case_xyz(i.b)));
+}
+
+// capsule, corners of a polygon gathered about a lobe
+//   a.xyz  vector(1, 5)
+//   b.xyz  vector(1, 5)
+//   c.x    log(0.1, 0.5)
+//   d.xyz  direction
+//   a.w    range(0.1, 1)
+// Values: 3
+vec4 case_capsule_corner(CaseInput i) {
+    CapsuleFan fan = capsule_fan(capsule_prepare(case_xyz(i.a), case_xyz(i.b), i.c.x), case_xyz(i.d), i.a.w, 12);
+    // Five and seven corners: how many the fan gives each end is rounded to a whole number, and may be either.
+    fan.a.step = fan.a.step * (fan.a.corners * 0.2);
+    fan.b.step = fan.b.step * (fan.b.corners * 0.142857142857142857);
+    fan.a.corners = 5.0;
+    fan.b.corners = 7.0;
+    return case_of_vec3(capsule_fan_corner(fan, 1) + capsule_fan_corner(fan, 7));
 }
 
 // GGX, the image of an edge: half vectors on it

@@ -39,10 +39,21 @@ PackLight from_disk(const AreaLight& a) {
   return light;
 }
 
+PackLight from_capsule(const AreaLight& a) {
+  PackLight light;
+  light.kind = PackLight::Kind::capsule;
+  light.radiance = single(a.polygon.radiance);
+  light.end_a = single(capsule_of(a).end_a);
+  light.end_b = single(capsule_of(a).end_b);
+  light.radius = static_cast<float>(a.radius);
+  return light;
+}
+
 PackLight from_area_light(const AreaLight& a) {
   switch (a.shape) {
     case LightShape::disk: return from_disk(a);
     case LightShape::sphere: return from_ellipsoid(a);
+    case LightShape::capsule: return from_capsule(a);
     case LightShape::polygon: break;
   }
   return prepare_light(prepare_polygon(a.polygon));
@@ -123,6 +134,9 @@ bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
         if (largest_height(v, positions, normals) > 0) return true;
       }
       return false;
+    case PackLight::Kind::capsule:
+      return std::max(largest_height(light.end_a, positions, normals), largest_height(light.end_b, positions, normals)) >
+             -light.radius;
     case PackLight::Kind::point:
     case PackLight::Kind::spot: return largest_height(light.position, positions, normals) > 0;
     case PackLight::Kind::directional: {
@@ -154,6 +168,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene) {
     PackLight light = from_area_light(a);
     light.area = &a;
     if (light.kind == PackLight::Kind::polygon && light.vertices.empty()) continue;
+    if (light.kind == PackLight::Kind::capsule && !(light.radius > 0)) continue;
     if (!is_finite(light.unit_x) || !is_finite(light.plane_normal) || !shines(light.radiance)) continue;
     if (a.texture && a.texture->use.present())
       light.textured = std::make_shared<TexturedLight>(a, light.polygon, scene.images);

@@ -12,10 +12,10 @@ namespace steradian {
 class TexturedLight;
 
 struct PackLight {
-  enum class Kind { polygon, ellipse, ellipsoid, point, spot, directional };
+  enum class Kind { polygon, ellipse, ellipsoid, capsule, point, spot, directional };
   Kind kind = Kind::polygon;
   bool is_area() const { return kind == Kind::polygon || is_round(); }
-  bool is_round() const { return kind == Kind::ellipse || kind == Kind::ellipsoid; }
+  bool is_round() const { return kind == Kind::ellipse || kind == Kind::ellipsoid || kind == Kind::capsule; }
   const AreaLight* area = nullptr;  // what it was made of; null for punctual lights
   PreparedPolygon polygon;          // polygon, in double
   std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
@@ -31,6 +31,10 @@ struct PackLight {
   // ellipse: centre and half axes. ellipsoid: the same, and the rows of the matrix that takes it to the unit sphere
   Vec3f center{}, axis_x{}, axis_y{}, axis_z{};
   Vec3f unit_x{}, unit_y{}, unit_z{};
+
+  // capsule
+  Vec3f end_a{}, end_b{};
+  float radius = 0;
 
   // punctual
   Vec3f position{}, direction{};

@@ -45,10 +45,10 @@ __attribute__((flatten, noinline)) Both integrate_polygon(const SeenLight& seen,
 
 template <bool with_diffuse>
 __attribute__((flatten, noinline)) Both integrate_round(const SeenLight& seen, const PackKernels::mat3& frame,
-                                                        const PackKernels::LtcMatrix& matrix, const PackLobe& lobe) {
+                                                        const PackVec3& p, const PackKernels::LtcMatrix& matrix, const PackLobe& lobe) {
   const PackKernels::LtcMatrix m = matrix;
   return integrate<with_diffuse>(m, seen.behind, [&](auto start, auto edge) {
-    walk_outline_about(seen.outline, lobe.corners, frame, lobe.axis, lobe.width, start, edge);
+    seen.walk_round(frame, p, lobe, start, edge);
   });
 }
 
@@ -77,7 +77,7 @@ STERADIAN_INLINE void run(const PackLight* lights, std::size_t light_count, cons
     for (std::size_t l = 0; l < light_count; ++l) {
       const SeenLight light(lights[l], p);
       if (!any_lane(light.lit)) continue;
-      const Both both = light.light.is_round() ? integrate_round<with_diffuse>(light, frame, m, lobe)
+      const Both both = light.light.is_round() ? integrate_round<with_diffuse>(light, frame, p, m, lobe)
                                                : integrate_polygon<with_diffuse>(light, frame, p, m);
       irradiance += select(light.lit, both.irradiance, PackReal(0.0));
       integral += select(light.lit && seen, both.integral, PackReal(0.0));

@@ -7,6 +7,7 @@
 #include "reference/azimuth_sampler.h"
 #include "reference/lobe.h"
 #include "reference/spherical_region.h"
+#include "steradian/capsule_light.h"
 
 namespace steradian {
 namespace {
@@ -48,7 +49,7 @@ Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
 
 struct DirectSampler::Light {
   const AreaLight* area;
-  std::optional<PreparedPolygon> flat;  // none: a sphere, whose outline depends on the point
+  std::optional<PreparedPolygon> flat;  // none: a sphere or capsule, whose outline depends on the point
 };
 
 struct DirectSampler::Scratch {
@@ -61,7 +62,7 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows)
     : scene_(scene), shadows_(shadows), scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
-    if (area.shape != LightShape::sphere) {
+    if (!area.is_solid()) {
       light.flat = prepare_polygon(area.polygon);
       if (light.flat->vertices.empty()) continue;
     }
@@ -117,7 +118,10 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
     const auto incident = [&](Vec3d l) -> Vec3d {
       if (shadows_ == nullptr && texture == nullptr) return polygon.radiance;
       const Vec3d direction = frame.to_world(l);
-      const Vec3d there = p + direction * (plane_height / dot(direction, polygon.normal));
+      // A tube is too long for one plane to stand for it.
+      const double distance = light.area->shape == LightShape::capsule ? distance_along(capsule_of(*light.area), p, direction)
+                                                                       : plane_height / dot(direction, polygon.normal);
+      const Vec3d there = p + direction * distance;
       if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(there))) return {};
       return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
     };

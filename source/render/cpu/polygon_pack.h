@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/pack.h"
+#include "render/cpu/capsule_pack.h"
 #include "render/cpu/light_list.h"
 
 STERADIAN_BEGIN_ISA
@@ -63,7 +64,10 @@ struct SeenLight {
 
   STERADIAN_INLINE SeenLight(const PackLight& l, const PackVec3& p) : light(l) {
     PackKernels k;
-    if (light.kind == PackLight::Kind::ellipsoid) {
+    if (light.kind == PackLight::Kind::capsule) {
+      lit = is_outside_capsule(light, p);
+      behind = !(p.x <= p.x);  // nowhere
+    } else if (light.kind == PackLight::Kind::ellipsoid) {
       const PackKernels::mat3 s(broadcast(light.axis_x), broadcast(light.axis_y), broadcast(light.axis_z));
       // Columns of the inverse, from its rows.
       const PackKernels::mat3 inverse(
@@ -91,15 +95,28 @@ struct SeenLight {
   STERADIAN_INLINE void walk(const PackKernels::mat3& frame, const PackVec3& p, const PackLobe& lobe, Start start,
                              Edge edge) const {
     if (light.is_round())
-      walk_outline_about(outline, lobe.corners, frame, lobe.axis, lobe.width, start, edge);
+      walk_round(frame, p, lobe, start, edge);
     else
       walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, frame, p, start, edge);
   }
+
+  // The polygon that stands in for a round light under the lobe.
+  template <class Start, class Edge>
+  STERADIAN_INLINE void walk_round(const PackKernels::mat3& frame, const PackVec3& p, const PackLobe& lobe, Start start,
+                                   Edge edge) const {
+    if (light.kind != PackLight::Kind::capsule)
+      return walk_outline_about(outline, lobe.corners, frame, lobe.axis, lobe.width, start, edge);
+    CapsuleCorners corners;
+    capsule_corners(light, lobe.corners, frame, p, lobe.axis, lobe.width, corners);
+    start(corners[static_cast<std::size_t>(lobe.corners - 1)]);
+    for (int i = 0; i < lobe.corners; ++i) edge(corners[static_cast<std::size_t>(i)]);
+  }
 };
 
-// Irradiance of a round light: the form factor of its ellipse, exact.
-__attribute__((flatten, noinline)) inline PackReal round_light_irradiance(const SeenLight& seen,
-                                                                          const PackKernels::mat3& frame) {
+// Irradiance of a round light, exact.
+__attribute__((flatten, noinline)) inline PackReal round_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
+                                                                          const PackVec3& p) {
+  if (seen.light.kind == PackLight::Kind::capsule) return capsule_irradiance(seen.light, frame, p);
   PackKernels k;
   return select(seen.lit, k.ellipse_irradiance_vector(outline_in_frame(seen.outline, frame)).z, PackReal(0.0));
 }
@@ -108,7 +125,7 @@ __attribute__((flatten, noinline)) inline PackReal round_light_irradiance(const 
 // that is itself always inlined.
 __attribute__((flatten, noinline)) inline PackReal area_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
                                                 const PackVec3& p) {
-  if (seen.light.is_round()) return round_light_irradiance(seen, frame);
+  if (seen.light.is_round()) return round_light_irradiance(seen, frame, p);
   PackKernels k;
   auto walk = k.polygon_begin();
   PackVec3 previous;

@@ -12,6 +12,7 @@
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/phong.h"
+#include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
 #include "steradian/ltc.h"
@@ -91,10 +92,14 @@ std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
 // The light as the point sees it: round ones as a polygon about the lobe. No vertices: it does not shine there.
 PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const Material& material, Quality quality) {
   if (light.kind == PackLight::Kind::polygon) return light.polygon;
-  const std::optional<Ellipse> outline = outline_at(*light.area, at.position);
-  if (!outline) return {};
-  PolygonLight seen =
-      polygon_for_lobe(*outline, at.position, lobe_axis(material, at), quality == Quality::high ? 16 : 12);
+  const int corners = quality == Quality::high ? 16 : 12;
+  PolygonLight seen;
+  if (light.kind == PackLight::Kind::capsule) {
+    seen = polygon_for_lobe(capsule_of(*light.area), at.position, lobe_axis(material, at), corners);
+  } else if (const std::optional<Ellipse> outline = outline_at(*light.area, at.position)) {
+    seen = polygon_for_lobe(*outline, at.position, lobe_axis(material, at), corners);
+  }
+  if (seen.vertices.empty()) return {};
   seen.radiance = light.area->polygon.radiance;
   return prepare_polygon(seen);
 }

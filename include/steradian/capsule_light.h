@@ -1,0 +1,34 @@
+// Tubes as lights: capsules and lines. Their irradiance without approximation, and polygons in their place for all other
+// lobes. docs/ggx.md, "Round lights".
+#pragma once
+
+#include "steradian/area_light.h"     // Capsule
+#include "steradian/ellipse_light.h"  // LobeAxis
+
+namespace steradian {
+
+// Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, of the part above the horizon, in [0, pi].
+// Exact: the outline's arcs and edges in closed form. 0 from inside, and of a radius of 0.
+// Error: docs/accuracy.md, "capsule irradiance".
+double capsule_irradiance(const Capsule& capsule, Vec3d position, Vec3d normal);
+float capsule_irradiance_float(const Capsule& capsule, Vec3d position, Vec3d normal);
+
+// Irradiance [1/m] of a line whose radiance times width is 1 W/(sr m): the limit of capsule_irradiance over the width
+// 2 radius. A capsule at distance m differs from it by at most (pi/2) r/m^2 (1 + 4 r/m).
+double line_irradiance(Vec3d end_a, Vec3d end_b, Vec3d position, Vec3d normal);
+float line_irradiance_float(Vec3d end_a, Vec3d end_b, Vec3d position, Vec3d normal);
+
+// Distance of a point from the capsule's segment: inside where it is not above the radius.
+double distance_to_axis(const Capsule& capsule, Vec3d position);
+
+// How far along a ray (unit direction) it comes nearest to the capsule's segment; not negative.
+double distance_along(const Capsule& capsule, Vec3d origin, Vec3d direction);
+
+// The polygon with that many vertices (6 to 2048) that stands in for a capsule seen from a point outside, its corners
+// gathered where the lobe is sharp. No vertices from inside, and for a capsule too thin to have an outline.
+PolygonLight polygon_for_lobe(const Capsule& capsule, Vec3d position, const LobeAxis& lobe, int vertices = 8);
+
+// The same with equal steps along the arcs.
+PolygonLight polygon_of_equal_steps(const Capsule& capsule, Vec3d position, int vertices = 12);
+
+}  // namespace steradian
