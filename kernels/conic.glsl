@@ -201,7 +201,7 @@ vec3 conic_vector_approximate(ConicArc arc) {
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: see docs/accuracy.md, "conic arc".
+// Error: docs/accuracy.md, "Float against double", conic vector.
 vec3 conic_vector(ConicArc arc) {
     vec3 e = conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the

@@ -36,7 +36,7 @@ ConicArc ellipse_arc(Ellipse e, real begin, real end) {
 //   e        of ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: see docs/accuracy.md, "ellipse irradiance". Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 vec3 ellipse_irradiance_vector(Ellipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
@@ -150,7 +150,7 @@ real ellipse_gap(vec2 from_corner, vec2 to_corner) {
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
-// Error: see docs/accuracy.md, "ellipse polygons".
+// Error: docs/accuracy.md, "Float against double", ellipse.
 vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
     vec2 before = ellipse_corner(fan, k - 1, count);
     vec2 here = ellipse_corner(fan, k, count);

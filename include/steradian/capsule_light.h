@@ -9,7 +9,7 @@ namespace steradian {
 
 // Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, of the part above the horizon, in [0, pi].
 // Exact: the outline's arcs and edges in closed form. 0 from inside, and of a radius of 0.
-// Error: docs/accuracy.md, "capsule irradiance".
+// Error: docs/accuracy.md, "Float against double", capsule.
 double capsule_irradiance(const Capsule& capsule, Vec3d position, Vec3d normal);
 float capsule_irradiance_float(const Capsule& capsule, Vec3d position, Vec3d normal);
 
