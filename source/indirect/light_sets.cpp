@@ -70,9 +70,11 @@ class SetMaker {
     const float bound = reach * xi;
     return std::min(bound > 0 ? std::sqrt(stretch / bound) : kEverywhere, kEverywhere);
   }
+  // A set has one texel of stride x stride: it stands for its neighbours in the other sets, and the quads of a set
+  // cover what all texels do.
   QuadLight quad(std::size_t i) const {
-    return {map_.edge_x[i], map_.edge_y[i], 1 / std::max(map_.area[i], 1e-20f),
-            dot(map_.edge_x[i], map_.edge_x[i]) + dot(map_.edge_y[i], map_.edge_y[i])};
+    const Vec3f x = map_.edge_x[i] * static_cast<float>(options_.stride), y = map_.edge_y[i] * static_cast<float>(options_.stride);
+    return {x, y, 1 / std::max(map_.area[i] * weight_, 1e-20f), dot(x, x) + dot(y, y)};
   }
 
   void add_diffuse(LightSet& set, std::size_t i, float xi) const {

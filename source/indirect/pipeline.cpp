@@ -114,12 +114,11 @@ void Pipeline::add_sum(Picture& picture) {
   const Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
   LightingOptions lighting;
   lighting.mode = o.mode;
-  lighting.quads = o.quads && !std::getenv("NOQUADS");
+  lighting.quads = o.quads;
   lighting.shadows = &rays_;
   lighting.shadow_rays = o.shadow_rays;
   lighting.seed = options_.seed;
   LightingResult lit = light_receivers(sets, receivers, layout, tables_, lighting);
-  if (std::getenv("IND_DEBUG")) fprintf(stderr, "pairs per pixel %.1f\n", lit.work.pairs / (double(options_.width) * options_.height));
   passes_.push_back({"cull", lit.work.cull_ms / threads_});
   passes_.push_back({"light", lit.work.light_ms / threads_});
   if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
