@@ -74,7 +74,7 @@ class SetMaker {
   // cover what all texels do.
   QuadLight quad(std::size_t i) const {
     const Vec3f x = map_.edge_x[i] * static_cast<float>(options_.stride), y = map_.edge_y[i] * static_cast<float>(options_.stride);
-    return {x, y, map_.area[i] * weight_, 1 / std::max(map_.area[i] * weight_, 1e-20f), dot(x, x) + dot(y, y)};
+    return {x, y, 1 / std::max(map_.area[i] * weight_, 1e-20f), dot(x, x) + dot(y, y)};
   }
 
   void add_diffuse(LightSet& set, std::size_t i, float xi) const {

@@ -45,7 +45,7 @@ struct GgxLight {
 // The texel as a quad that shines: half axes, one over its area, and the axes' squares.
 struct QuadLight {
   Vec3f edge_x, edge_y;
-  float area, inverse_area;
+  float inverse_area;
   float size2;
 };
 

@@ -43,7 +43,6 @@ struct Receiver {
   PackVec3 position, normal;
   K::IndirectLobe lobe;
   K::mask sharp;
-  PackReal narrow;  // one over the solid angle of the lobe
 };
 
 // v, its square, and one over its length.
@@ -76,18 +75,6 @@ __attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const 
   return integral * (way.d2 + soft) * broadcast(quad.inverse_area) / (facing * at.lobe.scale * rarity);
 }
 
-// The receiver's half of a light that stands for a footprint: its lobe widened by the solid angle that the footprint takes.
-// Widening the two lobe axes by the same factor keeps the lobe's integral: w is (s w_x, s w_y, w_z), and the scale s^2 as large.
-STERADIAN_INLINE PackReal widened_half(const Receiver& at, const QuadLight& quad, const Way& way, PackReal kept, PackReal value) {
-  K k;
-  const PackVec3 w = k.indirect_under(at.lobe, way.v);
-  const PackReal i2 = way.inverse * way.inverse;
-  const PackReal wide = PackReal(1.0) + at.narrow * broadcast(quad.area) * i2 * kept / max(value, PackReal(1.0e-30));
-  const PackReal across = w.x * w.x + w.y * w.y, along = w.z * w.z;
-  const PackReal w2 = across + wide * along;
-  return max(w.z, PackReal(0.0)) * wide * way.d2 / max(w2 * w2, PackReal(1.0e-36));
-}
-
 // Adds what passes a pair; `kept` is the light's half after culling, `bright` its colour.
 template <bool glossy, bool quads, class Sink>
 STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept, const PackVec3& bright, const Vec3f& light_normal,
@@ -97,7 +84,7 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
   const PackReal diffuse = kept * cosine * (way.inverse * way.inverse);
   sums.add_diffuse(bright * diffuse, id);
   if constexpr (glossy) {
-    PackReal half = widened_half(at, *quad, way, kept, value);
+    PackReal half = k.indirect_glossy_half(at.lobe, way.v, way.d2, PackReal(0.0));
     if constexpr (quads) {
       // Only where the quad is no speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is as good as constant there.
       const PackVec3 w = k.indirect_under(at.lobe, way.v);
@@ -179,11 +166,6 @@ STERADIAN_INLINE Prepared prepare(const indirect::Receivers& receivers, std::siz
     const PackVec3 view = load_vector(receivers.view, i);
     const SeenLobe seen = look_up_lobe(tables, p.at.normal, view, alpha);
     p.at.lobe = k.indirect_lobe(seen.matrix, seen.frame);
-    // Along the lobe's axis the density is |M^-1| / pi |M z|^3.
-    const auto& m = seen.matrix;
-    const PackReal det = m.xx * m.zz - m.xz * m.zx;
-    const PackReal mz2 = (m.xx * m.xx + m.xz * m.xz) / (det * det);
-    p.at.narrow = p.at.lobe.scale * mz2 * sqrt(mz2);
     p.at.sharp = p.glossy && alpha < PackReal(static_cast<double>(indirect::kSharp));
     p.facing = p.glossy && dot(p.at.normal, view) > PackReal(0.0);
   }
