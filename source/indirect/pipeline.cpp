@@ -111,7 +111,7 @@ void Pipeline::add_sum(Picture& picture) {
     set.seed = options_.seed;
     return make_sets(map, lobes, set);
   });
-  const Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
+  Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
   LightingOptions lighting;
   lighting.mode = o.mode;
   lighting.quads = o.quads;
@@ -122,7 +122,9 @@ void Pipeline::add_sum(Picture& picture) {
   passes_.push_back({"cull", lit.work.cull_ms / threads_});
   passes_.push_back({"light", lit.work.light_ms / threads_});
   if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
+  receivers = {};  // its memory is the next planes'
   Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
+  lit.light = {};
   if (o.filter && o.interleave > 1)
     light = timed("filter", [&] {
       FloatArray width(surfaces_.raster.size());
