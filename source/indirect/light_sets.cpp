@@ -15,7 +15,7 @@ namespace {
 constexpr float kPi = 3.14159265f;
 
 // Of the spheroid that holds a light's egg (kernels/indirect.glsl, indirect_spheroid).
-constexpr float kCenter = 0.46f, kAlong = 0.54f, kAcross = 0.628f;
+constexpr float kCenter = kBallCenter, kAlong = 0.54f, kAcross = kBallRadius;
 
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float
 
@@ -84,10 +84,10 @@ class SetMaker {
     const float r = range(light.reach, xi, 1);
     set.diffuse.push_back(light);
     set.diffuse_quads.push_back(quad(i));
-    push(set.balls.center, p + n * (kCenter * r));
-    push(set.balls.normal, n);
-    set.balls.radius2.push_back(kAcross * r * (kAcross * r));
-    set.balls.offset.push_back(dot(n, p));
+    push(set.eggs.position, p);
+    push(set.eggs.normal, n);
+    set.eggs.range.push_back(r);
+    set.eggs.offset.push_back(dot(n, p));
   }
 
   void add_glossy(LightSet& set, std::size_t i, float xi) const {
@@ -147,11 +147,11 @@ class SetMaker {
   }
 
   static void pad(LightSet& set) {
-    while (set.balls.radius2.size() % 16 != 0) {
-      push(set.balls.center, {});
-      push(set.balls.normal, {});
-      set.balls.radius2.push_back(-1);
-      set.balls.offset.push_back(1);
+    while (set.eggs.range.size() % 16 != 0) {
+      push(set.eggs.position, {});
+      push(set.eggs.normal, {});
+      set.eggs.range.push_back(0);
+      set.eggs.offset.push_back(1);
     }
     while (set.spheroids.g.size() % 16 != 0) {
       for (VectorArray* a : {&set.spheroids.x, &set.spheroids.y, &set.spheroids.z}) push(*a, {});
