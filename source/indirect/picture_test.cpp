@@ -33,7 +33,9 @@ TEST(IndirectPicture, ClampTakesLittleAndLessOfMoreLights) {
               << soft.relative_l2 << " with\n";
     EXPECT_GT(loss, 0) << lights;
     EXPECT_LE(loss, 0.02) << lights;
-    if (before > 0) EXPECT_LE(loss, 0.6 * before) << lights;
+    if (before > 0) {
+      EXPECT_LE(loss, 0.6 * before) << lights;
+    }
     before = loss;
   }
 }
