@@ -1,6 +1,7 @@
 // steradian diff A B: the difference of two pictures in numbers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -39,17 +40,29 @@ Limit parse_limit(const std::string& text) {
   throw CLI::ValidationError("--fail-above", "'" + text + "' is not METRIC=VALUE with rmse, relative_l2 or max");
 }
 
+// The value that all but a thousandth of the reference's channels stay below: what an exposure would map to 1.
+double white_of(const Picture& picture) {
+  std::vector<float> values;
+  for (const Vec3f& c : picture.pixels) values.insert(values.end(), {c.x, c.y, c.z});
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * 0.999);
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<double>(*at);
+}
+
 void run(const Options& options, Exit& exit) {
   std::vector<Limit> limits;
   for (const std::string& text : options.limits) limits.push_back(parse_limit(text));
-  const Difference d = difference(read_picture(options.a), read_picture(options.b));
+  const Picture reference = read_picture(options.b);
+  const Difference d = difference(read_picture(options.a), reference);
+  const double white = white_of(reference);
   if (options.json) {
     nlohmann::ordered_json j = {{"rmse", d.rmse}, {"relative_l2", d.relative_l2}, {"max", d.max},
-                                {"mean_ratio", d.mean_ratio}};
+                                {"mean_ratio", d.mean_ratio}, {"white", white}};
     fmt::print("{}\n", j.dump());
   } else {
-    fmt::print("rmse         {:.6g}\nrelative L2  {:.6g}\nmax          {:.6g} at ({}, {})\nmean ratio   {:.6g}\n", d.rmse,
-               d.relative_l2, d.max, d.max_x, d.max_y, d.mean_ratio);
+    fmt::print("rmse         {:.6g}\nrelative L2  {:.6g}\nmax          {:.6g} at ({}, {})\nmean ratio   {:.6g}\nwhite        {:.6g}\n", d.rmse,
+               d.relative_l2, d.max, d.max_x, d.max_y, d.mean_ratio, white);
   }
   for (const Limit& limit : limits) {
     const double value = limit.metric == "rmse" ? d.rmse : limit.metric == "max" ? d.max : d.relative_l2;

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", stats;
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats;
   double exposure = 0;
   int max_lights = 256;
   bool moments = false, multiple_scattering = false, spp_given = false;
@@ -65,6 +65,8 @@ IndirectMode indirect_mode(const std::string& name) {
 void parse_indirect(Options& options) {
   IndirectOptions& indirect = options.render.indirect;
   indirect.mode = indirect_mode(options.indirect);
+  indirect.quads = options.indirect_quads == "on";
+  indirect.soften = options.indirect_clamp == "on";
   if (options.indirect_shadows == "off") return;
   int used = 0;
   if (std::sscanf(options.indirect_shadows.c_str(), "%d%n", &indirect.shadow_rays, &used) != 1 ||
@@ -169,6 +171,12 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--indirect-shadows", options->indirect_shadows, "visibility of the bounce: off, or rays a pixel")->group("Light");
   verb->add_option("--indirect-pairs", r.indirect.kept_pairs, "virtual lights a pixel keeps on average; 0: all of its share")
       ->check(CLI::Range(0.0, 1e9))
+      ->group("Light");
+  verb->add_option("--indirect-quads", options->indirect_quads, "of ltc: receivers with alpha < 0.1 see virtual lights as quads")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->group("Light");
+  verb->add_option("--indirect-clamp", options->indirect_clamp, "soft bound of near virtual lights, by their area")
+      ->check(CLI::IsMember({"on", "off"}))
       ->group("Light");
   verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")
       ->check(CLI::Range(1, 1 << 20))

@@ -33,10 +33,10 @@ void TileLists::cull(const CullTable& table, const LightSet& set, const Receiver
   std::array<Box, kBlocks> blocks;
   for (std::size_t b = 0; b < kBlocks; ++b) blocks[b] = box_of(receivers, first + b * kBlockReceivers, kBlockReceivers);
   const Box box = box_of(receivers, first, kTileReceivers);
-  const BallArrays& balls = set.balls;
-  diffuse_.run(table.balls,
-               {{balls.center.x.data(), balls.center.y.data(), balls.center.z.data(), balls.radius2.data(), balls.normal.x.data(),
-                 balls.normal.y.data(), balls.normal.z.data(), balls.offset.data()},
+  const EggArrays& eggs = set.eggs;
+  diffuse_.run(table.eggs,
+               {{eggs.position.x.data(), eggs.position.y.data(), eggs.position.z.data(), eggs.range.data(), eggs.normal.x.data(),
+                 eggs.normal.y.data(), eggs.normal.z.data(), eggs.offset.data()},
                 nullptr,
                 set.diffuse.size()},
                box, blocks);

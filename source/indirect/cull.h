@@ -11,7 +11,7 @@
 namespace steradian::indirect {
 
 // Arrays of bounds of one kind of light, side by side; indices come with them where they are a choice.
-inline constexpr std::size_t kBallPlanes = 8;
+inline constexpr std::size_t kEggPlanes = 8;
 inline constexpr std::size_t kSpheroidPlanes = 12;
 template <std::size_t planes>
 struct Bounds {
@@ -29,7 +29,7 @@ struct Passed {
 
 struct CullTable {
   // The number of lights that may reach the box.
-  std::size_t (*balls)(const Bounds<kBallPlanes>& bounds, const Box& box, const Passed<kBallPlanes>& passed);
+  std::size_t (*eggs)(const Bounds<kEggPlanes>& bounds, const Box& box, const Passed<kEggPlanes>& passed);
   std::size_t (*spheroids)(const Bounds<kSpheroidPlanes>& bounds, const Box& box, const Passed<kSpheroidPlanes>& passed);
 };
 
@@ -57,7 +57,7 @@ class TileLists {
     template <class Cull>
     void run(Cull cull, const Bounds<planes>& all, const Box& box, const std::array<Box, kBlocks>& blocks);
   };
-  Kind<kBallPlanes> diffuse_;
+  Kind<kEggPlanes> diffuse_;
   Kind<kSpheroidPlanes> glossy_;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 using indirect::Bounds;
 using indirect::Box;
-using indirect::kBallPlanes;
+using indirect::kEggPlanes;
 using indirect::kSpheroidPlanes;
 using indirect::Passed;
 using PackMask = PackKernels::mask;
@@ -64,19 +64,24 @@ STERADIAN_INLINE std::size_t run(const Bounds<planes>& bounds, const Passed<plan
   return n;
 }
 
-// A ball against a box, and the half space in front of the light.
-__attribute__((flatten)) std::size_t balls(const Bounds<kBallPlanes>& bounds, const Box& box, const Passed<kBallPlanes>& passed) {
+// An egg against a box, by two bounds. d^3 <= range^2 h, with the least distance d and the greatest height h above the light's
+// plane: what lies in the plane itself goes. And the ball that holds the egg, which large boxes want.
+__attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, const Box& box, const Passed<kEggPlanes>& passed) {
   const PackVec3 c = broadcast(box.center), h = broadcast(box.half);
   const auto& p = bounds.plane;
   return run(bounds, passed, [&](std::size_t i) {
-    const auto beyond = [&](const float* center, PackReal middle, PackReal half) {
-      const PackReal d = max(abs(middle - load(center + i)) - half, PackReal(0.0));
-      return d * d;
+    const PackVec3 at(load(p[0] + i), load(p[1] + i), load(p[2] + i)), n(load(p[4] + i), load(p[5] + i), load(p[6] + i));
+    const PackReal range = load(p[3] + i), range2 = range * range;
+    const auto distance2 = [&](const PackVec3& from) {
+      const auto beyond = [](PackReal a, PackReal middle, PackReal half) { return max(abs(middle - a) - half, PackReal(0.0)); };
+      const PackVec3 d(beyond(from.x, c.x, h.x), beyond(from.y, c.y, h.y), beyond(from.z, c.z, h.z));
+      return dot(d, d);
     };
-    const PackReal d2 = beyond(p[0], c.x, h.x) + beyond(p[1], c.y, h.y) + beyond(p[2], c.z, h.z);
-    const PackVec3 n(load(p[4] + i), load(p[5] + i), load(p[6] + i));
-    const PackReal highest = dot(n, c) + abs(n.x) * h.x + abs(n.y) * h.y + abs(n.z) * h.z;
-    return d2 <= load(p[3] + i) && highest > load(p[7] + i);
+    const PackReal height = dot(n, c) + abs(n.x) * h.x + abs(n.y) * h.y + abs(n.z) * h.z - load(p[7] + i);
+    const PackReal d2 = distance2(at), reach = range2 * height;
+    const PackReal ball2 = distance2(at + n * (range * broadcast(indirect::kBallCenter)));
+    return height > PackReal(0.0) && d2 * d2 * d2 <= reach * reach &&
+           ball2 <= range2 * broadcast(indirect::kBallRadius * indirect::kBallRadius);
   });
 }
 
@@ -101,7 +106,7 @@ __attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bo
 }  // namespace
 
 const indirect::CullTable& cull_table() {
-  static constexpr indirect::CullTable table = {balls, spheroids};
+  static constexpr indirect::CullTable table = {eggs, spheroids};
   return table;
 }
 

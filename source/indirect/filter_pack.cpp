@@ -1,5 +1,7 @@
 #include "indirect/filter.h"
 
+#include <algorithm>
+
 #include "core/pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -7,12 +9,18 @@ namespace {
 
 using indirect::kFilterReach;
 using indirect::VectorArray;
+using K = PackKernels;
 
-// A tap belongs to the same surface where normals differ by less than 26 degrees and it lies within a twentieth of its
-// distance of the plane; a hundredth of a millimetre is rounding.
-constexpr double kLeastCosine = 0.9, kSlope = 0.05, kRounding = 1e-5;
-// Glossy light of lobes that differ in width by more than this share is not the same light.
-constexpr double kWidths = 0.2;
+// When a tap belongs to the same surface.
+struct Likeness {
+  double least_cosine;  // of the normals
+  double slope;         // distance from the plane over the tap's distance
+  double widths;        // glossy light of lobes that differ in width by more than this share is not the same light
+};
+// 26 degrees and a twentieth; and what is let in where so little is found that the pattern would be seen, at edges.
+constexpr Likeness kSame{0.9, 0.05, 0.2}, kLoose{0.3, 0.7, 0.5};
+constexpr double kEnough = 0.6;      // share of the weights
+constexpr double kRounding = 1e-5;   // a hundredth of a millimetre
 
 STERADIAN_INLINE PackVec3 load_at(const VectorArray& a, std::size_t i) {
   return {load(a.x.data() + i), load(a.y.data() + i), load(a.z.data() + i)};
@@ -23,43 +31,81 @@ STERADIAN_INLINE void store_at(VectorArray& a, std::size_t i, const PackVec3& v)
   store(a.z.data() + i, v.z);
 }
 
+struct Sums {
+  PackVec3 diffuse{0.0, 0.0, 0.0}, shine{0.0, 0.0, 0.0};
+  PackReal diffuse_weight{0.0}, shine_weight{0.0};
+};
+
+// Taps of one pack of pixels.
+struct Taps {
+  const indirect::FilterGeometry& g;
+  const indirect::FilterWeights& weights;
+  const indirect::Light& from;
+  std::size_t i;
+  std::ptrdiff_t step;
+  int first, last;
+  PackVec3 p, n;
+  PackReal width;
+  K::mask sharp;
+  bool any_glossy;
+
+  STERADIAN_INLINE Sums gather(const Likeness& like) const {
+    const PackReal none(0.0), cosine(like.least_cosine), slope2(like.slope * like.slope), widths = width * PackReal(like.widths);
+    Sums s;
+    for (int k = first; k <= last; ++k) {
+      const float wd = weights.diffuse[k + kFilterReach];
+      const std::size_t j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * step);
+      const PackVec3 m = load_at(g.normal, j), d = load_at(g.position, j) - p;
+      const PackReal off = dot(n, d);
+      const auto same = dot(n, m) > cosine && off * off < dot(d, d) * slope2 + PackReal(kRounding * kRounding);
+      const PackReal w = select(same, broadcast(wd), none);
+      s.diffuse = s.diffuse + load_at(from.diffuse, j) * w;
+      s.diffuse_weight += w;
+      if (!any_glossy || weights.glossy[k + kFilterReach] == 0) continue;  // the sharp ones' reach is less
+      const PackReal ws = select(sharp, broadcast(weights.sharp[k + kFilterReach]), broadcast(weights.glossy[k + kFilterReach]));
+      const PackReal wg = select(same && abs(load(g.width + j) - width) < widths, ws, none);
+      s.shine = s.shine + load_at(from.glossy, j) * wg;
+      s.shine_weight += wg;
+    }
+    return s;
+  }
+};
+
+STERADIAN_INLINE PackVec3 over(const PackVec3& sum, PackReal weight) { return sum * (PackReal(1.0) / max(weight, PackReal(1e-12))); }
+// The mean of what was found; what it lacks to be enough, from the others.
+STERADIAN_INLINE PackVec3 mean(const PackVec3& sum, PackReal weight, const PackVec3& others, PackReal others_weight) {
+  const PackReal lack = max(PackReal(kEnough) - weight, PackReal(0.0));
+  return over(sum + over(others, others_weight) * lack, weight + lack);
+}
+
 __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indirect::Raster& raster,
                                   const indirect::FilterWeights& weights, indirect::FilterAxis axis, int begin, int end, int first,
                                   int last, const indirect::Light& from, indirect::Light& to) {
   const bool along_x = axis == indirect::FilterAxis::x;
-  const std::ptrdiff_t step = along_x ? 1 : raster.pitch();
-  const PackReal none(0.0);
+  int reach_low = -kFilterReach, reach_high = kFilterReach;  // the diffuse taps are the widest
+  while (weights.diffuse[reach_low + kFilterReach] == 0) ++reach_low;
+  while (weights.diffuse[reach_high + kFilterReach] == 0) --reach_high;
+  const PackReal none(0.0), enough(kEnough);
   for (int y = first; y < last; ++y)
     for (int x = begin; x < end; x += static_cast<int>(kLanes)) {
       const std::size_t i = raster.at(x, y);
-      const PackVec3 p = load_at(g.position, i), n = load_at(g.normal, i);
-      if (!any_lane(dot(n, n) > none)) continue;
+      const PackVec3 n = load_at(g.normal, i);
+      const auto there = dot(n, n) > none;
+      if (!any_lane(there)) continue;
       const PackReal width = load(g.width + i);
-      const auto glossy = width > none, sharp = glossy && width < PackReal(0.1);
-      const bool any_glossy = any_lane(glossy);
-      PackVec3 diffuse(0.0, 0.0, 0.0), shine(0.0, 0.0, 0.0);
-      PackReal diffuse_sum(0.0), shine_sum(0.0);
-      for (int k = -kFilterReach; k <= kFilterReach; ++k) {
-        const float wd = weights.diffuse[k + kFilterReach];
-        if (wd == 0) continue;  // the widest
-        if (!along_x && (y + k < 0 || y + k >= raster.height)) continue;
-        const std::size_t j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * step);
-        const PackVec3 m = load_at(g.normal, j), d = load_at(g.position, j) - p;
-        const PackReal off = dot(n, d);
-        const auto same = dot(n, m) > PackReal(kLeastCosine) &&
-                          off * off < dot(d, d) * PackReal(kSlope * kSlope) + PackReal(kRounding * kRounding);
-        const PackReal w = select(same, broadcast(wd), none);
-        diffuse = diffuse + load_at(from.diffuse, j) * w;
-        diffuse_sum += w;
-        if (!any_glossy) continue;
-        const PackReal ws = select(sharp, broadcast(weights.sharp[k + kFilterReach]), broadcast(weights.glossy[k + kFilterReach]));
-        const PackReal wg = select(same && abs(load(g.width + j) - width) < width * PackReal(kWidths), ws, none);
-        shine = shine + load_at(from.glossy, j) * wg;
-        shine_sum += wg;
+      const auto glossy = width > none;
+      const int low = along_x ? reach_low : std::max(reach_low, -y), high = along_x ? reach_high : std::min(reach_high, raster.height - 1 - y);
+      const Taps taps{g, weights, from, i, along_x ? 1 : raster.pitch(), low, high, load_at(g.position, i), n, width,
+                      glossy && width < PackReal(0.1), any_lane(glossy)};
+      const Sums same = taps.gather(kSame);
+      PackVec3 diffuse = over(same.diffuse, same.diffuse_weight), shine = over(same.shine, same.shine_weight);
+      if (any_lane(there && (same.diffuse_weight < enough || (glossy && same.shine_weight < enough)))) {
+        const Sums loose = taps.gather(kLoose);
+        diffuse = mean(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
+        shine = mean(same.shine, same.shine_weight, loose.shine, loose.shine_weight);
       }
-      const auto mean = [&](const PackVec3& sum, PackReal weight) { return sum * (PackReal(1.0) / max(weight, PackReal(1e-12))); };
-      store_at(to.diffuse, i, mean(diffuse, diffuse_sum));
-      store_at(to.glossy, i, mean(shine, shine_sum));
+      store_at(to.diffuse, i, diffuse);
+      store_at(to.glossy, i, shine);
     }
 }
 

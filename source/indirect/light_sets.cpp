@@ -15,7 +15,7 @@ namespace {
 constexpr float kPi = 3.14159265f;
 
 // Of the spheroid that holds a light's egg (kernels/indirect.glsl, indirect_spheroid).
-constexpr float kCenter = 0.46f, kAlong = 0.54f, kAcross = 0.628f;
+constexpr float kCenter = kBallCenter, kAlong = 0.54f, kAcross = kBallRadius;
 
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float
 
@@ -70,9 +70,11 @@ class SetMaker {
     const float bound = reach * xi;
     return std::min(bound > 0 ? std::sqrt(stretch / bound) : kEverywhere, kEverywhere);
   }
+  // A set has one texel of stride x stride: it stands for its neighbours in the other sets, and the quads of a set
+  // cover what all texels do.
   QuadLight quad(std::size_t i) const {
-    return {map_.edge_x[i], map_.edge_y[i], 1 / std::max(map_.area[i], 1e-20f),
-            dot(map_.edge_x[i], map_.edge_x[i]) + dot(map_.edge_y[i], map_.edge_y[i])};
+    const Vec3f x = map_.edge_x[i] * static_cast<float>(options_.stride), y = map_.edge_y[i] * static_cast<float>(options_.stride);
+    return {x, y, 1 / std::max(map_.area[i] * weight_, 1e-20f), dot(x, x) + dot(y, y)};
   }
 
   void add_diffuse(LightSet& set, std::size_t i, float xi) const {
@@ -82,10 +84,10 @@ class SetMaker {
     const float r = range(light.reach, xi, 1);
     set.diffuse.push_back(light);
     set.diffuse_quads.push_back(quad(i));
-    push(set.balls.center, p + n * (kCenter * r));
-    push(set.balls.normal, n);
-    set.balls.radius2.push_back(kAcross * r * (kAcross * r));
-    set.balls.offset.push_back(dot(n, p));
+    push(set.eggs.position, p);
+    push(set.eggs.normal, n);
+    set.eggs.range.push_back(r);
+    set.eggs.offset.push_back(dot(n, p));
   }
 
   void add_glossy(LightSet& set, std::size_t i, float xi) const {
@@ -145,11 +147,11 @@ class SetMaker {
   }
 
   static void pad(LightSet& set) {
-    while (set.balls.radius2.size() % 16 != 0) {
-      push(set.balls.center, {});
-      push(set.balls.normal, {});
-      set.balls.radius2.push_back(-1);
-      set.balls.offset.push_back(1);
+    while (set.eggs.range.size() % 16 != 0) {
+      push(set.eggs.position, {});
+      push(set.eggs.normal, {});
+      set.eggs.range.push_back(0);
+      set.eggs.offset.push_back(1);
     }
     while (set.spheroids.g.size() % 16 != 0) {
       for (VectorArray* a : {&set.spheroids.x, &set.spheroids.y, &set.spheroids.z}) push(*a, {});

@@ -50,11 +50,13 @@ struct QuadLight {
 };
 
 // Bounds of where lights matter, in arrays that are read sixteen lights at a time; padding reaches nowhere.
-// Diffuse: a ball, and the half space in front. Glossy: the unit ball of q = g - T p (kernels, indirect_spheroid).
-struct BallArrays {
-  VectorArray center, normal;  // normal: away from the surface
-  std::vector<float> radius2, offset;
+// Diffuse: the egg d^2 <= range^2 cosine. Glossy: the unit ball of q = g - T p (kernels, indirect_spheroid).
+struct EggArrays {
+  VectorArray position, normal;  // normal: away from the surface
+  std::vector<float> range, offset;  // offset: of the surface's plane
 };
+// The ball that holds an egg of range 1: how far in front of the light, and its radius.
+inline constexpr float kBallCenter = 0.46f, kBallRadius = 0.628f;
 struct SpheroidArrays {
   VectorArray x, y, z;  // rows of T
   VectorArray g;
@@ -63,7 +65,7 @@ struct SpheroidArrays {
 struct LightSet {
   std::vector<DiffuseLight> diffuse;
   std::vector<QuadLight> diffuse_quads;
-  BallArrays balls;
+  EggArrays eggs;
   std::vector<GlossyLight> glossy;
   std::vector<GgxLight> ggx;  // as many, in mode ggx only
   std::vector<QuadLight> glossy_quads;

@@ -58,9 +58,10 @@ struct Way {
 // What the receiver's lobe gets of a virtual light that is spread over a quad, as a half: the integral over the quad in
 // place of its value at the middle.
 __attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const Vec3f& normal, const QuadLight& quad, const Way& way,
-                                                      PackReal soft) {
+                                                      PackReal soft, PackReal rarity) {
   K k;
-  const PackVec3 ex = broadcast(quad.edge_x), ey = broadcast(quad.edge_y);
+  const PackReal grow = sqrt(rarity);
+  const PackVec3 ex = broadcast(quad.edge_x) * grow, ey = broadcast(quad.edge_y) * grow;
   const auto corner = [&](const PackVec3& e) { return k.polygon_direction(k.indirect_under(at.lobe, way.v + e)); };
   const PackVec3 a = corner(-ex - ey), b = corner(ex - ey), c = corner(ex + ey), d = corner(ey - ex);
   auto walk = k.polygon_begin();
@@ -71,13 +72,13 @@ __attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const 
   const auto reversed = dot(cross(ex, ey), way.v) < PackReal(0.0);
   const PackReal integral = k.polygon_irradiance(walk, reversed) * PackReal(0.318309886183790672);
   const PackReal facing = max(dot(broadcast(normal), way.v), PackReal(1.0e-12));
-  return integral * (way.d2 + soft) * broadcast(quad.inverse_area) / (facing * at.lobe.scale);
+  return integral * (way.d2 + soft) * broadcast(quad.inverse_area) / (facing * at.lobe.scale * rarity);
 }
 
 // Adds what passes a pair; `kept` is the light's half after culling, `bright` its colour.
 template <bool glossy, bool quads, class Sink>
 STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept, const PackVec3& bright, const Vec3f& light_normal,
-                               const QuadLight* quad, PackReal soft, std::size_t id, Sink& sums) {
+                               const QuadLight* quad, PackReal soft, PackReal value, std::size_t id, Sink& sums) {
   K k;
   const PackReal cosine = max(dot(at.normal, way.v), PackReal(0.0));
   const PackReal diffuse = kept * cosine * (way.inverse * way.inverse);
@@ -87,8 +88,8 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
     if constexpr (quads) {
       // Only where the quad is no speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is as good as constant there.
       const PackVec3 w = k.indirect_under(at.lobe, way.v);
-      const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) > dot(w, w) * PackReal(0.02);
-      if (any_lane(wide)) half = select(wide, quad_half(at, light_normal, *quad, way, soft), half);
+      const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) * kept > dot(w, w) * value * PackReal(0.02);
+      if (any_lane(wide)) half = select(wide, quad_half(at, light_normal, *quad, way, soft, kept / max(value, PackReal(1.0e-30))), half);
     }
     sums.add_glossy(bright * select(cosine > PackReal(0.0), kept * half, PackReal(0.0)), id);
   }
@@ -104,7 +105,7 @@ STERADIAN_INLINE void add_diffuse_lights(const LightSet& set, const TileLists::L
     const PackReal value = k.indirect_diffuse_half(broadcast(light.normal), way.v, way.d2, soft);
     const PackReal kept = k.indirect_kept(value, broadcast(light.reach) * (way.d2 * way.inverse), broadcast(light.xi));
     if (!any_lane(kept > PackReal(0.0))) continue;
-    add_pair<glossy, quads>(at, way, kept, broadcast(light.bright), light.normal, &set.diffuse_quads[list.begin[j]], soft,
+    add_pair<glossy, quads>(at, way, kept, broadcast(light.bright), light.normal, &set.diffuse_quads[list.begin[j]], soft, value,
                             list.begin[j], sums);
   }
 }
@@ -127,7 +128,7 @@ STERADIAN_INLINE void add_glossy_lights(const LightSet& set, const TileLists::Li
     PackVec3 bright = broadcast(light.bright);
     if (light.by_pair > 0)
       bright = bright + broadcast(light.grazing) * k.indirect_grazing(broadcast(light.incoming), way.v, way.d2);
-    add_pair<glossy, quads>(at, way, kept, bright, light.normal, &set.glossy_quads[list.begin[j]], soft,
+    add_pair<glossy, quads>(at, way, kept, bright, light.normal, &set.glossy_quads[list.begin[j]], soft, value,
                             set.diffuse.size() + list.begin[j], sums);
   }
 }

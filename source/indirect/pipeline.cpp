@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <cstring>
 
 #include "core/float_mode.h"
 #include "indirect/blue_noise.h"
@@ -64,19 +65,38 @@ Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions
 }
 
 void Pipeline::take(const SurfaceTile& tile, TileArea area) {
+  // Plane by plane, in the runs of four that a tile's slots and a picture's row have in common.
+  const auto copy_plane = [&](const TilePlane& from, FloatArray& to) {
+    for (int y = 0; y < area.height; ++y) {
+      float* row = &to[surfaces_.raster.at(area.x, area.y + y)];
+      int x = 0;
+      for (; x + 4 <= area.width; x += 4) std::memcpy(row + x, &from[tile_slot(x, y)], 4 * sizeof(float));
+      for (; x < area.width; ++x) row[x] = from[tile_slot(x, y)];
+    }
+  };
+  const auto copy = [&](const TileVector& from, VectorArray& to) {
+    copy_plane(from.x, to.x);
+    copy_plane(from.y, to.y);
+    copy_plane(from.z, to.z);
+  };
+  if (!tile.any_surface) return;
+  copy(tile.position, surfaces_.position);
+  copy(tile.normal, surfaces_.normal);
+  copy(tile.view, surfaces_.view);
+  copy(tile.albedo, surfaces_.albedo);
+  copy(tile.f0, surfaces_.f0);
+  copy(tile.f90, surfaces_.f90);
+  copy_plane(tile.alpha_x, surfaces_.alpha);
   for (int y = 0; y < area.height; ++y)
     for (int x = 0; x < area.width; ++x) {
       const std::size_t slot = tile_slot(x, y), i = surfaces_.raster.at(area.x + x, area.y + y);
-      const Vec3f albedo = get(tile.albedo, slot), f0 = get(tile.f0, slot), f90 = get(tile.f90, slot);
-      if (tile.material[slot] == nullptr || !(weighs(albedo) || weighs(f0) || weighs(f90))) continue;
-      surfaces_.position.put(i, get(tile.position, slot));
-      surfaces_.normal.put(i, get(tile.normal, slot));
-      surfaces_.view.put(i, get(tile.view, slot));
-      surfaces_.albedo.put(i, albedo);
-      surfaces_.f0.put(i, f0);
-      surfaces_.f90.put(i, f90);
-      surfaces_.alpha[i] = std::sqrt(tile.alpha_x[slot] * tile.alpha_y[slot]);
-      if (!materials_.empty()) materials_[i] = tile.material[slot];
+      if (tile.alpha_x[slot] != tile.alpha_y[slot]) surfaces_.alpha[i] = std::sqrt(tile.alpha_x[slot] * tile.alpha_y[slot]);
+      const bool takes_light = tile.material[slot] != nullptr &&
+                               (weighs(get(tile.albedo, slot)) || weighs(get(tile.f0, slot)) || weighs(get(tile.f90, slot)));
+      if (!takes_light)
+        surfaces_.normal.put(i, {0, 0, 0});
+      else if (!materials_.empty())
+        materials_[i] = tile.material[slot];
     }
 }
 
@@ -111,19 +131,20 @@ void Pipeline::add_sum(Picture& picture) {
     set.seed = options_.seed;
     return make_sets(map, lobes, set);
   });
-  const Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
+  Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
   LightingOptions lighting;
   lighting.mode = o.mode;
-  lighting.quads = o.quads && !std::getenv("NOQUADS");
+  lighting.quads = o.quads;
   lighting.shadows = &rays_;
   lighting.shadow_rays = o.shadow_rays;
   lighting.seed = options_.seed;
   LightingResult lit = light_receivers(sets, receivers, layout, tables_, lighting);
-  if (std::getenv("IND_DEBUG")) fprintf(stderr, "pairs per pixel %.1f\n", lit.work.pairs / (double(options_.width) * options_.height));
   passes_.push_back({"cull", lit.work.cull_ms / threads_});
   passes_.push_back({"light", lit.work.light_ms / threads_});
   if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
+  receivers = {};  // its memory is the next planes'
   Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
+  lit.light = {};
   if (o.filter && o.interleave > 1)
     light = timed("filter", [&] {
       FloatArray width(surfaces_.raster.size());

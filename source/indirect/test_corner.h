@@ -1,0 +1,104 @@
+// What the tests of the bounce look at: a floor and a wall under a spot light.
+#pragma once
+
+#include <cmath>
+
+#include "steradian/compare.h"
+#include "steradian/render.h"
+
+namespace steradian::indirect {
+
+inline Mesh quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
+  Mesh mesh;
+  mesh.material = material;
+  mesh.positions = {a, b, c, d};
+  const Vec3f n = normalized(cross(b - a, c - a));
+  mesh.normals = {n, n, n, n};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+inline SurfaceMaterial metal(float roughness) {
+  SurfaceMaterial m;
+  m.base_color = {1, 1, 1, 1};
+  m.metallic = 1;
+  m.roughness = roughness;
+  return m;
+}
+inline SurfaceMaterial plastic(float albedo, float roughness) {
+  SurfaceMaterial m;
+  m.base_color = {albedo, 0.8f * albedo, 0.6f * albedo, 1};
+  m.metallic = 0;
+  m.roughness = roughness;
+  return m;
+}
+
+// A floor (material 0) and a wall (material 1) that meet, a spot light on the wall: nothing stands in the way of the bounce.
+inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
+  Scene scene;
+  scene.materials = {floor, wall};
+  scene.meshes = {quad({-2, 0, 3}, {2, 0, 3}, {2, 0, 0}, {-2, 0, 0}, 0), quad({-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}, 1)};
+  scene.bounds_min = {-2, 0, 0};
+  scene.bounds_max = {2, 3, 3};
+  PunctualLight light;
+  light.kind = PunctualKind::spot;
+  light.position = {0.3, 1.8, 2.5};
+  light.direction = normalized(Vec3d{0, 1.1, 0} - light.position);
+  light.intensity = {10, 9, 8};
+  light.cos_inner = std::cos(0.2);
+  light.cos_outer = std::cos(0.35);
+  scene.punctual_lights = {light};
+  Camera camera;
+  camera.position = {0.6, 1.6, 4.5};
+  camera.z = normalized(camera.position - Vec3d{0, 0.6, 0.8});
+  camera.x = normalized(cross({0, 1, 0}, camera.z));
+  camera.y = cross(camera.z, camera.x);
+  camera.yfov = 0.8;
+  scene.cameras = {camera};
+  return scene;
+}
+
+inline Scene metal_corner(float roughness = 0.4f) { return corner(metal(roughness), metal(0.5f)); }
+inline Scene mixed_corner() { return corner(plastic(0.6f, 0.45f), plastic(0.7f, 0.5f)); }
+
+inline RenderOptions options(IndirectMode mode, int lights) {
+  RenderOptions o;
+  o.width = 48;
+  o.height = 36;
+  o.method = "closed-form";
+  o.indirect.mode = mode;
+  o.indirect.virtual_lights = lights;
+  return o;
+}
+
+// The indirect light alone.
+inline Picture bounce(const Scene& scene, const RenderOptions& o) {
+  const Picture all = render(scene, o);
+  Picture result(all.width, all.height);
+  result.pixels = all.layers.at("indirect");
+  return result;
+}
+
+inline Picture plain_sum(const Scene& scene, IndirectMode mode, int lights) {
+  RenderOptions o = options(mode, lights);
+  o.indirect.kept_pairs = 0;
+  o.indirect.interleave = 1;
+  o.indirect.quads = o.indirect.soften = false;
+  return bounce(scene, o);
+}
+
+// R0 and R1: every virtual light at every pixel in double.
+inline Picture true_sum(const Scene& scene, IndirectMode mode, int lights) {
+  RenderOptions o = options(mode, lights);
+  o.method = "reference";
+  o.target_error = 1;  // of the direct light, which nobody looks at
+  return bounce(scene, o);
+}
+
+inline double mean(const Picture& p) {
+  double sum = 0;
+  for (const Vec3f& c : p.pixels) sum += c.x + c.y + c.z;
+  return sum / (3.0 * static_cast<double>(p.pixels.size()));
+}
+
+}  // namespace steradian::indirect
