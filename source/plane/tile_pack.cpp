@@ -237,27 +237,34 @@ STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) 
   const PackReal limit = broadcast(light.radius) * inversesqrt(max(tangent2, PackReal(1e-12)));
   const PackReal inverse = broadcast(light.inverse_range), inverse2 = inverse * inverse;
   const PackReal d2r = d2 * inverse2, rho2r = rho2 * inverse2;
+  const bool ranged = light.inverse_range > 0.0f;
   Cut cut;
   cut.kept = light.scratch;
   cut.high = limit;
-  if (light.inverse_range > 0.0f) {
-    // Where the near side leaves the range before the tangent: law of cosines, R = 1.
-    const PackReal numerator = d2r + PackReal(1.0) - rho2r;
-    const PackReal sine2 = PackReal(4.0) * d2r - numerator * numerator;
-    const PackReal reach = sqrt(max(sine2, PackReal(0.0))) / numerator;
+  bool whole = true;  // within the range as far as the tangents
+  if (ranged) {
     const PackMask leaves = d2r - rho2r > PackReal(1.0);
-    cut.high = select(leaves, min(reach, limit), limit);
+    whole = !any_lane(leaves);
+    if (!whole) {
+      // Where the near side leaves the range before the tangent: law of cosines, R = 1.
+      const PackReal numerator = d2r + PackReal(1.0) - rho2r;
+      const PackReal sine2 = PackReal(4.0) * d2r - numerator * numerator;
+      const PackReal reach = sqrt(max(sine2, PackReal(0.0))) / numerator;
+      cut.high = select(leaves, min(reach, limit), limit);
+    }
   }
   cut.high = select(tangent2 > PackReal(0.0), cut.high, PackReal(0.0));
   cut.low = -cut.high;
+  const PackReal reached = cut.high;
   if (cut.dark() || !cut_blockers(light, axis, cut)) return;
   PackReal sum(0.0);
-  if (light.inverse_range > 0.0f && cut.count == 0 && all_lanes(abs(cut.low + cut.high) <= PackReal(0.0))) {
-    sum = k.plane_disk_window_symmetric(max(cut.high, PackReal(0.0)), d2r, rho2r);  // nothing in the way
+  const bool open = cut.count == 0 && all_lanes(cut.high - cut.low >= reached + reached);
+  if (ranged && open) {
+    sum = whole ? k.plane_disk_window_whole(reached, d2r, rho2r) : PackReal(2.0) * k.plane_disk_window(reached, d2r, rho2r);
   } else {
     cut.for_each_gap([&](PackReal from, PackReal to) {
-      sum += light.inverse_range > 0.0f ? k.plane_disk_window(from, to, d2r, rho2r)
-                                        : k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
+      sum += ranged ? k.plane_disk_window(to, d2r, rho2r) - k.plane_disk_window(from, d2r, rho2r)
+                    : k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
     });
   }
   sum = sum * PackReal(0.159154943091895336);
