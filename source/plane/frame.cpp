@@ -199,12 +199,13 @@ class Worker {
     std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
+    leaf_.enter(tile);
     for (const Entry& e : level.entries) {
-      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin, tile);
+      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
       table_.add_light(light, buffer_);
       ++tile_lights;
-      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
+      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count + light.disk_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
     }
     if (level.bodies.empty() && level.general.empty()) {
       copy_out(x0, y0);

@@ -76,7 +76,8 @@ class Preparation {
     b.center = e.center;
     b.x_axis = e.x;
     b.y_axis = e.y;
-    b.bound = is_round(e) ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
+    b.round = is_round(e);
+    b.bound = b.round ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
     frame_.blockers.push_back(b);
   }
   static bool is_round(const Ellipse& e) {
@@ -342,8 +343,7 @@ class Preparation {
       }
       return true;
     }
-    const bool round = std::fabs(dot(b.x_axis, b.x_axis) - dot(b.y_axis, b.y_axis)) <= 1e-12 * dot(b.x_axis, b.x_axis);
-    if (e.kind != PlaneEmitter::Kind::disk || !round) return false;
+    if (e.kind != PlaneEmitter::Kind::disk || !b.round) return false;
     return add_lens(e, b, list);
   }
 
