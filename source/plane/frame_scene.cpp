@@ -231,10 +231,21 @@ class Preparation {
       inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
         return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
       });
-      if (!inside.by_chords) continue;
+      if (inside.by_chords) {
+        for (const Curve* c : inside.curves) {
+          if (c == &own) continue;
+          if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
+        }
+        continue;
+      }
+      inside.by_parts = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
+        return c->kind == Curve::Kind::segment || is_full_circle(*c);
+      });
+      if (!inside.by_parts) continue;
       for (const Curve* c : inside.curves) {
         if (c == &own) continue;
-        if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
+        const std::optional<Curve> part = c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
+        if (part) inside.parts.push_back(*part);
       }
     }
   }
