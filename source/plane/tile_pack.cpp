@@ -53,6 +53,17 @@ struct Cut {
     ++count;
   }
 
+  // What is taken from within [low, high], without overlaps.
+  template <class F>
+  STERADIAN_INLINE void for_each_taken(F f) const {
+    PackReal at = low;
+    for (int k = 0; k < count; ++k) {
+      const PackReal from = max(at, min(load(begin_of(k)), high)), to = max(from, min(load(end_of(k)), high));
+      if (any_lane(to > from)) f(from, to);
+      at = to;
+    }
+  }
+
   template <class F>
   STERADIAN_INLINE void for_each_gap(F f) const {
     PackReal at = low;
@@ -259,9 +270,11 @@ struct DiskEnds {
   int pixel[kRoom];                        // the first of the block
   float sign[kRoom];
   int count = 0;
-  alignas(64) float tangent[kTilePixels];  // of blocks that see all of the disk
-  int whole[kTilePixels / kLanes];
-  int whole_count = 0;
+  // Ends at a tangent of the disk.
+  alignas(64) float tangent[kTilePixels];
+  int tangent_pixel[kTilePixels / kLanes];
+  float tangent_sign[kTilePixels / kLanes];  // 2 where both are
+  int tangent_count = 0;
   PackReal rho2;
 
   STERADIAN_INLINE void push(int i, PackReal at, float to_sum) {
@@ -271,22 +284,21 @@ struct DiskEnds {
     store(slope + static_cast<std::size_t>(count) * kLanes, at);
     ++count;
   }
-  STERADIAN_INLINE void push_whole(int i, PackReal at) {
-    whole[whole_count++] = i;
+  STERADIAN_INLINE void push_tangent(int i, PackReal at, float ends) {
+    tangent_pixel[tangent_count] = i;
+    tangent_sign[tangent_count++] = ends;
     store(tangent + i, at);
   }
+  STERADIAN_INLINE void add_to_sum(int i, float times, PackReal part) { store(sum + i, load(sum + i) + broadcast(times) * part); }
   void flush() {
     PackKernels k;
-    for (int n = 0; n < count; ++n) {
-      const int i = pixel[n];
-      const PackReal part = k.plane_disk_window(load(slope + static_cast<std::size_t>(n) * kLanes), load(d2 + i), rho2);
-      store(sum + i, load(sum + i) + broadcast(sign[n]) * part);
+    for (int n = 0; n < count; ++n)
+      add_to_sum(pixel[n], sign[n], k.plane_disk_window(load(slope + static_cast<std::size_t>(n) * kLanes), load(d2 + pixel[n]), rho2));
+    for (int n = 0; n < tangent_count; ++n) {
+      const int i = tangent_pixel[n];
+      add_to_sum(i, tangent_sign[n], PackReal(0.5) * k.plane_disk_window_whole(load(tangent + i), load(d2 + i), rho2));
     }
-    for (int n = 0; n < whole_count; ++n) {
-      const int i = whole[n];
-      store(sum + i, k.plane_disk_window_whole(load(tangent + i), load(d2 + i), rho2));
-    }
-    count = whole_count = 0;
+    count = tangent_count = 0;
   }
 };
 
@@ -336,22 +348,32 @@ void add_ranged_disk(const TileLight& light, TileBuffer& tile) {
       cut.high = select(leaves, min(reach, cut.high), cut.high);
     }
     cut.low = -cut.high;
-    const PackReal all = cut.high - cut.low;
+    const PackReal reached = cut.high;
     if (cut.dark() || !cut_blockers(light, view.axis, cut)) continue;
     lit[lit_count++] = i;
     store(ends.d2 + i, d2);
-    if (within && cut.count == 0 && all_lanes(cut.high - cut.low >= all)) {
-      ends.push_whole(i, cut.high);
-      continue;
-    }
     store(ends.sum + i, PackReal(0.0));
-    cut.for_each_gap([&](PackReal from, PackReal to) {
-      ends.push(i, from, -1.0f);
-      ends.push(i, to, 1.0f);
+    // The integral over [low, high] without what is taken from within; where low has passed high, over nothing.
+    const bool high_open = within && all_lanes(cut.high >= reached), low_open = within && all_lanes(cut.low <= -reached);
+    if (high_open && low_open) {
+      ends.push_tangent(i, reached, 2.0f);
+    } else if (high_open) {
+      ends.push_tangent(i, reached, 1.0f);
+      ends.push(i, min(cut.low, cut.high), -1.0f);
+    } else if (low_open) {
+      ends.push_tangent(i, reached, 1.0f);
+      ends.push(i, max(cut.low, cut.high), 1.0f);
+    } else {
+      ends.push(i, min(cut.low, cut.high), -1.0f);
+      ends.push(i, cut.high, 1.0f);
+    }
+    cut.for_each_taken([&](PackReal from, PackReal to) {
+      ends.push(i, from, 1.0f);
+      ends.push(i, to, -1.0f);
     });
   }
   ends.flush();
-  for (int n = 0; n < lit_count; ++n) add_colour(light, tile, lit[n], load(ends.sum + lit[n]));
+  for (int n = 0; n < lit_count; ++n) add_colour(light, tile, lit[n], max(load(ends.sum + lit[n]), PackReal(0.0)));
 }
 
 STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) {
