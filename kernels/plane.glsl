@@ -116,36 +116,50 @@ real plane_root(real x) {
     return x * inversesqrt(max(x, 1.0e-30));
 }
 
-// Whole disk window integral between two rays, from their slopes.
-//
-//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
-//   d2, rho2 as above, R = 1; d2 > rho2
-//   returns  integral of the window over psi; the caller has clipped the rays to the range
-//
-// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
-real plane_disk_window(real m0, real m1, real d2, real rho2) {
-    real d = plane_root(d2);
-    real c0 = inversesqrt(1.0 + m0 * m0);
-    real c1 = inversesqrt(1.0 + m1 * m1);
-    real s0 = m0 * c0;
-    real s1 = m1 * c1;
-    real chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    real chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
-    real psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
-    real beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
-    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
-         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+// Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
+real plane_angle_of_slope(real m) {
+    if (any_lane(abs(m) > 1.0)) {
+        return trig_atan2(m, 1.0);
+    }
+    real q = m * m;
+    if (real_digits() > 24) {
+        return m * trig_atan_over_argument_53_bits(q);
+    }
+    return m * trig_atan_over_argument_24_bits(q);
 }
 
-// The same between -m and m: the integral is odd in the angle.
-real plane_disk_window_symmetric(real m, real d2, real rho2) {
+// The disk window integral from the direction of the centre to a ray, by the ray's slope.
+//
+//   m        tangent of psi, within the disk's own tangents; negative slopes give negative integrals
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi from 0; the caller has clipped the ray to the range
+//
+// A rounding of the chord does not matter: the chord's and beta's terms move against each other. So beta may come from
+// the chord by a polynomial for the arc cosine, without a division.
+real plane_disk_window(real m, real d2, real rho2) {
     real d = plane_root(d2);
     real c = inversesqrt(1.0 + m * m);
-    real s = m * c;
-    real chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    real psi = trig_atan2(m, 1.0);
-    real beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
+    real x = m * c * d;
+    real x2 = x * x;
+    real chord = plane_root(max(rho2 - x2, 0.0));
+    real psi = plane_angle_of_slope(m);
+    real inverse_rho = inversesqrt(rho2);
+    real acute = trig_angle_over_sine_acute(max(1.0 - abs(x) * inverse_rho, 0.0)) * chord * inverse_rho;
+    real beta = 0.5 * pi() - acute;
+    beta = select(m < 0.0, -beta, beta);
+    real e = 2.0 - 2.0 * d2 - rho2;
+    return psi * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + x * (c * d * (4.0 * rho2 - 2.0 + d2 - 2.0 * x2) + chord * (e - 2.0 * rho2 + 2.0 * x2))
+         + beta * (rho2 * e);
+}
+
+// The same over the whole disk: from tangent to tangent.
+//
+//   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
+real plane_disk_window_whole(real m, real d2, real rho2) {
+    real e = 2.0 - 2.0 * d2 - rho2;
+    return 2.0 * (plane_angle_of_slope(m) * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + m * (d2 - rho2) * (2.0 * rho2 - 2.0 + d2)) + pi() * (rho2 * e);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.

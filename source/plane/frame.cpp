@@ -82,6 +82,7 @@ class Worker {
  public:
   Worker(const FrameScene& frame, const Grid& grid, const TileTable& table, Picture& picture)
       : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame) {
+    std::fill(std::begin(inside_), std::end(inside_), kOutside);
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x) {
         buffer_.x[slot(x, y)] = static_cast<float>((x - 0.5 * (kTileSide - 1)) * grid_.step.x);
@@ -199,34 +200,32 @@ class Worker {
     std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
+    leaf_.enter(tile);
     for (const Entry& e : level.entries) {
-      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin, tile);
+      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
       table_.add_light(light, buffer_);
       ++tile_lights;
-      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
+      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count + light.disk_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
     }
-    if (level.bodies.empty() && level.general.empty()) {
-      copy_out(x0, y0);
-      return;
-    }
+    copy_out(x0, y0);
+    if (level.bodies.empty() && level.general.empty()) return;
     mark_inside(level, x0, y0);
-    if (!level.general.empty()) collect_general_curves(level, tile);
+    for (int i : marked_) {
+      const int x = x0 + i % kTileSide, y = y0 + i / kTileSide, inside = inside_[i];
+      if (x < grid_.width && y < grid_.height) picture_.at(x, y) = inside == kDark ? Vec3f{} : static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x, y)));
+    }
+    if (!level.general.empty()) add_general(level, tile, x0, y0);
+    for (int i : marked_) inside_[i] = kOutside;
+    marked_.clear();
+  }
+
+  void add_general(const Level& level, const TileArea& tile, int x0, int y0) {
+    collect_general_curves(level, tile);
     for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
-      for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x) {
-        const int i = slot(x, y);
-        Vec3f& out = picture_.at(x0 + x, y0 + y);
-        const int inside = inside_[i];
-        if (inside == kDark) {
-          out = {};
-        } else if (inside >= 0) {
-          out = static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x0 + x, y0 + y)));
-        } else {
-          out = {buffer_.red[i], buffer_.green[i], buffer_.blue[i]};
-          if (!level.general.empty())
-            out += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general, EmissionParts::radiance).radiance);
-        }
-      }
+      for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x)
+        if (inside_[y * kTileSide + x] == kOutside)
+          picture_.at(x0 + x, y0 + y) += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general, EmissionParts::radiance).radiance);
   }
 
   void copy_out(int x0, int y0) {
@@ -244,12 +243,12 @@ class Worker {
     const LightInterior& inside = frame_.interior[body];
     if (inside.curves.empty()) return radiance_at(*world_.scene.bodies[body].light, p);
     if (inside.by_chords) return radiance_at(*world_.scene.bodies[body].light, p) * open_share(inside.chords, p);
+    if (inside.by_parts) return light_between(world_, inside.parts, p, static_cast<int>(body));
     return envelope_light(world_, inside.curves, p, static_cast<int>(body), EmissionParts::radiance).radiance;
   }
 
   // Which body fills each pixel: in double and by the same test as a query.
   void mark_inside(const Level& level, int x0, int y0) {
-    std::fill(std::begin(inside_), std::end(inside_), -1);
     for (int index : level.bodies) {
       const PlaneBody& body = world_.scene.bodies[static_cast<std::size_t>(index)];
       const Box& box = world_.boxes[static_cast<std::size_t>(index)];
@@ -260,11 +259,13 @@ class Worker {
       for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y); ++y) {
         const auto within = [&](int x) { return contains(body, grid_.at(x0 + x, y0 + y)); };
         const auto mark = [&](int x) {
-          int& inside = inside_[slot(x, y)];
+          int& inside = inside_[y * kTileSide + x];
+          if (inside == kOutside) marked_.push_back(y * kTileSide + x);
           if (inside != kDark) inside = body.light ? index : kDark;
         };
         int begin = x0_box, end = x1_box;
         if (frame_.convex[static_cast<std::size_t>(index)] != 0) {
+          guess_row(body, grid_.at(x0, y0 + y).y, first.x, begin, end);
           while (begin <= end && !within(begin)) ++begin;
           while (end > begin && !within(end)) --end;
           for (int x = begin; x <= end; ++x) mark(x);
@@ -274,6 +275,23 @@ class Worker {
         }
       }
     }
+  }
+
+  // Narrows a row of a convex polygon to a pixel beyond where its edges cross it: the exact test decides what is left.
+  void guess_row(const PlaneBody& body, double y, double first, int& begin, int& end) const {
+    if (body.shape != PlaneBody::Shape::polygon) return;
+    const std::vector<Vec2d>& contour = body.contours[0];
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2d a = contour[i], b = contour[i + 1 < contour.size() ? i + 1 : 0];
+      if ((a.y < y && b.y < y) || (a.y > y && b.y > y)) continue;
+      const double t = a.y == b.y ? 0 : (y - a.y) / (b.y - a.y), x = a.x + t * (b.x - a.x);
+      low = std::min({low, x, a.y == b.y ? b.x : x});
+      high = std::max({high, x, a.y == b.y ? b.x : x});
+    }
+    if (low > high) return;
+    begin = std::max(begin, static_cast<int>(std::ceil(std::max(low - first, -1e6) / grid_.step.x - 1e-6)));
+    end = std::min(end, static_cast<int>(std::floor(std::min(high - first, 1e6) / grid_.step.x + 1e-6)));
   }
 
   void collect_general_curves(const Level& level, const TileArea& tile) {
@@ -292,7 +310,7 @@ class Worker {
     }
   }
 
-  static constexpr int kDark = -2;
+  static constexpr int kOutside = -1, kDark = -2;
   const FrameScene& frame_;
   const PlaneWorld::Impl& world_;
   const Grid& grid_;
@@ -303,7 +321,8 @@ class Worker {
   std::vector<int> hiders_;
   Level levels_[kLevels];
   TileBuffer buffer_;
-  int inside_[kTilePixels];
+  int inside_[kTilePixels];  // what fills each pixel, row by row
+  std::vector<int> marked_;   // those that something fills
   std::vector<const Curve*> general_curves_;
 };
 

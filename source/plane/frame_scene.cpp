@@ -76,7 +76,8 @@ class Preparation {
     b.center = e.center;
     b.x_axis = e.x;
     b.y_axis = e.y;
-    b.bound = is_round(e) ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
+    b.round = is_round(e);
+    b.bound = b.round ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
     frame_.blockers.push_back(b);
   }
   static bool is_round(const Ellipse& e) {
@@ -230,10 +231,21 @@ class Preparation {
       inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
         return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
       });
-      if (!inside.by_chords) continue;
+      if (inside.by_chords) {
+        for (const Curve* c : inside.curves) {
+          if (c == &own) continue;
+          if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
+        }
+        continue;
+      }
+      inside.by_parts = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
+        return c->kind == Curve::Kind::segment || is_full_circle(*c);
+      });
+      if (!inside.by_parts) continue;
       for (const Curve* c : inside.curves) {
         if (c == &own) continue;
-        if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
+        const std::optional<Curve> part = c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
+        if (part) inside.parts.push_back(*part);
       }
     }
   }
@@ -342,8 +354,7 @@ class Preparation {
       }
       return true;
     }
-    const bool round = std::fabs(dot(b.x_axis, b.x_axis) - dot(b.y_axis, b.y_axis)) <= 1e-12 * dot(b.x_axis, b.x_axis);
-    if (e.kind != PlaneEmitter::Kind::disk || !round) return false;
+    if (e.kind != PlaneEmitter::Kind::disk || !b.round) return false;
     return add_lens(e, b, list);
   }
 

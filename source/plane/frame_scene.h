@@ -36,6 +36,7 @@ struct PlaneBlocker {
   std::size_t first = 0;   // convex: vertices, counter-clockwise; two for a segment
   std::size_t count = 0;
   Vec2d x_axis, y_axis;    // ellipse, lens: half axes, cross(x, y) > 0
+  bool round = false;      // ellipse: of equal half axes
   Vec2d crossing[2];       // lens: where the disks' outlines cross; beyond the first, seen counter-clockwise, the
   Vec2d light_normal[2];   // blocker is nearer, before the second; outward normals there of the light's disk
   Vec2d blocker_normal[2]; // and of the blocker

@@ -18,6 +18,21 @@ std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circ
   return part;
 }
 
+std::optional<Curve> circle_clipped_to_circle(const Curve& other, const Ellipse& circle) {
+  const Vec2d to = circle.center - other.ellipse.center;
+  const double d = length(to), r = length(circle.x), s = length(other.ellipse.x);
+  if (d + s <= r) return other;
+  if (d >= r + s || d + r <= s) return {};
+  Curve part = other;
+  const Vec2d unit = other.ellipse.to_unit(circle.center);
+  const double half = std::acos(std::clamp((d * d + s * s - r * r) / (2 * d * s), -1.0, 1.0));
+  part.tau0 = std::atan2(unit.y, unit.x) - half;
+  part.tau_span = 2 * half;
+  part.a = part.ellipse.at(part.tau0);
+  part.b = part.ellipse.at(part.tau0 + part.tau_span);
+  return part;
+}
+
 double open_share(const std::vector<Curve>& chords, Vec2d p) {
   constexpr double pi = std::numbers::pi;
   struct Interval {

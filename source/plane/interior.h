@@ -15,10 +15,16 @@ struct LightInterior {
   // outline, so that the directions they take need no depth.
   std::vector<Curve> chords;
   bool by_chords = false;
+  // Where segments and circles reach into a round light, shining or not: their parts inside.
+  std::vector<Curve> parts;
+  bool by_parts = false;
 };
 
 // The part of a segment inside a circle, if any.
 std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circle);
+
+// The same of a full circle.
+std::optional<Curve> circle_clipped_to_circle(const Curve& other, const Ellipse& circle);
 
 // Share of the circle of directions that chords leave open, seen from a point among them.
 double open_share(const std::vector<Curve>& chords, Vec2d p);

@@ -30,6 +30,11 @@ struct TileBody {
   float depth_x, depth_y, depth_c;
 };
 
+// A round blocker in front of the light and of every pixel's axis, or one that also reaches past the light on one side.
+struct TileDisk {
+  float x, y, radius;
+};
+
 struct TileRound {
   float cx, cy;                    // ellipse: centre,
   float xx, xy, yx, yy;            // half axes x and y,
@@ -57,6 +62,12 @@ struct TileLight {
   int low_count;
   const TileVertex* highs;         // begins of blockers that end behind it
   int high_count;
+  const TileDisk* low_disks;       // the same with disks
+  int low_disk_count;
+  const TileDisk* high_disks;
+  int high_disk_count;
+  const TileDisk* disks;
+  int disk_count;
   const TileSpan* spans;
   int span_count;
   const TileBody* bodies;

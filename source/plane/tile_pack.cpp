@@ -53,6 +53,17 @@ struct Cut {
     ++count;
   }
 
+  // What is taken from within [low, high], without overlaps.
+  template <class F>
+  STERADIAN_INLINE void for_each_taken(F f) const {
+    PackReal at = low;
+    for (int k = 0; k < count; ++k) {
+      const PackReal from = max(at, min(load(begin_of(k)), high)), to = max(from, min(load(end_of(k)), high));
+      if (any_lane(to > from)) f(from, to);
+      at = to;
+    }
+  }
+
   template <class F>
   STERADIAN_INLINE void for_each_gap(F f) const {
     PackReal at = low;
@@ -78,6 +89,12 @@ STERADIAN_INLINE PackReal quotient(PackReal a, PackReal b) {
 #endif
 }
 
+// The slope of a direction (w along the axis, t across it), `beyond` where it is not in front.
+STERADIAN_INLINE PackReal slope(PackReal w, PackReal t, PackReal beyond) {
+  const PackReal q = quotient(t, max(w, PackReal(1e-12)));
+  return select(w > PackReal(1e-12), clamp(q, PackReal(-kBeyond), PackReal(kBeyond)), beyond);
+}
+
 struct Axis {
   PackReal x, y;        // axis: w along it, t across
   PackReal px, py;      // the pixels
@@ -100,10 +117,9 @@ STERADIAN_INLINE void take_blocker(const TileSpan& span, const TileVertex* verti
 
 // Two directions that span less than half a turn, in any order, also behind the pixel.
 STERADIAN_INLINE void take_span(PackReal pw, PackReal pt, PackReal qw, PackReal qt, PackMask valid, Cut& cut) {
-  PackKernels k;
   const PackMask swap = pw * qt - pt * qw < PackReal(0.0);
   const PackReal aw = select(swap, qw, pw), at = select(swap, qt, pt), bw = select(swap, pw, qw), bt = select(swap, pt, qt);
-  const PackReal from = k.plane_slope(aw, at, PackReal(-kBeyond)), to = k.plane_slope(bw, bt, PackReal(kBeyond));
+  const PackReal from = slope(aw, at, PackReal(-kBeyond)), to = slope(bw, bt, PackReal(kBeyond));
   cut.take(from, to, valid && (aw > PackReal(1e-12) || bw > PackReal(1e-12)) && from < to);
 }
 
@@ -120,7 +136,6 @@ STERADIAN_INLINE PackMask nearer(const Item& item, const Axis& axis) {
 
 // The blocker's tangents: its most clockwise and counter-clockwise vertices.
 STERADIAN_INLINE void take_body(const TileBody& body, const TileVertex* vertices, const Axis& axis, Cut& cut) {
-  PackKernels k;
   const TileVertex* v = vertices + body.vertices.first;
   const auto outermost = [&](const TileVertex* candidates, int count, PackReal sign, PackReal& w, PackReal& t) {
     PackReal x = broadcast(candidates[0].x) - axis.px, y = broadcast(candidates[0].y) - axis.py;
@@ -136,7 +151,7 @@ STERADIAN_INLINE void take_body(const TileBody& body, const TileVertex* vertices
   PackReal pw, pt, qw, qt;
   outermost(v, body.vertices.begins, PackReal(-1.0), pw, pt);
   outermost(v + body.vertices.begins, body.vertices.ends, PackReal(1.0), qw, qt);
-  const PackReal from = k.plane_slope(pw, pt, PackReal(-kBeyond)), to = k.plane_slope(qw, qt, PackReal(kBeyond));
+  const PackReal from = slope(pw, pt, PackReal(-kBeyond)), to = slope(qw, qt, PackReal(kBeyond));
   PackMask valid = (pw > PackReal(1e-12) || qw > PackReal(1e-12)) && from < to;
   if (body.deep) valid = valid && nearer(body, axis);
   cut.take(from, to, valid);
@@ -165,18 +180,31 @@ STERADIAN_INLINE Tangents tangents(const TileRound& r, const Axis& axis) {
   return result;
 }
 
+// Slopes of a disk's tangents, the disk in front of the axis: its clockwise one and the other.
+struct DiskTangents {
+  PackReal x, y, root, radius;  // the centre from the pixel, the length of a tangent
+  STERADIAN_INLINE DiskTangents(const TileDisk& disk, const Axis& axis) {
+    x = broadcast(disk.x) - axis.px;
+    y = broadcast(disk.y) - axis.py;
+    radius = broadcast(disk.radius);
+    root = PackKernels().plane_root(max(x * x + y * y - radius * radius, PackReal(0.0)));
+  }
+  STERADIAN_INLINE PackReal begin(const Axis& axis) const { return along(axis, x * root + y * radius, y * root - x * radius); }
+  STERADIAN_INLINE PackReal end(const Axis& axis) const { return along(axis, x * root - y * radius, y * root + x * radius); }
+  STERADIAN_INLINE static PackReal along(const Axis& axis, PackReal dx, PackReal dy) { return quotient(axis.t(dx, dy), axis.w(dx, dy)); }
+};
+
 // Two disks that overlap: which is nearer changes only at a crossing of their outlines that is seen on both.
 STERADIAN_INLINE void take_lens(const TileLens& lens, const Axis& axis, Cut& cut) {
-  PackKernels k;
   const Tangents t = tangents(lens.round, axis);
-  const PackReal p = k.plane_slope(t.pw, t.pt, PackReal(-kBeyond)), q = k.plane_slope(t.qw, t.qt, PackReal(kBeyond));
+  const PackReal p = slope(t.pw, t.pt, PackReal(-kBeyond)), q = slope(t.qw, t.qt, PackReal(kBeyond));
   PackMask on_light[2], on_blocker[2];
-  PackReal slope[2];
+  PackReal crossing[2];
   for (int i = 0; i < 2; ++i) {
     const PackReal x = broadcast(lens.x[i]) - axis.px, y = broadcast(lens.y[i]) - axis.py;
     on_light[i] = x * broadcast(lens.lx[i]) + y * broadcast(lens.ly[i]) < PackReal(0.0);
     on_blocker[i] = x * broadcast(lens.bx[i]) + y * broadcast(lens.by[i]) < PackReal(0.0);
-    slope[i] = k.plane_slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
+    crossing[i] = slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
   }
   const PackMask seen0 = on_light[0] && on_blocker[0], seen1 = on_light[1] && on_blocker[1];
   // None seen: the order is the same everywhere. A crossing on the light's near side but the blocker's far side has
@@ -185,14 +213,14 @@ STERADIAN_INLINE void take_lens(const TileLens& lens, const Axis& axis, Cut& cut
   const PackMask behind = (on_blocker[0] && !on_light[0]) || (on_blocker[1] && !on_light[1]);
   const PackMask none = !(seen0 || seen1) && (front || (!behind && nearer(lens.round, axis)));
   const PackMask both = seen0 && seen1;
-  const PackMask middle = both && slope[0] < slope[1];
+  const PackMask middle = both && crossing[0] < crossing[1];
   const PackMask valid = t.outside && (t.pw > PackReal(1e-12) || t.qw > PackReal(1e-12));
-  const PackReal from = select(seen0, slope[0], p), to = select(seen1, slope[1], q);
+  const PackReal from = select(seen0, crossing[0], p), to = select(seen1, crossing[1], q);
   const PackMask split = both && !middle;
   cut.take(from, to, valid && (none || middle || (!both && (seen0 || seen1))) && from < to);
   if (any_lane(split)) {
-    cut.take(p, slope[1], valid && split);
-    cut.take(slope[0], q, valid && split);
+    cut.take(p, crossing[1], valid && split);
+    cut.take(crossing[0], q, valid && split);
   }
 }
 
@@ -200,9 +228,17 @@ STERADIAN_INLINE void take_lens(const TileLens& lens, const Axis& axis, Cut& cut
 STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut& cut) {
   for (int i = 0; i < light.low_count; ++i) cut.low = max(cut.low, slope_to(light.lows[i], axis));
   for (int i = 0; i < light.high_count; ++i) cut.high = min(cut.high, slope_to(light.highs[i], axis));
+  for (int i = 0; i < light.low_disk_count; ++i) cut.low = max(cut.low, DiskTangents(light.low_disks[i], axis).end(axis));
+  for (int i = 0; i < light.high_disk_count; ++i) cut.high = min(cut.high, DiskTangents(light.high_disks[i], axis).begin(axis));
   if (cut.dark()) return false;
   for (int i = 0; i < light.span_count; ++i) {
     take_blocker(light.spans[i], light.span_vertices, axis, cut);
+    if (cut.dark()) return false;
+  }
+  for (int i = 0; i < light.disk_count; ++i) {
+    const DiskTangents tangents(light.disks[i], axis);
+    const PackReal from = tangents.begin(axis), to = tangents.end(axis);
+    cut.take(from, to, from < to);
     if (cut.dark()) return false;
   }
   for (int i = 0; i < light.body_count; ++i) {
@@ -224,46 +260,132 @@ STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut
 
 STERADIAN_INLINE void add(float* p, PackReal x) { store(p, load(p) + x); }
 
-STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) {
-  PackKernels k;
-  Axis axis;
-  axis.px = load(tile.x + i);
-  axis.py = load(tile.y + i);
-  axis.x = broadcast(light.x) - axis.px;
-  axis.y = broadcast(light.y) - axis.py;
-  const PackReal rho2 = broadcast(light.radius * light.radius);
-  const PackReal d2 = axis.x * axis.x + axis.y * axis.y;
-  const PackReal tangent2 = d2 - rho2;
-  const PackReal limit = broadcast(light.radius) * inversesqrt(max(tangent2, PackReal(1e-12)));
-  const PackReal inverse = broadcast(light.inverse_range), inverse2 = inverse * inverse;
-  const PackReal d2r = d2 * inverse2, rho2r = rho2 * inverse2;
-  Cut cut;
-  cut.kept = light.scratch;
-  cut.high = limit;
-  if (light.inverse_range > 0.0f) {
-    // Where the near side leaves the range before the tangent: law of cosines, R = 1.
-    const PackReal numerator = d2r + PackReal(1.0) - rho2r;
-    const PackReal sine2 = PackReal(4.0) * d2r - numerator * numerator;
-    const PackReal reach = sqrt(max(sine2, PackReal(0.0))) / numerator;
-    const PackMask leaves = d2r - rho2r > PackReal(1.0);
-    cut.high = select(leaves, min(reach, limit), limit);
+// Where a disk with a range is seen, on one tile. Blocks of pixels are integrated end by end in loops of their own:
+// without branches, many ends are under way at once.
+struct DiskEnds {
+  static constexpr int kRoom = 64;
+  alignas(64) float d2[kTilePixels];       // the centre's distance squared, range 1
+  alignas(64) float sum[kTilePixels];
+  alignas(64) float slope[kRoom * kLanes];
+  int pixel[kRoom];                        // the first of the block
+  float sign[kRoom];
+  int count = 0;
+  // Ends at a tangent of the disk.
+  alignas(64) float tangent[kTilePixels];
+  int tangent_pixel[kTilePixels / kLanes];
+  float tangent_sign[kTilePixels / kLanes];  // 2 where both are
+  int tangent_count = 0;
+  PackReal rho2;
+
+  STERADIAN_INLINE void push(int i, PackReal at, float to_sum) {
+    if (count == kRoom) flush();
+    pixel[count] = i;
+    sign[count] = to_sum;
+    store(slope + static_cast<std::size_t>(count) * kLanes, at);
+    ++count;
   }
-  cut.high = select(tangent2 > PackReal(0.0), cut.high, PackReal(0.0));
-  cut.low = -cut.high;
-  if (cut.dark() || !cut_blockers(light, axis, cut)) return;
-  PackReal sum(0.0);
-  if (light.inverse_range > 0.0f && cut.count == 0 && all_lanes(abs(cut.low + cut.high) <= PackReal(0.0))) {
-    sum = k.plane_disk_window_symmetric(max(cut.high, PackReal(0.0)), d2r, rho2r);  // nothing in the way
-  } else {
-    cut.for_each_gap([&](PackReal from, PackReal to) {
-      sum += light.inverse_range > 0.0f ? k.plane_disk_window(from, to, d2r, rho2r)
-                                        : k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
+  STERADIAN_INLINE void push_tangent(int i, PackReal at, float ends) {
+    tangent_pixel[tangent_count] = i;
+    tangent_sign[tangent_count++] = ends;
+    store(tangent + i, at);
+  }
+  STERADIAN_INLINE void add_to_sum(int i, float times, PackReal part) { store(sum + i, load(sum + i) + broadcast(times) * part); }
+  void flush() {
+    PackKernels k;
+    for (int n = 0; n < count; ++n)
+      add_to_sum(pixel[n], sign[n], k.plane_disk_window(load(slope + static_cast<std::size_t>(n) * kLanes), load(d2 + pixel[n]), rho2));
+    for (int n = 0; n < tangent_count; ++n) {
+      const int i = tangent_pixel[n];
+      add_to_sum(i, tangent_sign[n], PackReal(0.5) * k.plane_disk_window_whole(load(tangent + i), load(d2 + i), rho2));
+    }
+    count = tangent_count = 0;
+  }
+};
+
+struct DiskView {
+  Axis axis;
+  PackReal d2, tangent2;
+  STERADIAN_INLINE DiskView(const TileLight& light, const TileBuffer& tile, int i) {
+    axis.px = load(tile.x + i);
+    axis.py = load(tile.y + i);
+    axis.x = broadcast(light.x) - axis.px;
+    axis.y = broadcast(light.y) - axis.py;
+    d2 = axis.x * axis.x + axis.y * axis.y;
+    tangent2 = d2 - broadcast(light.radius * light.radius);
+  }
+  // The slope of the tangents; 0 within the disk.
+  STERADIAN_INLINE PackReal limit(const TileLight& light) const {
+    const PackReal slope = broadcast(light.radius) * inversesqrt(max(tangent2, PackReal(1e-12)));
+    return select(tangent2 > PackReal(0.0), slope, PackReal(0.0));
+  }
+};
+
+STERADIAN_INLINE void add_colour(const TileLight& light, TileBuffer& tile, int i, PackReal share) {
+  share = share * PackReal(0.159154943091895336);
+  add(tile.red + i, share * broadcast(light.red));
+  add(tile.green + i, share * broadcast(light.green));
+  add(tile.blue + i, share * broadcast(light.blue));
+}
+
+void add_ranged_disk(const TileLight& light, TileBuffer& tile) {
+  DiskEnds ends;
+  const PackReal inverse2 = broadcast(light.inverse_range * light.inverse_range);
+  ends.rho2 = broadcast(light.radius * light.radius) * inverse2;
+  int lit[kTilePixels / kLanes], lit_count = 0;
+  for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
+    const DiskView view(light, tile, i);
+    const PackReal d2 = view.d2 * inverse2;
+    Cut cut;
+    cut.kept = light.scratch;
+    cut.high = view.limit(light);
+    const PackMask leaves = d2 - ends.rho2 > PackReal(1.0);
+    const bool within = !any_lane(leaves);
+    if (!within) {
+      // Where the near side leaves the range before the tangent: law of cosines, R = 1.
+      const PackReal numerator = d2 + PackReal(1.0) - ends.rho2;
+      const PackReal sine2 = PackReal(4.0) * d2 - numerator * numerator;
+      const PackReal reach = PackKernels().plane_root(max(sine2, PackReal(0.0))) / numerator;
+      cut.high = select(leaves, min(reach, cut.high), cut.high);
+    }
+    cut.low = -cut.high;
+    const PackReal reached = cut.high;
+    if (cut.dark() || !cut_blockers(light, view.axis, cut)) continue;
+    lit[lit_count++] = i;
+    store(ends.d2 + i, d2);
+    store(ends.sum + i, PackReal(0.0));
+    // The integral over [low, high] without what is taken from within; where low has passed high, over nothing.
+    const bool high_open = within && all_lanes(cut.high >= reached), low_open = within && all_lanes(cut.low <= -reached);
+    if (high_open && low_open) {
+      ends.push_tangent(i, reached, 2.0f);
+    } else if (high_open) {
+      ends.push_tangent(i, reached, 1.0f);
+      ends.push(i, min(cut.low, cut.high), -1.0f);
+    } else if (low_open) {
+      ends.push_tangent(i, reached, 1.0f);
+      ends.push(i, max(cut.low, cut.high), 1.0f);
+    } else {
+      ends.push(i, min(cut.low, cut.high), -1.0f);
+      ends.push(i, cut.high, 1.0f);
+    }
+    cut.for_each_taken([&](PackReal from, PackReal to) {
+      ends.push(i, from, 1.0f);
+      ends.push(i, to, -1.0f);
     });
   }
-  sum = sum * PackReal(0.159154943091895336);
-  add(tile.red + i, sum * broadcast(light.red));
-  add(tile.green + i, sum * broadcast(light.green));
-  add(tile.blue + i, sum * broadcast(light.blue));
+  ends.flush();
+  for (int n = 0; n < lit_count; ++n) add_colour(light, tile, lit[n], max(load(ends.sum + lit[n]), PackReal(0.0)));
+}
+
+STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) {
+  const DiskView view(light, tile, i);
+  Cut cut;
+  cut.kept = light.scratch;
+  cut.high = view.limit(light);
+  cut.low = -cut.high;
+  if (cut.dark() || !cut_blockers(light, view.axis, cut)) return;
+  PackReal sum(0.0);
+  cut.for_each_gap([&](PackReal from, PackReal to) { sum += PackKernels().trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to); });
+  add_colour(light, tile, i, sum);
 }
 
 STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) {
@@ -313,6 +435,10 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
 }
 
 __attribute__((flatten)) void add_light(const TileLight& light, TileBuffer& tile) {
+  if (!light.edge && light.inverse_range > 0.0f) {
+    add_ranged_disk(light, tile);
+    return;
+  }
   for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
     if (light.edge)
       add_edge(light, tile, i);

@@ -68,6 +68,21 @@ PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<co
   return envelope_sum(world, curves, from, -1, parts, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
 }
 
+Vec3d light_between(const PlaneWorld::Impl& world, const std::vector<Curve>& parts, Vec2d from, int inside_light) {
+  PlaneLight sum;
+  double open = 2 * pi;
+  thread_local std::vector<const Curve*> curves;
+  curves.clear();
+  for (const Curve& c : parts) curves.push_back(&c);
+  for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside_light})) {
+    open -= v.end - v.begin;
+    if (const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light)
+      add_emission(v, *light, from, EmissionParts::radiance, sum);
+  }
+  const Vec3d own = radiance_at(*world.scene.bodies[static_cast<std::size_t>(inside_light)].light, from);
+  return (sum.radiance + own * open) / (2 * pi);
+}
+
 namespace {
 
 double nearest_in(const Box& box, Vec2d p) {

@@ -30,6 +30,8 @@ PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const
 // The same, for the lights marked in `only` (by body); the others block.
 PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
                              const std::vector<char>& only, EmissionParts parts);
+// Radiance within a light, where all that can be seen are these parts of other outlines, and the light between them.
+Vec3d light_between(const PlaneWorld::Impl& world, const std::vector<Curve>& parts, Vec2d from, int inside_light);
 PlaneLight par_light(const PlaneWorld::Impl& world, Vec2d from);
 PlaneLight sampled_light(const PlaneWorld::Impl& world, Vec2d from, const PlaneSampling& sampling);
 PlaneLight marched_light(const PlaneWorld::Impl& world, Vec2d from, const PlaneSampling& sampling);

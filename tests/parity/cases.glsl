@@ -285,25 +285,22 @@ vec4 case_plane_edge_linear(CaseInput i) {
                 plane_edge_integral(2, 1, i.a.x, f, i.a.y), plane_edge_integral(2, 2, i.a.x, f, i.a.y));
 }
 
-// plane, disk under a range window, between two rays; squared distance and radius in units of the range
-//   a.x    range(0, 0.9)
-//   a.y    range(-0.9, 0)
+// plane, disk under a range window, from its centre's direction to a ray; squared distance and radius in units of the range
+//   a.x    range(-0.9, 0.9)
 //   b.x    range(0.02, 0.9)
 //   b.y    range(0.01, 0.95)
 vec4 case_plane_disk_window(CaseInput i) {
     real rho2 = i.b.x * i.b.y * i.b.y;
     real tangent = sqrt(rho2) * inversesqrt(i.b.x - rho2);
-    return case_of_real(plane_disk_window(i.a.y * tangent, i.a.x * tangent, i.b.x, rho2));
+    return case_of_real(plane_disk_window(i.a.x * tangent, i.b.x, rho2));
 }
 
-// plane, the same disk between a ray and its mirror image
-//   a.x    range(0, 0.9)
+// plane, the same disk from tangent to tangent
 //   b.x    range(0.02, 0.9)
 //   b.y    range(0.01, 0.95)
-vec4 case_plane_disk_window_symmetric(CaseInput i) {
+vec4 case_plane_disk_window_whole(CaseInput i) {
     real rho2 = i.b.x * i.b.y * i.b.y;
-    real tangent = sqrt(rho2) * inversesqrt(i.b.x - rho2);
-    return case_of_real(plane_disk_window_symmetric(i.a.x * tangent, i.b.x, rho2));
+    return case_of_real(plane_disk_window_whole(sqrt(rho2) * inversesqrt(i.b.x - rho2), i.b.x, rho2));
 }
 
 // plane, slope of a point in front of a pixel or behind it
