@@ -677,7 +677,7 @@ fn conic_vector_approximate(arc: ConicArc) -> vec3f {
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: see docs/accuracy.md, "conic arc".
+// Error: docs/accuracy.md, "Float against double", conic vector.
 fn conic_vector(arc: ConicArc) -> vec3f {
     var e = conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
@@ -729,7 +729,7 @@ fn ellipse_arc(e: Ellipse, begin: f32, end: f32) -> ConicArc {
 //   e        of ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: see docs/accuracy.md, "ellipse irradiance". Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 fn ellipse_irradiance_vector(e: Ellipse) -> vec3f {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     let up = vec2f(e.axis_a.z, e.axis_b.z);
@@ -843,7 +843,7 @@ fn ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
-// Error: see docs/accuracy.md, "ellipse polygons".
+// Error: docs/accuracy.md, "Float against double", ellipse.
 fn ellipse_fan_corner(fan: EllipseFan, k: i32, count: i32) -> vec3f {
     let before = ellipse_corner(fan, k - 1, count);
     let here = ellipse_corner(fan, k, count);
@@ -1032,7 +1032,7 @@ fn capsule_add_arc(walk: PolygonWalk, center: vec3f, radius: f32, middle: vec3f,
 //   c        of capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
-// Error: see docs/accuracy.md, "capsule irradiance". Exact: two arcs, two edges and an arc of the horizon.
+// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
 fn capsule_irradiance_vector(c: Capsule) -> vec3f {
     var e = capsule_whole_vector(c);
     let cut = min(c.end_a.z, c.end_b.z) < c.radius;
@@ -1071,7 +1071,7 @@ fn capsule_irradiance_vector(c: Capsule) -> vec3f {
 //   end_a, end_b  from the shading point
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
-// Error: see docs/accuracy.md, "line irradiance". A capsule differs by at most docs/eval.md's bound.
+// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
 // Source: as for any linear light; here the limit of capsule_whole_vector.
 fn line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
     let wa = abs(end_a.z);
@@ -3691,36 +3691,47 @@ fn plane_root(x: f32) -> f32 {
     return x * inverseSqrt(max(x, 1.0e-30));
 }
 
-// Whole disk window integral between two rays, from their slopes.
-//
-//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
-//   d2, rho2 as above, R = 1; d2 > rho2
-//   returns  integral of the window over psi; the caller has clipped the rays to the range
-//
-// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
-fn plane_disk_window(m0: f32, m1: f32, d2: f32, rho2: f32) -> f32 {
-    let d = plane_root(d2);
-    let c0 = inverseSqrt(1.0 + m0 * m0);
-    let c1 = inverseSqrt(1.0 + m1 * m1);
-    let s0 = m0 * c0;
-    let s1 = m1 * c1;
-    let chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    let chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
-    let psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
-    let beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
-    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
-         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+// Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
+fn plane_angle_of_slope(m: f32) -> f32 {
+    if (abs(m) > 1.0) {
+        return trig_atan2(m, 1.0);
+    }
+    let q = m * m;
+    return m * trig_atan_over_argument_24_bits(q);
 }
 
-// The same between -m and m: the integral is odd in the angle.
-fn plane_disk_window_symmetric(m: f32, d2: f32, rho2: f32) -> f32 {
+// The disk window integral from the direction of the centre to a ray, by the ray's slope.
+//
+//   m        tangent of psi, within the disk's own tangents; negative slopes give negative integrals
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi from 0; the caller has clipped the ray to the range
+//
+// A rounding of the chord does not matter: the chord's and beta's terms move against each other. So beta may come from
+// the chord by a polynomial for the arc cosine, without a division.
+fn plane_disk_window(m: f32, d2: f32, rho2: f32) -> f32 {
     let d = plane_root(d2);
     let c = inverseSqrt(1.0 + m * m);
-    let s = m * c;
-    let chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    let psi = trig_atan2(m, 1.0);
-    let beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
+    let x = m * c * d;
+    let x2 = x * x;
+    let chord = plane_root(max(rho2 - x2, 0.0));
+    let psi = plane_angle_of_slope(m);
+    let inverse_rho = inverseSqrt(rho2);
+    let acute = trig_angle_over_sine_acute(max(1.0 - abs(x) * inverse_rho, 0.0)) * chord * inverse_rho;
+    var beta = 0.5 * steradian_pi() - acute;
+    beta = select(beta, -beta, m < 0.0);
+    let e = 2.0 - 2.0 * d2 - rho2;
+    return psi * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + x * (c * d * (4.0 * rho2 - 2.0 + d2 - 2.0 * x2) + chord * (e - 2.0 * rho2 + 2.0 * x2))
+         + beta * (rho2 * e);
+}
+
+// The same over the whole disk: from tangent to tangent.
+//
+//   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
+fn plane_disk_window_whole(m: f32, d2: f32, rho2: f32) -> f32 {
+    let e = 2.0 - 2.0 * d2 - rho2;
+    return 2.0 * (plane_angle_of_slope(m) * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + m * (d2 - rho2) * (2.0 * rho2 - 2.0 + d2)) + steradian_pi() * (rho2 * e);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.
