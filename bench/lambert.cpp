@@ -1,6 +1,9 @@
-// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part.
+// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part; the same of a
+// sphere and a capsule.
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "benches.h"
@@ -45,8 +48,30 @@ std::shared_ptr<Floor> make_floor() {
   return floor;
 }
 
-Bench packs(const std::string& name, Simd simd) {
+// A ball and a tube where the quad is.
+PackLight round_light(LightShape shape) {
+  Scene scene;
+  AreaLight light;
+  light.shape = shape;
+  light.center = {0, 0.5, -0.6};
+  if (shape == LightShape::capsule) {
+    light.x = {1, 0.1, 0};
+    light.radius = 0.1;
+  } else {
+    light.x = {0.5, 0, 0};
+    light.y = {0, 0.5, 0};
+    light.z = {0, 0, 0.5};
+  }
+  light.polygon.radiance = {1, 1, 1};
+  scene.area_lights = {light};
+  PackLight result = prepare_lights(scene).front();
+  result.area = nullptr;  // goes with the scene; the irradiance does not ask for it
+  return result;
+}
+
+Bench packs(const std::string& name, Simd simd, std::optional<LightShape> shape = {}) {
   auto floor = make_floor();
+  if (shape) floor->pack_light = round_light(*shape);
   const auto irradiance = irradiance_table_for(simd).irradiance;
   return {name, floor->x.size(), name_of(simd), [floor, irradiance] {
             irradiance(floor->pack_light, floor->points(), floor->result.data());
@@ -74,6 +99,10 @@ void add_lambert(BenchList& list) {
   for (const Simd simd : available_simd()) {
     const std::string one = name + "/" + name_of(simd);
     list.add(one, [one, simd](const BenchOptions&) { return packs(one, simd); });
+  }
+  for (const auto& [end, shape] : {std::pair{"sphere", LightShape::sphere}, std::pair{"capsule", LightShape::capsule}}) {
+    const std::string other = std::string("kernel/lambert/") + end;
+    list.add(other, [other, kind = shape](const BenchOptions& options) { return packs(other, options.simd, kind); });
   }
   list.add(name + "/scalar", [name](const BenchOptions&) { return scalar(name + "/scalar"); });
 }
