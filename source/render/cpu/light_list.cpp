@@ -11,6 +11,13 @@ namespace {
 
 Vec3f single(Vec3d v) { return static_cast<Vec3f>(v); }
 
+// Three axes of one length, at right angles, up to the rounding of a node's rotation.
+bool is_ball(const AreaLight& a) {
+  const double r2 = dot(a.x, a.x), least = 1e-6 * r2;
+  const auto off = [&](double x) { return std::fabs(x) > least; };
+  return !off(dot(a.y, a.y) - r2) && !off(dot(a.z, a.z) - r2) && !off(dot(a.x, a.y)) && !off(dot(a.y, a.z)) && !off(dot(a.z, a.x));
+}
+
 PackLight from_ellipsoid(const AreaLight& a) {
   PackLight light;
   light.kind = PackLight::Kind::ellipsoid;
@@ -23,6 +30,10 @@ PackLight from_ellipsoid(const AreaLight& a) {
   light.unit_x = single(cross(a.y, a.z) / det);
   light.unit_y = single(cross(a.z, a.x) / det);
   light.unit_z = single(cross(a.x, a.y) / det);
+  if (is_ball(a)) {
+    light.radius = static_cast<float>(length(a.x));
+    light.end_a = light.end_b = light.center;
+  }
   return light;
 }
 

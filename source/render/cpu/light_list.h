@@ -32,7 +32,7 @@ struct PackLight {
   Vec3f center{}, axis_x{}, axis_y{}, axis_z{};
   Vec3f unit_x{}, unit_y{}, unit_z{};
 
-  // capsule
+  // capsule. An ellipsoid that is a ball is one, too, without length: its irradiance is the quicker
   Vec3f end_a{}, end_b{};
   float radius = 0;
 

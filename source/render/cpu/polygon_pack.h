@@ -116,7 +116,7 @@ struct SeenLight {
 // Irradiance of a round light, exact.
 __attribute__((flatten, noinline)) inline PackReal round_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
                                                                           const PackVec3& p) {
-  if (seen.light.kind == PackLight::Kind::capsule) return capsule_irradiance(seen.light, frame, p);
+  if (seen.light.radius > 0) return select(seen.lit, capsule_irradiance(seen.light, frame, p), PackReal(0.0));
   PackKernels k;
   return select(seen.lit, k.ellipse_irradiance_vector(outline_in_frame(seen.outline, frame)).z, PackReal(0.0));
 }
