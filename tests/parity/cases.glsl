@@ -295,6 +295,20 @@ vec4 case_plane_disk_window(CaseInput i) {
     return case_of_real(plane_disk_window(i.a.x * tangent, i.b.x, rho2));
 }
 
+// plane, antiderivative of the window over the same disk
+//   a.x    range(-0.9, 0.9)
+//   b.x    range(0.02, 0.9)
+//   b.y    range(0.01, 0.95)
+vec4 case_plane_disk_window_integral(CaseInput i) {
+    real rho2 = i.b.x * i.b.y * i.b.y;
+    real m = i.a.x * sqrt(rho2) * inversesqrt(i.b.x - rho2);
+    real c = inversesqrt(1.0 + m * m);
+    real d = sqrt(i.b.x);
+    real x = d * m * c;
+    real chord = sqrt(max(rho2 - x * x, 0.0));
+    return case_of_real(plane_disk_window_integral(i.b.x, rho2, d, c, m * c, trig_atan2(m, 1.0), chord, trig_atan2(x, chord)));
+}
+
 // plane, the same disk from tangent to tangent
 //   b.x    range(0.02, 0.9)
 //   b.y    range(0.01, 0.95)
