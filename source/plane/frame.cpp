@@ -220,12 +220,15 @@ class Worker {
     marked_.clear();
   }
 
+  // Lights without a rule of their own, one by one: the envelope of what touches the hull of tile and light.
   void add_general(const Level& level, const TileArea& tile, int x0, int y0) {
-    collect_general_curves(level, tile);
-    for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
-      for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x)
-        if (inside_[y * kTileSide + x] == kOutside)
-          picture_.at(x0 + x, y0 + y) += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), frame_.general, EmissionParts::radiance).radiance);
+    for (int light : level.general) {
+      collect_general_curves(static_cast<std::size_t>(light), tile);
+      for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
+        for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x)
+          if (inside_[y * kTileSide + x] == kOutside)
+            picture_.at(x0 + x, y0 + y) += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), light, EmissionParts::radiance).radiance);
+    }
   }
 
   void copy_out(int x0, int y0) {
@@ -294,18 +297,18 @@ class Worker {
     end = std::min(end, static_cast<int>(std::floor(std::min(high - first, 1e6) / grid_.step.x + 1e-6)));
   }
 
-  void collect_general_curves(const Level& level, const TileArea& tile) {
-    double reach = 0;
-    for (int i : level.general) {
-      const Box& b = world_.boxes[static_cast<std::size_t>(i)];
-      const double far = length((b.low + b.high) * 0.5 - tile.center) + 0.5 * length(b.high - b.low) + tile.radius;
-      reach = std::max(reach, std::min(far, world_.scene.bodies[static_cast<std::size_t>(i)].light->range + tile.radius));
-    }
+  void collect_general_curves(std::size_t light, const TileArea& tile) {
+    const auto middle = [](const Box& b) { return (b.low + b.high) * 0.5; };
+    const auto radius = [](const Box& b) { return 0.5 * length(b.high - b.low); };
+    const Vec2d to = middle(world_.boxes[light]) - tile.center;
+    const double size = radius(world_.boxes[light]), wide = std::max(size, tile.radius), l2 = dot(to, to);
     general_curves_.clear();
     for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
-      const Box& b = world_.boxes[i];
-      const Vec2d gap{std::max({b.low.x - tile.center.x, 0.0, tile.center.x - b.high.x}), std::max({b.low.y - tile.center.y, 0.0, tile.center.y - b.high.y})};
-      if (length(gap) > reach) continue;
+      // Within the wider of the two radii of the line between the two.
+      const Vec2d at = middle(world_.boxes[i]) - tile.center;
+      const double t = l2 > 0 ? std::clamp(dot(at, to) / l2, 0.0, 1.0) : 0, limit = wide + radius(world_.boxes[i]);
+      const Vec2d away = at - to * t;
+      if (i != light && dot(away, away) > limit * limit) continue;
       for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c) general_curves_.push_back(&world_.curves[c]);
     }
   }

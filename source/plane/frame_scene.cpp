@@ -250,15 +250,32 @@ class Preparation {
     }
   }
 
-  // Exact for round lights; others go by their boxes.
+  // Exact for round lights and among polygons; others go by their boxes.
   bool may_be_inside(std::size_t light, const PlaneBlocker& b) const {
     if (b.body == static_cast<int>(light)) return true;
     const Curve& curve = world_.curves[world_.first_curve[light]];
+    if (b.kind == PlaneBlocker::Kind::convex && body(light).shape == PlaneBody::Shape::polygon) return reaches_into(light, b);
     if (!is_full_circle(curve)) return true;
     PlaneEmitter disk;
     disk.a = disk.b = disk.center = curve.ellipse.center;
     disk.radius = disk.bound = length(curve.ellipse.x);
     return overlaps(disk, b);
+  }
+
+  bool reaches_into(std::size_t polygon, const PlaneBlocker& b) const {
+    for (std::size_t k = 0; k < b.count; ++k) {
+      const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
+      if (contains(body(polygon), p)) return true;
+      for (std::size_t c = world_.first_curve[polygon]; c < world_.first_curve[polygon + 1]; ++c) {
+        const Curve& edge = world_.curves[c];
+        const Vec2d along = edge.b - edge.a, d = q - p;
+        const bool apart = cross(along, p - edge.a) * cross(along, q - edge.a) > 0 || cross(d, edge.a - p) * cross(d, edge.b - p) > 0;
+        if (!apart) return true;
+      }
+      if (b.count == 2) return contains(body(polygon), q);
+    }
+    // The polygon within the body: nothing of the body's outline is in it.
+    return false;
   }
 
   void find_nearby(std::size_t index) {

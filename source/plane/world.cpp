@@ -64,8 +64,8 @@ PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const
 }
 
 PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             const std::vector<char>& only, EmissionParts parts) {
-  return envelope_sum(world, curves, from, -1, parts, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
+                             int only, EmissionParts parts) {
+  return envelope_sum(world, curves, from, -1, parts, [&](int body) { return body == only; });
 }
 
 Vec3d light_between(const PlaneWorld::Impl& world, const std::vector<Curve>& parts, Vec2d from, int inside_light) {
