@@ -66,6 +66,14 @@ class Preparation {
     b.center = (box.low + box.high) * 0.5;
     for (Vec2d v : vertices) b.bound = std::max(b.bound, length(v - b.center));
     frame_.vertices.insert(frame_.vertices.end(), vertices.begin(), vertices.end());
+    b.outline = static_cast<int>(frame_.outlines.size());
+    PaddedOutline& padded = frame_.outlines.emplace_back();
+    padded.count = static_cast<int>(vertices.size());
+    for (std::size_t k = 0; k <= PaddedOutline::kMost; ++k) {
+      const Vec2d v = vertices[k < vertices.size() ? k : 0];
+      padded.x[k] = v.x;
+      padded.y[k] = v.y;
+    }
     to.push_back(b);
   }
 
