@@ -85,8 +85,8 @@ class Worker {
     std::fill(std::begin(inside_), std::end(inside_), kOutside);
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x) {
-        buffer_.x[slot(x, y)] = static_cast<float>((x - 0.5 * (kTileSide - 1)) * grid_.step.x);
-        buffer_.y[slot(x, y)] = static_cast<float>((y - 0.5 * (kTileSide - 1)) * grid_.step.y);
+        buffer_.x[TileBuffer::slot(x, y)] = static_cast<float>((x - 0.5 * (kTileSide - 1)) * grid_.step.x);
+        buffer_.y[TileBuffer::slot(x, y)] = static_cast<float>((y - 0.5 * (kTileSide - 1)) * grid_.step.y);
       }
   }
 
@@ -193,8 +193,6 @@ class Worker {
       }
   }
 
-  static int slot(int x, int y) { return (y / 4 * 4 + x / 4) * 16 + (y % 4) * 4 + x % 4; }
-
   void leaf(const Level& level, int x0, int y0) {
     const TileArea tile = area(x0, y0, kTileSide);
     std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
@@ -208,7 +206,8 @@ class Worker {
       ++tile_lights;
       tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count + light.disk_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
     }
-    copy_out(x0, y0);
+    table_.write(buffer_, std::min(kTileSide, grid_.width - x0), std::min(kTileSide, grid_.height - y0), &picture_.at(x0, y0).x,
+                 3 * static_cast<std::size_t>(grid_.width));
     if (level.bodies.empty() && level.general.empty()) return;
     mark_inside(level, x0, y0);
     for (int i : marked_) {
@@ -228,17 +227,6 @@ class Worker {
         for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x)
           if (inside_[y * kTileSide + x] == kOutside)
             picture_.at(x0 + x, y0 + y) += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), light, EmissionParts::radiance).radiance);
-    }
-  }
-
-  void copy_out(int x0, int y0) {
-    for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y) {
-      Vec3f* row = &picture_.at(x0, y0 + y);
-      const int width = std::min(kTileSide, grid_.width - x0), first = slot(0, y);
-      for (int x = 0; x < width; ++x) {
-        const int i = first + x / 4 * 16 + x % 4;
-        row[x] = {buffer_.red[i], buffer_.green[i], buffer_.blue[i]};
-      }
     }
   }
 

@@ -447,10 +447,31 @@ __attribute__((flatten)) void add_light(const TileLight& light, TileBuffer& tile
   }
 }
 
+void write(const TileBuffer& tile, int width, int height, float* out, std::size_t stride) {
+  for (int y = 0; y < height; ++y, out += stride) {
+    int x = 0;
+    for (; x + 4 <= width; x += 4) {
+      const int i = TileBuffer::slot(x, y);
+      const __m128 r = _mm_load_ps(tile.red + i), g = _mm_load_ps(tile.green + i), b = _mm_load_ps(tile.blue + i);
+      const __m128 b0r1 = _mm_shuffle_ps(b, r, _MM_SHUFFLE(1, 1, 0, 0)), g1b1 = _mm_shuffle_ps(g, b, _MM_SHUFFLE(1, 1, 1, 1));
+      const __m128 b2r3 = _mm_shuffle_ps(b, r, _MM_SHUFFLE(3, 3, 2, 2)), g3b3 = _mm_shuffle_ps(g, b, _MM_SHUFFLE(3, 3, 3, 3));
+      _mm_storeu_ps(out + 3 * x, _mm_shuffle_ps(_mm_unpacklo_ps(r, g), b0r1, _MM_SHUFFLE(2, 0, 1, 0)));
+      _mm_storeu_ps(out + 3 * x + 4, _mm_shuffle_ps(g1b1, _mm_unpackhi_ps(r, g), _MM_SHUFFLE(1, 0, 2, 0)));
+      _mm_storeu_ps(out + 3 * x + 8, _mm_shuffle_ps(b2r3, g3b3, _MM_SHUFFLE(2, 0, 2, 0)));
+    }
+    for (; x < width; ++x) {
+      const int i = TileBuffer::slot(x, y);
+      out[3 * x] = tile.red[i];
+      out[3 * x + 1] = tile.green[i];
+      out[3 * x + 2] = tile.blue[i];
+    }
+  }
+}
+
 }  // namespace
 
 const TileTable& tile_table() {
-  static constexpr TileTable table = {add_light};
+  static constexpr TileTable table = {add_light, write};
   return table;
 }
 
