@@ -3298,36 +3298,47 @@ float plane_root(float x) {
     return x * rsqrt(max(x, 1.0e-30));
 }
 
-// Whole disk window integral between two rays, from their slopes.
-//
-//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
-//   d2, rho2 as above, R = 1; d2 > rho2
-//   returns  integral of the window over psi; the caller has clipped the rays to the range
-//
-// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
-float plane_disk_window(float m0, float m1, float d2, float rho2) {
-    float d = plane_root(d2);
-    float c0 = rsqrt(1.0 + m0 * m0);
-    float c1 = rsqrt(1.0 + m1 * m1);
-    float s0 = m0 * c0;
-    float s1 = m1 * c1;
-    float chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    float chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
-    float psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
-    float beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
-    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
-         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+// Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
+float plane_angle_of_slope(float m) {
+    if (abs(m) > 1.0) {
+        return trig_atan2(m, 1.0);
+    }
+    float q = m * m;
+    return m * trig_atan_over_argument_24_bits(q);
 }
 
-// The same between -m and m: the integral is odd in the angle.
-float plane_disk_window_symmetric(float m, float d2, float rho2) {
+// The disk window integral from the direction of the centre to a ray, by the ray's slope.
+//
+//   m        tangent of psi, within the disk's own tangents; negative slopes give negative integrals
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi from 0; the caller has clipped the ray to the range
+//
+// A rounding of the chord does not matter: the chord's and beta's terms move against each other. So beta may come from
+// the chord by a polynomial for the arc cosine, without a division.
+float plane_disk_window(float m, float d2, float rho2) {
     float d = plane_root(d2);
     float c = rsqrt(1.0 + m * m);
-    float s = m * c;
-    float chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    float psi = trig_atan2(m, 1.0);
-    float beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
+    float x = m * c * d;
+    float x2 = x * x;
+    float chord = plane_root(max(rho2 - x2, 0.0));
+    float psi = plane_angle_of_slope(m);
+    float inverse_rho = rsqrt(rho2);
+    float acute = trig_angle_over_sine_acute(max(1.0 - abs(x) * inverse_rho, 0.0)) * chord * inverse_rho;
+    float beta = 0.5 * steradian_pi() - acute;
+    beta = steradian_select(m < 0.0, -beta, beta);
+    float e = 2.0 - 2.0 * d2 - rho2;
+    return psi * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + x * (c * d * (4.0 * rho2 - 2.0 + d2 - 2.0 * x2) + chord * (e - 2.0 * rho2 + 2.0 * x2))
+         + beta * (rho2 * e);
+}
+
+// The same over the whole disk: from tangent to tangent.
+//
+//   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
+float plane_disk_window_whole(float m, float d2, float rho2) {
+    float e = 2.0 - 2.0 * d2 - rho2;
+    return 2.0 * (plane_angle_of_slope(m) * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + m * (d2 - rho2) * (2.0 * rho2 - 2.0 + d2)) + steradian_pi() * (rho2 * e);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.

@@ -3294,36 +3294,47 @@ fn plane_root(x: f32) -> f32 {
     return x * inverseSqrt(max(x, 1.0e-30));
 }
 
-// Whole disk window integral between two rays, from their slopes.
-//
-//   m0, m1   tangents of psi at the two ends, m0 <= m1, both within the disk's own tangents
-//   d2, rho2 as above, R = 1; d2 > rho2
-//   returns  integral of the window over psi; the caller has clipped the rays to the range
-//
-// Angles enter as differences, each by one arc tangent of a quotient, so that narrow intervals keep their digits.
-fn plane_disk_window(m0: f32, m1: f32, d2: f32, rho2: f32) -> f32 {
-    let d = plane_root(d2);
-    let c0 = inverseSqrt(1.0 + m0 * m0);
-    let c1 = inverseSqrt(1.0 + m1 * m1);
-    let s0 = m0 * c0;
-    let s1 = m1 * c1;
-    let chord0 = plane_root(max(rho2 - d2 * s0 * s0, 0.0));
-    let chord1 = plane_root(max(rho2 - d2 * s1 * s1, 0.0));
-    let psi = trig_atan2_unwrapped(m1 - m0, 1.0 + m0 * m1);
-    let beta = trig_atan2_unwrapped(d * (s1 * chord0 - s0 * chord1), chord0 * chord1 + d2 * s0 * s1);
-    return plane_disk_window_integral(d2, rho2, d, c1, s1, psi, chord1, beta)
-         - plane_disk_window_integral(d2, rho2, d, c0, s0, 0.0, chord0, 0.0);
+// Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
+fn plane_angle_of_slope(m: f32) -> f32 {
+    if (abs(m) > 1.0) {
+        return trig_atan2(m, 1.0);
+    }
+    let q = m * m;
+    return m * trig_atan_over_argument_24_bits(q);
 }
 
-// The same between -m and m: the integral is odd in the angle.
-fn plane_disk_window_symmetric(m: f32, d2: f32, rho2: f32) -> f32 {
+// The disk window integral from the direction of the centre to a ray, by the ray's slope.
+//
+//   m        tangent of psi, within the disk's own tangents; negative slopes give negative integrals
+//   d2, rho2 as above, R = 1; d2 > rho2
+//   returns  integral of the window over psi from 0; the caller has clipped the ray to the range
+//
+// A rounding of the chord does not matter: the chord's and beta's terms move against each other. So beta may come from
+// the chord by a polynomial for the arc cosine, without a division.
+fn plane_disk_window(m: f32, d2: f32, rho2: f32) -> f32 {
     let d = plane_root(d2);
     let c = inverseSqrt(1.0 + m * m);
-    let s = m * c;
-    let chord = plane_root(max(rho2 - d2 * s * s, 0.0));
-    let psi = trig_atan2(m, 1.0);
-    let beta = trig_atan2(d * s, chord);
-    return 2.0 * plane_disk_window_integral(d2, rho2, d, c, s, psi, chord, beta);
+    let x = m * c * d;
+    let x2 = x * x;
+    let chord = plane_root(max(rho2 - x2, 0.0));
+    let psi = plane_angle_of_slope(m);
+    let inverse_rho = inverseSqrt(rho2);
+    let acute = trig_angle_over_sine_acute(max(1.0 - abs(x) * inverse_rho, 0.0)) * chord * inverse_rho;
+    var beta = 0.5 * steradian_pi() - acute;
+    beta = select(beta, -beta, m < 0.0);
+    let e = 2.0 - 2.0 * d2 - rho2;
+    return psi * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + x * (c * d * (4.0 * rho2 - 2.0 + d2 - 2.0 * x2) + chord * (e - 2.0 * rho2 + 2.0 * x2))
+         + beta * (rho2 * e);
+}
+
+// The same over the whole disk: from tangent to tangent.
+//
+//   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
+fn plane_disk_window_whole(m: f32, d2: f32, rho2: f32) -> f32 {
+    let e = 2.0 - 2.0 * d2 - rho2;
+    return 2.0 * (plane_angle_of_slope(m) * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+         + m * (d2 - rho2) * (2.0 * rho2 - 2.0 + d2)) + steradian_pi() * (rho2 * e);
 }
 
 // The slope of a point in a frame: tangent of the angle from the axis.
