@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/blocker_bins.h"
+
 namespace steradian {
 namespace {
 
@@ -42,7 +44,10 @@ class Preparation {
     first_blocker_.push_back(frame_.blockers.size());
     for (std::size_t i = 0; i < bodies; ++i)
       if (world_.scene.bodies[i].light) add_emitters(i);
-    build_bins();
+    bins_ = BlockerBins(frame_.blockers);
+    const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
+    slack_ = 32 * 0x1p-24 * std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x),
+                                      std::fabs(high.y - origin.y), world_.scene.width, world_.scene.height});
     interior();
     frame_.first_nearby.push_back(0);
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
@@ -185,36 +190,6 @@ class Preparation {
     frame_.emitters.push_back(e);
   }
 
-  // Bins of blockers by their centres, as wide as the picture's larger side over 32.
-  void build_bins() {
-    Box box;
-    for (const PlaneBlocker& b : frame_.blockers) box.add(b.center), largest_ = std::max(largest_, b.bound);
-    if (frame_.blockers.empty()) box.add({0, 0});
-    low_ = box.low;
-    const Vec2d origin = world_.scene.origin;
-    const double extent = std::max({std::fabs(box.low.x - origin.x), std::fabs(box.low.y - origin.y), std::fabs(box.high.x - origin.x),
-                                    std::fabs(box.high.y - origin.y), world_.scene.width, world_.scene.height});
-    slack_ = 32 * 0x1p-24 * extent;
-    cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
-    bins_.resize(33 * 33);
-    for (std::size_t i = 0; i < frame_.blockers.size(); ++i) bins_[bin(frame_.blockers[i].center)].push_back(static_cast<int>(i));
-  }
-  int cell(double offset) const { return std::clamp(static_cast<int>(offset / cell_), 0, 32); }
-  std::size_t bin(Vec2d p) const { return static_cast<std::size_t>(cell(p.y - low_.y) * 33 + cell(p.x - low_.x)); }
-
-  template <class F>
-  void for_each_within(Vec2d p, double reach, F f) const {
-    const double r = std::min(reach + largest_, 1e9);
-    for (int y = cell(std::max(p.y - r - low_.y, 0.0)); y <= cell(std::clamp(p.y + r - low_.y, 0.0, 64 * cell_)); ++y)
-      for (int x = cell(std::max(p.x - r - low_.x, 0.0)); x <= cell(std::clamp(p.x + r - low_.x, 0.0, 64 * cell_)); ++x)
-        for (int i : bins_[static_cast<std::size_t>(y * 33 + x)]) {
-          const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(i)];
-          const Vec2d away = b.center - p;
-          const double limit = reach + b.bound;
-          if (dot(away, away) < limit * limit) f(i);
-        }
-  }
-
   void interior() {
     frame_.interior.resize(world_.scene.bodies.size());
     for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
@@ -222,7 +197,7 @@ class Preparation {
       const Box& mine = world_.boxes[i];
       std::vector<std::size_t> others{i};
       const Vec2d middle = (mine.low + mine.high) * 0.5;
-      for_each_within(middle, 0.5 * length(mine.high - mine.low), [&](int k) {
+      bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
         const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
         const Box& box = world_.boxes[o];
         if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
@@ -290,7 +265,7 @@ class Preparation {
     const PlaneEmitter e = frame_.emitters[index];
     std::vector<int> list, overlapping;
     // What is further from the light than its range stands behind the last lit point.
-    for_each_within(e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
+    bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
       const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       if (b.body == e.body) {
         // The rest of a concave light blocks its own edges; a convex one lies behind them.
@@ -421,9 +396,7 @@ class Preparation {
   const PlaneWorld::Impl& world_;
   FrameScene frame_;
   std::vector<std::size_t> first_blocker_;
-  std::vector<std::vector<int>> bins_;
-  Vec2d low_;
-  double cell_ = 1, largest_ = 0;
+  BlockerBins bins_;
   double slack_ = 0;  // of circles in float: a few roundings of the scene's size
 };
 
