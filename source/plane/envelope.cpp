@@ -29,10 +29,17 @@ class Builder {
 
   std::vector<Visible> finish() {
     if (pieces_.empty()) return {};
-    return build(0, pieces_.size());
+    return build();
   }
 
  private:
+  // One for each thread, kept: an envelope a pixel allocates nothing but its result.
+  static std::vector<Visible>& empty_buffer() {
+    thread_local std::vector<Visible> buffer;
+    buffer.clear();
+    return buffer;
+  }
+
   bool seen_inside(const Curve& c) const { return c.two_sided || c.body == rules_.inside; }
 
   void add_range(double begin, double end, const Curve& curve, bool back) {
@@ -99,46 +106,60 @@ class Builder {
     if (seen_inside(c)) add_clipped(c, middle + half, 2 * pi - 2 * half, true);
   }
 
-  std::vector<Visible> build(std::size_t first, std::size_t last) {
-    if (last - first == 1) return {pieces_[first]};
-    const std::size_t middle = (first + last) / 2;
-    return merge(build(first, middle), build(middle, last));
+  // Pieces merged two by two, then the results: two buffers take turns.
+  std::vector<Visible> build() {
+    thread_local std::vector<Visible> from, to;
+    thread_local std::vector<std::size_t> first;  // of each envelope in `from`, and one more
+    from.swap(pieces_);
+    first.resize(from.size() + 1);
+    for (std::size_t i = 0; i < first.size(); ++i) first[i] = i;
+    while (first.size() > 2) {
+      to.clear();
+      std::size_t count = 0;
+      for (std::size_t i = 0; i + 1 < first.size(); i += 2) {
+        const std::size_t begin = to.size();
+        const Visible *a = from.data() + first[i], *b = from.data() + first[i + 1];
+        merge(a, b, b, i + 2 < first.size() ? from.data() + first[i + 2] : b, to);
+        first[count++] = begin;
+      }
+      first[count++] = to.size();
+      first.resize(count);
+      from.swap(to);
+    }
+    return from;
   }
 
-  std::vector<Visible> merge(const std::vector<Visible>& a, const std::vector<Visible>& b) const {
-    std::vector<Visible> out;
-    out.reserve(a.size() + b.size() + 4);
-    std::size_t i = 0, j = 0;
+  void merge(const Visible* a, const Visible* a_last, const Visible* b, const Visible* b_last, std::vector<Visible>& out) const {
+    const std::size_t first = out.size();
     double at = -pi;
-    while (i < a.size() || j < b.size()) {
-      const double a_begin = i < a.size() ? std::max(a[i].begin, at) : 4.0;
-      const double b_begin = j < b.size() ? std::max(b[j].begin, at) : 4.0;
+    while (a != a_last || b != b_last) {
+      const double a_begin = a != a_last ? std::max(a->begin, at) : 4.0;
+      const double b_begin = b != b_last ? std::max(b->begin, at) : 4.0;
       const double begin = std::min(a_begin, b_begin);
       double end = 4.0;
       const bool in_a = a_begin <= begin, in_b = b_begin <= begin;
-      end = std::min(end, in_a ? a[i].end : a_begin);
-      end = std::min(end, in_b ? b[j].end : b_begin);
+      end = std::min(end, in_a ? a->end : a_begin);
+      end = std::min(end, in_b ? b->end : b_begin);
       if (in_a && in_b)
-        append_nearer(a[i], b[j], begin, end, out);
+        append_nearer(*a, *b, begin, end, first, out);
       else
-        append(in_a ? a[i] : b[j], begin, end, out);
+        append(in_a ? *a : *b, begin, end, first, out);
       at = end;
-      if (i < a.size() && a[i].end <= at) ++i;
-      if (j < b.size() && b[j].end <= at) ++j;
+      if (a != a_last && a->end <= at) ++a;
+      if (b != b_last && b->end <= at) ++b;
     }
-    return out;
   }
 
-  static void append(const Visible& v, double begin, double end, std::vector<Visible>& out) {
+  static void append(const Visible& v, double begin, double end, std::size_t first, std::vector<Visible>& out) {
     if (end - begin <= kNarrowest) return;
-    if (!out.empty() && out.back().curve == v.curve && out.back().back == v.back && out.back().end == begin)
+    if (out.size() > first && out.back().curve == v.curve && out.back().back == v.back && out.back().end == begin)
       out.back().end = end;
     else
       out.push_back({begin, end, v.curve, v.back});
   }
 
   // Two candidates over one interval: cut at their crossings; in each part the nearer at the middle wins.
-  void append_nearer(const Visible& a, const Visible& b, double begin, double end, std::vector<Visible>& out) const {
+  void append_nearer(const Visible& a, const Visible& b, double begin, double end, std::size_t first, std::vector<Visible>& out) const {
     std::array<double, 6> cuts;
     std::size_t count = 0;
     cuts[count++] = begin;
@@ -155,7 +176,7 @@ class Builder {
     cuts[count++] = end;
     for (std::size_t k = 0; k + 1 < count; ++k) {
       const double middle = 0.5 * (cuts[k] + cuts[k + 1]);
-      append(nearer(a, b, middle), cuts[k], cuts[k + 1], out);
+      append(nearer(a, b, middle), cuts[k], cuts[k + 1], first, out);
     }
   }
 
@@ -178,7 +199,7 @@ class Builder {
   Vec2d from_;
   const std::vector<PlaneBody>& bodies_;
   EnvelopeRules rules_;
-  std::vector<Visible> pieces_;
+  std::vector<Visible>& pieces_ = empty_buffer();
 };
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/blocker_bins.h"
+
 namespace steradian {
 namespace {
 
@@ -42,7 +44,10 @@ class Preparation {
     first_blocker_.push_back(frame_.blockers.size());
     for (std::size_t i = 0; i < bodies; ++i)
       if (world_.scene.bodies[i].light) add_emitters(i);
-    build_bins();
+    bins_ = BlockerBins(frame_.blockers);
+    const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
+    slack_ = 32 * 0x1p-24 * std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x),
+                                      std::fabs(high.y - origin.y), world_.scene.width, world_.scene.height});
     interior();
     frame_.first_nearby.push_back(0);
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
@@ -66,6 +71,14 @@ class Preparation {
     b.center = (box.low + box.high) * 0.5;
     for (Vec2d v : vertices) b.bound = std::max(b.bound, length(v - b.center));
     frame_.vertices.insert(frame_.vertices.end(), vertices.begin(), vertices.end());
+    b.outline = static_cast<int>(frame_.outlines.size());
+    PaddedOutline& padded = frame_.outlines.emplace_back();
+    padded.count = static_cast<int>(vertices.size());
+    for (std::size_t k = 0; k <= PaddedOutline::kMost; ++k) {
+      const Vec2d v = vertices[k < vertices.size() ? k : 0];
+      padded.x[k] = v.x;
+      padded.y[k] = v.y;
+    }
     to.push_back(b);
   }
 
@@ -177,36 +190,6 @@ class Preparation {
     frame_.emitters.push_back(e);
   }
 
-  // Bins of blockers by their centres, as wide as the picture's larger side over 32.
-  void build_bins() {
-    Box box;
-    for (const PlaneBlocker& b : frame_.blockers) box.add(b.center), largest_ = std::max(largest_, b.bound);
-    if (frame_.blockers.empty()) box.add({0, 0});
-    low_ = box.low;
-    const Vec2d origin = world_.scene.origin;
-    const double extent = std::max({std::fabs(box.low.x - origin.x), std::fabs(box.low.y - origin.y), std::fabs(box.high.x - origin.x),
-                                    std::fabs(box.high.y - origin.y), world_.scene.width, world_.scene.height});
-    slack_ = 32 * 0x1p-24 * extent;
-    cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
-    bins_.resize(33 * 33);
-    for (std::size_t i = 0; i < frame_.blockers.size(); ++i) bins_[bin(frame_.blockers[i].center)].push_back(static_cast<int>(i));
-  }
-  int cell(double offset) const { return std::clamp(static_cast<int>(offset / cell_), 0, 32); }
-  std::size_t bin(Vec2d p) const { return static_cast<std::size_t>(cell(p.y - low_.y) * 33 + cell(p.x - low_.x)); }
-
-  template <class F>
-  void for_each_within(Vec2d p, double reach, F f) const {
-    const double r = std::min(reach + largest_, 1e9);
-    for (int y = cell(std::max(p.y - r - low_.y, 0.0)); y <= cell(std::clamp(p.y + r - low_.y, 0.0, 64 * cell_)); ++y)
-      for (int x = cell(std::max(p.x - r - low_.x, 0.0)); x <= cell(std::clamp(p.x + r - low_.x, 0.0, 64 * cell_)); ++x)
-        for (int i : bins_[static_cast<std::size_t>(y * 33 + x)]) {
-          const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(i)];
-          const Vec2d away = b.center - p;
-          const double limit = reach + b.bound;
-          if (dot(away, away) < limit * limit) f(i);
-        }
-  }
-
   void interior() {
     frame_.interior.resize(world_.scene.bodies.size());
     for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
@@ -214,7 +197,7 @@ class Preparation {
       const Box& mine = world_.boxes[i];
       std::vector<std::size_t> others{i};
       const Vec2d middle = (mine.low + mine.high) * 0.5;
-      for_each_within(middle, 0.5 * length(mine.high - mine.low), [&](int k) {
+      bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
         const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
         const Box& box = world_.boxes[o];
         if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
@@ -250,10 +233,11 @@ class Preparation {
     }
   }
 
-  // Exact for round lights; others go by their boxes.
+  // Exact for round lights and among polygons; others go by their boxes.
   bool may_be_inside(std::size_t light, const PlaneBlocker& b) const {
     if (b.body == static_cast<int>(light)) return true;
     const Curve& curve = world_.curves[world_.first_curve[light]];
+    if (b.kind == PlaneBlocker::Kind::convex && body(light).shape == PlaneBody::Shape::polygon) return reaches_into(light, b);
     if (!is_full_circle(curve)) return true;
     PlaneEmitter disk;
     disk.a = disk.b = disk.center = curve.ellipse.center;
@@ -261,11 +245,27 @@ class Preparation {
     return overlaps(disk, b);
   }
 
+  bool reaches_into(std::size_t polygon, const PlaneBlocker& b) const {
+    for (std::size_t k = 0; k < b.count; ++k) {
+      const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
+      if (contains(body(polygon), p)) return true;
+      for (std::size_t c = world_.first_curve[polygon]; c < world_.first_curve[polygon + 1]; ++c) {
+        const Curve& edge = world_.curves[c];
+        const Vec2d along = edge.b - edge.a, d = q - p;
+        const bool apart = cross(along, p - edge.a) * cross(along, q - edge.a) > 0 || cross(d, edge.a - p) * cross(d, edge.b - p) > 0;
+        if (!apart) return true;
+      }
+      if (b.count == 2) return contains(body(polygon), q);
+    }
+    // The polygon within the body: nothing of the body's outline is in it.
+    return false;
+  }
+
   void find_nearby(std::size_t index) {
     const PlaneEmitter e = frame_.emitters[index];
     std::vector<int> list, overlapping;
     // What is further from the light than its range stands behind the last lit point.
-    for_each_within(e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
+    bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
       const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       if (b.body == e.body) {
         // The rest of a concave light blocks its own edges; a convex one lies behind them.
@@ -396,9 +396,7 @@ class Preparation {
   const PlaneWorld::Impl& world_;
   FrameScene frame_;
   std::vector<std::size_t> first_blocker_;
-  std::vector<std::vector<int>> bins_;
-  Vec2d low_;
-  double cell_ = 1, largest_ = 0;
+  BlockerBins bins_;
   double slack_ = 0;  // of circles in float: a few roundings of the scene's size
 };
 

@@ -9,6 +9,7 @@
 
 #include "plane/cull.h"
 #include "plane/interior.h"
+#include "plane/silhouette.h"
 #include "plane/world.h"
 
 namespace steradian {
@@ -35,6 +36,7 @@ struct PlaneBlocker {
   double bound = 0;
   std::size_t first = 0;   // convex: vertices, counter-clockwise; two for a segment
   std::size_t count = 0;
+  int outline = -1;
   Vec2d x_axis, y_axis;    // ellipse, lens: half axes, cross(x, y) > 0
   bool round = false;      // ellipse: of equal half axes
   Vec2d crossing[2];       // lens: where the disks' outlines cross; beyond the first, seen counter-clockwise, the
@@ -49,6 +51,7 @@ struct FrameScene {
   bool any_general = false;
   std::vector<PlaneBlocker> blockers;     // of all bodies, then those that stand in for overlapping ones
   std::vector<Vec2d> vertices;
+  std::vector<PaddedOutline> outlines;    // of convex blockers, by PlaneBlocker::outline
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
   std::vector<std::size_t> first_nearby;  // by emitter, and one more
   std::vector<LightInterior> interior;    // by body, for lights

@@ -21,7 +21,7 @@ DepthLine LeafBuilder::Depth::line() const { return {f(normal.x), f(normal.y), f
 void LeafBuilder::enter(const TileArea& tile) {
   tile_ = tile;
   ++tile_number_;
-  pool_.clear();
+  pool_count_ = 0;
   shadows_.enter(tile);
 }
 
@@ -129,27 +129,25 @@ int LeafBuilder::silhouette(int blocker) {
   auto& [tile, slot] = slots_[static_cast<std::size_t>(blocker)];
   if (tile == tile_number_) return slot;
   tile = tile_number_;
-  slot = static_cast<int>(pool_.size());
-  Silhouette& s = pool_.emplace_back();
+  slot = static_cast<int>(pool_count_);
+  if (pool_count_ == pool_.size()) pool_.resize(2 * pool_count_ + 64);
+  Silhouette& s = pool_[pool_count_];
   const PlaneBlocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
   s.center = b.center - tile_.center;
   s.radius = b.bound;
-  const auto put = [&](int k, Vec2d p) { s.x[k] = p.x, s.y[k] = p.y; };
   if (b.kind == PlaneBlocker::Kind::convex) {
-    s.kind = b.count == 2 ? Silhouette::Kind::segment : Silhouette::Kind::polygon;
-    s.count = static_cast<std::uint8_t>(b.count);
-    for (int k = 0; k < s.count; ++k) put(k, frame_.vertices[b.first + static_cast<std::size_t>(k)] - tile_.center);
-    for (int k = s.count; k < Silhouette::kMost; ++k) put(k, s.at(0));
-    table_.outline(s, tile_.half);
+    table_.outline(frame_.outlines[static_cast<std::size_t>(b.outline)], tile_, s);
+    s.kind = s.count == 2 ? Silhouette::Kind::segment : Silhouette::Kind::polygon;
+    if (s.begins == 0 || s.ends == 0) return slot = -1;
   } else {
-    const Vec2d left = Vec2d{-s.center.y, s.center.x} * (s.radius / length(s.center));
+    const Vec2d left = Vec2d{-s.center.y, s.center.x} * (s.radius / length(s.center)), begin = s.center - left, end = s.center + left;
     s.kind = Silhouette::Kind::disk;
     s.count = 2;
-    for (int k = 0; k < Silhouette::kMost; ++k) put(k, k == 1 ? s.center + left : s.center - left);
+    for (int k = 0; k < 2; ++k) s.x[k] = k == 0 ? begin.x : end.x, s.y[k] = k == 0 ? begin.y : end.y;
     s.begins = 1;
     s.ends = 2;
   }
-  if (s.begins == 0 || s.ends == 0) pool_.pop_back(), slot = -1;
+  ++pool_count_;
   return slot;
 }
 

@@ -54,7 +54,8 @@ class LeafBuilder {
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());
   TileArea tile_;
-  std::vector<Silhouette> pool_;             // of this tile
+  std::vector<Silhouette> pool_;             // of this tile: the first pool_count_
+  std::size_t pool_count_ = 0;
   std::vector<std::pair<int, int>> slots_;   // by blocker: a tile's number, and where in its pool
   int tile_number_ = 0;
   Light light_;

@@ -58,15 +58,24 @@ bool tangents_of(const PlaneWorld::Impl& world, std::size_t body, Vec2d from, st
     if (angle < low) low = angle, out.first = v;
     if (angle > high) high = angle, out.second = v;
   }
-  // The angle between two directions is at most pi: acos of their dot product, in the paper.
-  if (high - low > pi) {
-    std::swap(out.first, out.second);
-    out.begin = axis + high;
-    out.end = axis + low + 2 * pi;
-  } else {
+  if (high - low <= pi) {
     out.begin = axis + low;
     out.end = axis + high;
+    return true;
   }
+  // From within the hull every direction is taken. The extreme two are then those with the largest angle between them,
+  // which is at most pi: in the paper it is the acos of a dot product.
+  double widest = -1;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const double turn = std::atan2(cross(vertices[i], vertices[k]), dot(vertices[i], vertices[k]));
+      if (turn <= widest) continue;
+      widest = turn;
+      out.first = vertices[i];
+      out.second = vertices[k];
+    }
+  out.begin = angle_of(out.first);
+  out.end = out.begin + widest;
   return true;
 }
 

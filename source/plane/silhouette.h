@@ -14,16 +14,23 @@ struct TileArea {
   double radius;       // half its diagonal
 };
 
+// A convex polygon or a segment, counter-clockwise, the first vertex again and again beyond the last.
+struct PaddedOutline {
+  static constexpr int kMost = 8;
+  double x[kMost + 1], y[kMost + 1];
+  int count;
+};
+
 // The same for all lights. Places are relative to the tile's centre; sets of vertices are bits.
 struct Silhouette {
-  static constexpr int kMost = 8;
+  static constexpr int kMost = PaddedOutline::kMost;
   enum class Kind : std::uint8_t { polygon, segment, disk };
-  alignas(64) double x[kMost], y[kMost];  // counter-clockwise, the first again and again beyond the last
+  alignas(64) double x[kMost], y[kMost];  // as in the outline
   Vec2d center;                           // of a bounding circle, a disk's own; its vertices are a diameter's ends
-  double radius = 0;
-  std::uint8_t count = 0;
-  std::uint8_t begins = 0, ends = 0;      // those that some pixel may see it begin and end in, counter-clockwise
-  Kind kind = Kind::polygon;
+  double radius;
+  std::uint8_t count;
+  std::uint8_t begins, ends;              // those that some pixel may see it begin and end in, counter-clockwise
+  Kind kind;
   Vec2d at(int k) const { return {x[k], y[k]}; }
 };
 
@@ -48,8 +55,8 @@ struct VertexMarks {
 };
 
 struct SilhouetteTable {
-  // Fills in begins and ends.
-  void (*outline)(Silhouette& s, Vec2d half);
+  // Vertices, count, begins and ends.
+  void (*outline)(const PaddedOutline& from, const TileArea& tile, Silhouette& s);
   VertexMarks (*mark)(const Silhouette& s, const SeenLight& light);
 };
 

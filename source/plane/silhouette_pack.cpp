@@ -28,21 +28,23 @@ STERADIAN_INLINE unsigned bits_where(const Silhouette& s, Test test) {
   return bits;
 }
 
-void outline(Silhouette& s, Vec2d half) {
-  alignas(64) double next_x[Silhouette::kMost], next_y[Silhouette::kMost];
-  for (int k = 0; k + 1 < Silhouette::kMost; ++k) next_x[k] = s.x[k + 1], next_y[k] = s.y[k + 1];
-  next_x[Silhouette::kMost - 1] = s.x[0];
-  next_y[Silhouette::kMost - 1] = s.y[0];
+void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
   // How much of the tile sees the outer face of the edge that begins in a vertex: all, nothing, or a part.
-  const auto face = [&](double sign) {
-    return bits_where(s, [&](Doubles x, Doubles y, std::size_t i) {
-      const Doubles out_x = Doubles::load_aligned(next_y + i) - y, out_y = x - Doubles::load_aligned(next_x + i);
-      const Doubles at = (out_x * x + out_y * y) * Doubles(-sign);
-      return at > xsimd::abs(out_x) * Doubles(half.x) + xsimd::abs(out_y) * Doubles(half.y);
-    });
-  };
+  unsigned seen = 0, unseen = 0;
+  for (std::size_t i = 0; i < Silhouette::kMost; i += Doubles::size) {
+    const Doubles cx(tile.center.x), cy(tile.center.y);
+    const Doubles x = Doubles::load_unaligned(from.x + i) - cx, y = Doubles::load_unaligned(from.y + i) - cy;
+    x.store_aligned(s.x + i);
+    y.store_aligned(s.y + i);
+    const Doubles out_x = Doubles::load_unaligned(from.y + i + 1) - cy - y, out_y = x - (Doubles::load_unaligned(from.x + i + 1) - cx);
+    const Doubles at = out_x * x + out_y * y, reach = xsimd::abs(out_x) * Doubles(tile.half.x) + xsimd::abs(out_y) * Doubles(tile.half.y);
+    seen |= bits_of(-at > reach) << i;
+    unseen |= bits_of(at > reach) << i;
+  }
+  s.count = static_cast<std::uint8_t>(from.count);
   const unsigned all = (1u << s.count) - 1, last = static_cast<unsigned>(s.count) - 1;
-  unsigned seen = face(1.0) & all, unseen = face(-1.0) & all;
+  seen &= all;
+  unseen &= all;
   if (s.count == 2) {
     // Exactly the two faces of one edge.
     seen = (seen & 1) | (unseen & 1) << 1;

@@ -1,6 +1,8 @@
 // One tile of a frame and one emitter: what the packs integrate. Coordinates are floats relative to the tile's centre.
 #pragma once
 
+#include <cstddef>
+
 #include "core/simd.h"
 
 namespace steradian {
@@ -84,14 +86,17 @@ struct TileLight {
   float* scratch;                  // 32 floats for each item, 64 for each lens
 };
 
-// Adds one light's mean radiance to the accumulators.
+// The accumulators of a tile's pixels.
 struct TileBuffer {
+  static int slot(int x, int y) { return (y / 4 * 4 + x / 4) * 16 + (y % 4) * 4 + x % 4; }
   alignas(64) float x[kTilePixels], y[kTilePixels];  // pixel centres, in blocks of 4 x 4
   alignas(64) float red[kTilePixels], green[kTilePixels], blue[kTilePixels];
 };
 
 struct TileTable {
   void (*add_light)(const TileLight& light, TileBuffer& tile);
+  // The buffer's first columns and rows as pixels of red, green and blue; `stride` floats from row to row.
+  void (*write)(const TileBuffer& tile, int width, int height, float* out, std::size_t stride);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(TileTable, tile_table)

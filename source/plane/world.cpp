@@ -63,9 +63,46 @@ PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const
   return envelope_sum(world, curves, from, inside_light, parts, [](int) { return true; });
 }
 
+// Directions and distances in which a light can be seen: the wedge about its bounding circle.
+class Wedge {
+ public:
+  Wedge(const Box& light, Vec2d from) : from_(from) {
+    const Vec2d to = (light.low + light.high) * 0.5 - from;
+    const double radius = 0.5 * length(light.high - light.low) * (1 + 1e-9), d = length(to);
+    everything_ = d <= radius;
+    if (everything_) return;
+    const double sine = radius / d, cosine = std::sqrt(1 - sine * sine);
+    along_ = to / d;
+    low_ = {along_.x * cosine + along_.y * sine, along_.y * cosine - along_.x * sine};
+    high_ = {along_.x * cosine - along_.y * sine, along_.y * cosine + along_.x * sine};
+    far_ = d + radius;
+  }
+  bool touches(const Curve& c) const {
+    if (everything_) return true;
+    if (c.kind == Curve::Kind::segment) return touches(c.a - from_, c.b - from_, 0);
+    const Vec2d center = c.ellipse.center - from_;
+    return touches(center, center, std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y)));
+  }
+
+ private:
+  bool touches(Vec2d a, Vec2d b, double r) const {
+    if (std::min(cross(high_, a), cross(high_, b)) > r || std::max(cross(low_, a), cross(low_, b)) < -r) return false;
+    const double near = std::min(dot(along_, a), dot(along_, b)), far = std::max(dot(along_, a), dot(along_, b));
+    return far >= -r && near <= far_ + r;
+  }
+  Vec2d from_, along_, low_, high_;
+  double far_ = 0;
+  bool everything_ = false;
+};
+
 PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             const std::vector<char>& only, EmissionParts parts) {
-  return envelope_sum(world, curves, from, -1, parts, [&](int body) { return only[static_cast<std::size_t>(body)] != 0; });
+                             int only, EmissionParts parts) {
+  const Wedge wedge(world.boxes[static_cast<std::size_t>(only)], from);
+  thread_local std::vector<const Curve*> near;
+  near.clear();
+  for (const Curve* c : curves)
+    if (wedge.touches(*c)) near.push_back(c);
+  return envelope_sum(world, near, from, -1, parts, [&](int body) { return body == only; });
 }
 
 Vec3d light_between(const PlaneWorld::Impl& world, const std::vector<Curve>& parts, Vec2d from, int inside_light) {

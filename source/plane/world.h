@@ -27,9 +27,9 @@ struct PlaneWorld::Impl {
 // The exact method over a chosen set of curves.
 PlaneLight envelope_light(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
                           int inside_light, EmissionParts parts = EmissionParts::radiance_and_moments);
-// The same, for the lights marked in `only` (by body); the others block.
+// The same for one light; the others block.
 PlaneLight envelope_light_of(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             const std::vector<char>& only, EmissionParts parts);
+                             int only, EmissionParts parts);
 // Radiance within a light, where all that can be seen are these parts of other outlines, and the light between them.
 Vec3d light_between(const PlaneWorld::Impl& world, const std::vector<Curve>& parts, Vec2d from, int inside_light);
 PlaneLight par_light(const PlaneWorld::Impl& world, Vec2d from);
