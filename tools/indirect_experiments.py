@@ -70,15 +70,16 @@ def scenes(bench):
 
 
 def count(bench):
-    """`ring` with more and more virtual lights."""
-    scene, size, rows = bench.named("ring"), "1920x1080", []
+    """`ring` with more and more virtual lights; so few are kept that the culling is at work from 2^12 on."""
+    scene, size, rows = bench.named("ring"), "1280x720", []
     print("\n| virtual lights | ltc cull + light [ms] | ggx | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
     for bits in range(12, 19):
-        more = ("--method", "ltc-compact", "--vpls", str(1 << bits), *FAIR)
+        all_pairs = ("--method", "ltc-compact", "--vpls", str(1 << bits), *FAIR)
+        more = (*all_pairs, "--indirect-pairs", "8")
         picture, ltc = bench.picture(scene, size, "--indirect", "ltc", *more, runs=3)
         other, ggx = bench.picture(scene, size, "--indirect", "ggx", *more, runs=3)
-        small = ("--indirect", "ltc", *more)
-        noise = bench.exposed(bench.picture(scene, "480x270", *small)[0], bench.picture(scene, "480x270", *small, "--indirect-pairs", "0")[0])
+        noise = bench.exposed(bench.picture(scene, "480x270", "--indirect", "ltc", *more)[0],
+                              bench.picture(scene, "480x270", "--indirect", "ltc", *all_pairs, "--indirect-pairs", "0")[0])
         a, b = ltc["cull"] + ltc["light"], ggx["cull"] + ggx["light"]
         rows.append((bits, a))
         print("| 2^%d | %.0f | %.0f | %.2f | %.4f | %.4f |" % (bits, a, b, b / a, bench.exposed(picture, other)[0], noise[1]))
