@@ -12,7 +12,7 @@ namespace steradian::indirect {
 
 // Arrays of bounds of one kind of light, side by side; indices come with them where they are a choice.
 inline constexpr std::size_t kEggPlanes = 8;
-inline constexpr std::size_t kSpheroidPlanes = 12;
+inline constexpr std::size_t kSpheroidPlanes = 16;
 template <std::size_t planes>
 struct Bounds {
   std::array<const float*, planes> plane;

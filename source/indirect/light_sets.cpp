@@ -15,7 +15,7 @@ namespace {
 constexpr float kPi = 3.14159265f;
 
 // Of the spheroid that holds a light's egg (kernels/indirect.glsl, indirect_spheroid).
-constexpr float kCenter = kBallCenter, kAlong = 0.54f, kAcross = kBallRadius;
+constexpr float kCenter = kBallCenter, kAlong = kBallAlong, kAcross = kBallRadius;
 
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float
 
@@ -121,6 +121,8 @@ class SetMaker {
     push(set.spheroids.y, light.row_y * across);
     push(set.spheroids.z, light.row_z * along);
     push(set.spheroids.g, {dot(light.row_x, p) * across, dot(light.row_y, p) * across, dot(light.row_z, p) * along - kCenter / kAlong});
+    push(set.spheroids.normal, n);
+    set.spheroids.offset.push_back(dot(n, p));
   }
 
   void add_ggx(LightSet& set, std::size_t i, const GlossyLight& light) const {
@@ -156,6 +158,8 @@ class SetMaker {
     while (set.spheroids.g.size() % 16 != 0) {
       for (VectorArray* a : {&set.spheroids.x, &set.spheroids.y, &set.spheroids.z}) push(*a, {});
       push(set.spheroids.g, {1e9f, 0, 0});
+      push(set.spheroids.normal, {});
+      set.spheroids.offset.push_back(1);
     }
   }
 

@@ -57,9 +57,12 @@ struct EggArrays {
 };
 // The ball that holds an egg of range 1: how far in front of the light, and its radius.
 inline constexpr float kBallCenter = 0.46f, kBallRadius = 0.628f;
+inline constexpr float kBallAlong = 0.54f;  // the spheroid's half axis
 struct SpheroidArrays {
   VectorArray x, y, z;  // rows of T
   VectorArray g;
+  VectorArray normal;  // as of the eggs
+  std::vector<float> offset;
 };
 
 struct LightSet {

@@ -71,18 +71,24 @@ Light deinterleave(const Light& light, const Layout& layout) {
 }
 
 Box box_of(const Receivers& r, std::size_t first, std::size_t count) {
-  Vec3f low{INFINITY, INFINITY, INFINITY}, high = -low;
+  const Vec3f most{INFINITY, INFINITY, INFINITY};
+  Vec3f low = most, high = -most, normal_low = most, normal_high = -most;
+  const auto extend = [](Vec3f& l, Vec3f& h, Vec3f v) {
+    l = {std::min(l.x, v.x), std::min(l.y, v.y), std::min(l.z, v.z)};
+    h = {std::max(h.x, v.x), std::max(h.y, v.y), std::max(h.z, v.z)};
+  };
   for (std::size_t i = first; i < first + count; ++i) {
-    if (r.normal.x[i] == 0 && r.normal.y[i] == 0 && r.normal.z[i] == 0) continue;
-    const Vec3f p = r.position[i];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    const Vec3f n = r.normal[i];
+    if (n.x == 0 && n.y == 0 && n.z == 0) continue;
+    extend(low, high, r.position[i]);
+    extend(normal_low, normal_high, n);
   }
   if (!(low.x <= high.x)) return {};
   // A little wider than the points: the bounds are computed in float.
   const Vec3f half = (high - low) * 0.5f, center = (high + low) * 0.5f;
   const float slack = 1e-6f * (std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z));
-  return {center, half + Vec3f{slack, slack, slack}, false};
+  const Vec3f wide{slack, slack, slack}, turn{1e-6f, 1e-6f, 1e-6f};
+  return {center, half + wide, (normal_high + normal_low) * 0.5f, (normal_high - normal_low) * 0.5f + turn, false};
 }
 
 }  // namespace steradian::indirect

@@ -71,9 +71,10 @@ Receivers interleave(const FrameSurfaces& surfaces, const Layout& layout, Indire
 // Back to the picture's order, as planes of a raster.
 Light deinterleave(const Light& light, const Layout& layout);
 
-// Bounds of the surfaces among `count` receivers; empty without any.
+// Bounds of the surfaces among `count` receivers and of their normals; empty without any.
 struct Box {
   Vec3f center, half;
+  Vec3f normal, normal_half;
   bool empty = true;
 };
 Box box_of(const Receivers& receivers, std::size_t first, std::size_t count);

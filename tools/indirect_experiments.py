@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""The experiments of docs/indirect.md: renders them, writes their pictures, prints their tables.
+
+usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [NAME ...]
+
+names: scenes, count, truth, pictures; none: all. Standard library only.
+The first of the literature's experiments, one point light over a plane, is a test:
+steradian_tests --gtest_filter=IndirectKernel.PointLightOverAPlane
+An rmse is that of the picture at the exposure which maps the reference's 99.9th percentile to 1.
+"""
+
+import argparse
+import json
+import math
+import os
+import subprocess
+import tempfile
+from functools import partial
+
+import ltc_experiments
+from ltc_experiments import ROOT
+
+print = partial(print, flush=True)
+FAIR = ("--indirect-quads", "off")  # points in both modes: only the lobes differ
+
+
+class Bench(ltc_experiments.Bench):
+    def picture(self, scene, size, *more, suffix=".exr", runs=1):
+        """A picture's path, and the medians of its passes in milliseconds."""
+        self.made += 1
+        path, times = os.path.join(self.folder, "%d%s" % (self.made, suffix)), {}
+        for _ in range(runs):
+            subprocess.run([self.program, "render", scene, "-o", path, "--size", size, "--stats", path + ".json", *more], check=True)
+            with open(path + ".json") as f:
+                for p in json.load(f)["passes"]:
+                    times.setdefault(p["name"], []).append(p["ms"])
+        return path, {name.replace("indirect: ", ""): sorted(t)[len(t) // 2] for name, t in times.items()}
+
+    def exposed(self, a, b):
+        """The rmse at the reference's exposure, and the relative L2."""
+        d = self.diff(a, b)
+        return d["rmse"] / d["white"], d["relative_l2"], d["mean_ratio"]
+
+    def named(self, name):
+        for folder in (os.path.join(ROOT, "scenes"), os.path.join(os.path.dirname(os.path.dirname(self.program)), "scenes")):
+            path = os.path.join(folder, name + ".glb")
+            if os.path.exists(path):
+                return path
+        raise SystemExit("no scene " + name)
+
+
+def scenes(bench):
+    """Three scenes, both modes on the same lists."""
+    passes = ("surfaces", "shadow map", "virtual lights", "ranges", "interleave", "cull", "light", "deinterleave", "filter", "resolve")
+    print("\n| scene, mode | " + " | ".join(passes) + " | cull + light, gain | rmse | relative L2 |\n|" + "---|" * (len(passes) + 4))
+    for name in ("ring", "gallery", "arcade"):
+        found = {}
+        for mode in ("ggx", "ltc"):
+            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", "--indirect", mode, *FAIR, runs=3)
+        work = {m: found[m][1]["cull"] + found[m][1]["light"] for m in found}
+        for mode in ("ggx", "ltc"):
+            picture, times = found[mode]
+            row = "| `%s`, %s | %s | %.0f" % (name, mode, " | ".join("%.1f" % times.get(p, 0.0) for p in passes), work[mode])
+            if mode == "ltc":
+                rmse, l2, _ = bench.exposed(picture, found["ggx"][0])
+                row += ", %.2f | %.4f | %.4f |" % (work["ggx"] / work["ltc"], rmse, l2)
+            else:
+                row += " | | |"
+            print(row)
+
+
+def count(bench):
+    """`ring` with more and more virtual lights; so few are kept that the culling is at work from 2^12 on."""
+    scene, size, rows = bench.named("ring"), "1280x720", []
+    print("\n| virtual lights | ltc cull + light [ms] | ggx | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
+    for bits in range(12, 19):
+        all_pairs = ("--method", "ltc-compact", "--vpls", str(1 << bits), *FAIR)
+        more = (*all_pairs, "--indirect-pairs", "8")
+        picture, ltc = bench.picture(scene, size, "--indirect", "ltc", *more, runs=3)
+        other, ggx = bench.picture(scene, size, "--indirect", "ggx", *more, runs=3)
+        noise = bench.exposed(bench.picture(scene, "480x270", "--indirect", "ltc", *more)[0],
+                              bench.picture(scene, "480x270", "--indirect", "ltc", *all_pairs, "--indirect-pairs", "0")[0])
+        a, b = ltc["cull"] + ltc["light"], ggx["cull"] + ggx["light"]
+        rows.append((bits, a))
+        print("| 2^%d | %.0f | %.0f | %.2f | %.4f | %.4f |" % (bits, a, b, b / a, bench.exposed(picture, other)[0], noise[1]))
+    for first in (12, 14):
+        chosen = [r for r in rows if r[0] >= first]
+        n, mx, my = len(chosen), sum(b for b, _ in chosen) / len(chosen), sum(math.log2(t) for _, t in chosen) / len(chosen)
+        slope = sum((b - mx) * (math.log2(t) - my) for b, t in chosen) / sum((b - mx) ** 2 for b, _ in chosen)
+        print("\nFrom 2^%d on, cull + light grows with the number of lights to the power %.2f (%d points)." % (first, slope, n))
+
+
+def truth(bench):
+    """The bounce against path tracing, with the visibility of its second segment by four rays a pixel."""
+    scene, size = bench.named("ring"), "320x180"
+    path = [bench.picture(scene, size, "--indirect", "path", "--spp", "1024", "--seed", s)[0] for s in ("1", "2")]
+    print("\n| `ring`, %s, against path tracing | relative L2 | mean ratio |\n|---|---|---|" % size)
+    for name, more in (("no bounce", ("--indirect", "off")), ("ltc", ("--indirect", "ltc")),
+                       ("ltc, 4 shadow rays", ("--indirect", "ltc", "--indirect-shadows", "4")), ("ggx", ("--indirect", "ggx"))):
+        print("| %s | %.4f | %.4f |" % ((name,) + bench.error(bench.picture(scene, size, *more)[0], path)))
+
+
+def pictures(bench):
+    """What is looked at: without the bounce, with it, by path tracing; two more scenes without and with."""
+    draw = lambda name, *more: bench.picture(bench.named(name), "320x180", *more, suffix=".png")[0]  # noqa: E731
+    bench.sheet("indirect-ring", [[draw("ring", "--aa", "4"), draw("ring", "--indirect", "ltc", "--indirect-shadows", "4"),
+                                   draw("ring", "--indirect", "path", "--spp", "256")]])
+    bench.sheet("indirect-scenes", [[draw(n), draw(n, "--indirect", "ltc")] for n in ("gallery", "arcade")])
+
+
+EXPERIMENTS = {"scenes": scenes, "count": count, "truth": truth, "pictures": pictures}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/steradian"))
+    parser.add_argument("--images", default=os.path.join(ROOT, "docs/images"))
+    parser.add_argument("names", nargs="*", choices=[[], *EXPERIMENTS], metavar="NAME")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(os.path.abspath(arguments.program), arguments.images, folder)
+        for name in arguments.names or EXPERIMENTS:
+            EXPERIMENTS[name](bench)
+
+
+if __name__ == "__main__":
+    main()
