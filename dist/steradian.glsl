@@ -3696,13 +3696,10 @@ float plane_root(float x) {
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
 float plane_angle_of_slope(float m) {
-    float angle = 0.0;
+    float q = m * m;
+    float angle = m * trig_atan_over_argument_24_bits(q);
     if (abs(m) > 1.0) {
         angle = trig_atan2(m, 1.0);
-    } else if (real_digits() > 24) {
-        angle = m * trig_atan_over_argument_53_bits(m * m);
-    } else {
-        angle = m * trig_atan_over_argument_24_bits(m * m);
     }
     return angle;
 }

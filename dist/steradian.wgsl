@@ -3693,13 +3693,10 @@ fn plane_root(x: f32) -> f32 {
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
 fn plane_angle_of_slope(m: f32) -> f32 {
-    var angle = 0.0;
+    let q = m * m;
+    var angle = m * trig_atan_over_argument_24_bits(q);
     if (abs(m) > 1.0) {
         angle = trig_atan2(m, 1.0);
-    } else if (real_digits() > 24) {
-        angle = m * trig_atan_over_argument_53_bits(m * m);
-    } else {
-        angle = m * trig_atan_over_argument_24_bits(m * m);
     }
     return angle;
 }

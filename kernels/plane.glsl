@@ -118,13 +118,13 @@ real plane_root(real x) {
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
 real plane_angle_of_slope(real m) {
-    real angle = 0.0;
+    real q = m * m;
+    real angle = m * trig_atan_over_argument_24_bits(q);
+    if (real_digits() > 24) {
+        angle = m * trig_atan_over_argument_53_bits(q);
+    }
     if (any_lane(abs(m) > 1.0)) {
         angle = trig_atan2(m, 1.0);
-    } else if (real_digits() > 24) {
-        angle = m * trig_atan_over_argument_53_bits(m * m);
-    } else {
-        angle = m * trig_atan_over_argument_24_bits(m * m);
     }
     return angle;
 }
