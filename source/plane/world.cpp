@@ -44,7 +44,9 @@ template <class Counts>
 PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const Curve*>& curves, Vec2d from, int inside,
                         EmissionParts parts, Counts counts) {
   PlaneLight sum;
+  double open = 2 * pi;
   for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside})) {
+    open -= v.end - v.begin;
     const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
     if (!light || !counts(v.curve->body)) continue;
     if (v.curve->body == inside)
@@ -52,6 +54,8 @@ PlaneLight envelope_sum(const PlaneWorld::Impl& world, const std::vector<const C
     else
       add_emission(v, *light, from, parts, sum);
   }
+  // On a light's edge its own outline leaves directions open: the point counts as inside.
+  if (inside >= 0 && open > 0) sum.radiance += radiance_at(*world.scene.bodies[static_cast<std::size_t>(inside)].light, from) * open;
   const double scale = 1 / (2 * pi);
   return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
 }

@@ -111,6 +111,11 @@ TEST(PlaneExact, InsideALightItsEmissionComesFromEverywhereNothingInsideBlocks) 
   EXPECT_NEAR(with.query({50, 30}).radiance.x, 2 * (1 - 2 * std::asin(0.5) / (2 * pi)), 1e-14);
 }
 
+TEST(PlaneExact, OnALightsEdgeAPointIsInside) {
+  const PlaneWorld world = world_of({lit(plane_circle({22, 190}, 4))});
+  for (Vec2d p : {Vec2d{22, 186}, {26, 190}, {18, 190}}) EXPECT_NEAR(world.query(p).radiance.x, 1, 1e-12) << p.x << ", " << p.y;
+}
+
 TEST(PlaneExact, InsideSeveralLightsTheLastShines) {
   PlaneEmission red, blue;
   red.radiance = {1, 0, 0};
