@@ -16,9 +16,11 @@ function(steradian_pack_objects name namespace_suffix)
     # No trapping math and no errno: nothing here reads either, and both keep loops from becoming vectors.
     target_compile_options(${name}_${isa} PRIVATE ${STERADIAN_FLAGS_${isa}} -fno-math-errno -fno-trapping-math
                            -fno-exceptions)
-    # Kernels are many small functions: one that stays a call spills whole registers (twice the time of an LTC walk).
+    # Kernels are many small functions: one that stays a call spills whole registers (twice the time of an LTC walk). And a
+    # struct of ten packs is large: above eight words, g++ leaves it in memory and stores every copy (15 % of an LTC walk).
     target_compile_options(${name}_${isa} PRIVATE $<$<CXX_COMPILER_ID:GNU>:--param=max-inline-insns-single=2000
-      --param=inline-unit-growth=400 --param=large-function-growth=2000 --param=large-stack-frame-growth=20000>)
+      --param=inline-unit-growth=400 --param=large-function-growth=2000 --param=large-stack-frame-growth=20000
+      --param=sra-max-scalarization-size-Ospeed=4096>)
     # g++ 12 takes the undefined operands of its own AVX-512 intrinsics for uninitialised variables.
     target_compile_options(${name}_${isa} PRIVATE -Wno-uninitialized -Wno-maybe-uninitialized)
     target_link_libraries(${name}_${isa} PRIVATE steradian_kernels steradian_warnings)
