@@ -47,7 +47,17 @@ Vec4f base_color(const Scene& scene, const Mesh& mesh, const Corner& at, const S
   return c;
 }
 
-Vec3f any_tangent(Vec3f n) { return static_cast<Vec3f>(Frame::from_normal(static_cast<Vec3d>(n)).x); }
+// normalized() with its usual case inline.
+inline Vec3f unit(Vec3f a) {
+  const float square = dot(a, a);
+  return square > 1e-30f && square < 1e30f ? a * (1 / std::sqrt(square)) : normalized(a);
+}
+
+// As Frame::from_normal has it, in float: most surfaces have no tangents, and no use for this one.
+Vec3f any_tangent(Vec3f n) {
+  const float s = std::copysign(1.0f, n.z), a = -1 / (s + n.z);
+  return {1 + s * n.x * n.x * a, n.x * n.y * a * s, -s * n.x};
+}
 
 // The frame of tangent-space textures: the mesh's tangent made perpendicular to n.
 Vec3f tangent_of(const Mesh& mesh, const Corner& at, Vec3f n, float& handedness) {
@@ -55,7 +65,7 @@ Vec3f tangent_of(const Mesh& mesh, const Corner& at, Vec3f n, float& handedness)
   if (mesh.tangents.empty()) return any_tangent(n);
   const Vec4f t4 = at(mesh.tangents);
   const Vec3f t{t4.x, t4.y, t4.z};
-  const Vec3f perpendicular = normalized(t - n * dot(n, t));
+  const Vec3f perpendicular = unit(t - n * dot(n, t));
   if (!(dot(perpendicular, perpendicular) > 0.5f)) return any_tangent(n);
   handedness = t4.w < 0 ? -1.0f : 1.0f;
   return perpendicular;
@@ -122,8 +132,8 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   const Vec3f& p0 = mesh.positions[at.i0];
   const Vec3f geometric = cross(mesh.positions[at.i1] - p0, mesh.positions[at.i2] - p0);
   const bool front = dot(geometric, view) >= 0;
-  Vec3f n = normalized(at(mesh.normals));
-  if (!(dot(n, n) > 0.5f)) n = normalized(geometric);
+  Vec3f n = unit(at(mesh.normals));
+  if (!(dot(n, n) > 0.5f)) n = unit(geometric);
   if (!front) n = -n;
 
   const Vec4f base = base_color(scene, mesh, at, m);
@@ -149,10 +159,10 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     const float scale = m.normal_texture.scale;
     const float side = front ? 1.0f : -1.0f;  // the back shows the bumps from inside
     const Vec3f b = cross(n, t) * handedness;
-    const Vec3f bent = normalized(t * ((2 * c.x - 1) * scale * side) + b * ((2 * c.y - 1) * scale * side) +
+    const Vec3f bent = unit(t * ((2 * c.x - 1) * scale * side) + b * ((2 * c.y - 1) * scale * side) +
                                   n * std::max(2 * c.z - 1, 0.0f));
     if (dot(bent, bent) > 0.5f && dot(bent, n) > 0) n = bent;
-    t = normalized(t - n * dot(n, t));
+    t = unit(t - n * dot(n, t));
     if (!(dot(t, t) > 0.5f)) t = any_tangent(n);
   }
   s.normal = n;
