@@ -1,9 +1,14 @@
 #include "core/bench.h"
 
 #include <sched.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <mutex>
+#include <thread>
 
 namespace steradian {
 namespace {
@@ -76,9 +81,25 @@ BenchResult measure(const Bench& bench, const BenchOptions& options) {
   return result;
 }
 
+// The library's worker threads take over the cores that their starter may run on, for good: they start before any is pinned.
+void start_workers() {
+  const int workers = tbb::info::default_concurrency();
+  std::atomic<int> arrived{0};
+  const double begin = seconds();
+  tbb::parallel_for(
+      0, workers,
+      [&](int) {
+        ++arrived;
+        while (arrived < workers && seconds() - begin < 0.1) std::this_thread::yield();
+      },
+      tbb::simple_partitioner());
+}
+
 }  // namespace
 
 BenchResult run_bench(const Bench& bench, const BenchOptions& options) {
+  static std::once_flag once;
+  std::call_once(once, start_workers);
   if (!bench.one_core) return measure(bench, options);
   const PinnedToOneCore pinned;
   return measure(bench, options);

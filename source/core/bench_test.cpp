@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -25,6 +28,28 @@ TEST(Bench, MeasuresASleepAndPinsAndUnpinsTheThread) {
   EXPECT_GE(r.median_ms, 2.0);  // a sleep is never shorter than asked
   EXPECT_LE(r.fastest_ms, r.median_ms);
   EXPECT_DOUBLE_EQ(r.ns_per_item, 1e6 * r.median_ms / 10);
+}
+
+// A pinned bench that is the first to use all cores must not leave the workers on one.
+TEST(Bench, LeavesTheWorkersTheirCores) {
+  const auto narrowest = [] {
+    std::atomic<int> least{1 << 30};
+    tbb::parallel_for(0, 256, [&](int) {
+      cpu_set_t mine;
+      CPU_ZERO(&mine);
+      sched_getaffinity(0, sizeof mine, &mine);
+      for (int now = least, count = CPU_COUNT(&mine); count < now && !least.compare_exchange_weak(now, count);) {
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    });
+    return least.load();
+  };
+  Bench bench;
+  bench.one_core = true;
+  bench.items = 1;
+  bench.body = [&] { narrowest(); };
+  run_bench(bench, {.min_time = 0.01});
+  EXPECT_EQ(narrowest(), tbb::info::default_concurrency());
 }
 
 }  // namespace steradian
