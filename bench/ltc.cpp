@@ -1,11 +1,12 @@
 // kernel/ltc/quad, kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of a floor that gets rougher away
-// from the eye, decoding included; most pixels see the whole quad.
+// from the eye, decoding included; most pixels see the whole quad. fit/ggx/64: the fitter.
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "benches.h"
+#include "ltc/fit.h"
 #include "render/cpu/ltc_points.h"
 
 namespace steradian::bench {
@@ -65,11 +66,26 @@ void add(BenchList& list, const std::string& name, Run LtcPackTable::*run, LtcPa
   }
 }
 
+// The whole fit of the shipped table's size; items are its cells.
+Bench make_fit(int threads) {
+  FitOptions fit;
+  fit.threads = threads;
+  Bench bench;
+  bench.name = threads == 1 ? "fit/ggx/64" : "fit/ggx/64/threads=all";
+  bench.items = static_cast<std::size_t>(fit.size * fit.size);
+  bench.body = [fit] { keep(static_cast<float>(fit_table(lobe_family("ggx"), fit).cells.back().albedo)); };
+  bench.one_core = threads == 1;
+  bench.once = true;
+  return bench;
+}
+
 }  // namespace
 
 void add_ltc(BenchList& list) {
   add(list, "kernel/ltc/quad", &LtcPackTable::classic, ltc_classic_pack_tables);
   add(list, "kernel/ltc-compact/quad", &LtcPackTable::compact, ltc_compact_pack_tables);
+  list.add("fit/ggx/64", [](const BenchOptions&) { return make_fit(1); });
+  list.add("fit/ggx/64/threads=all", [](const BenchOptions&) { return make_fit(0); });
 }
 
 }  // namespace steradian::bench

@@ -48,18 +48,19 @@ constexpr double kWarmUp = 0.05;
 BenchResult measure(const Bench& bench, const BenchOptions& options) {
   std::size_t calls = 0;
   const double warm_up_begin = seconds();
-  double warm_up = 0;
-  do {
+  double warm_up = bench.once ? kShortestRun : 0;
+  while (!bench.once) {
     bench.body();
     ++calls;
     warm_up = seconds() - warm_up_begin;
-  } while (warm_up < std::min(kWarmUp, options.min_time));
-  const double one_call = warm_up / static_cast<double>(calls);
+    if (!(warm_up < std::min(kWarmUp, options.min_time))) break;
+  }
+  const double one_call = bench.once ? kShortestRun : warm_up / static_cast<double>(calls);
   const std::size_t calls_per_run = std::max<std::size_t>(1, static_cast<std::size_t>(kShortestRun / one_call));
 
   std::vector<double> times;
   double total = 0;
-  while (total < options.min_time || static_cast<int>(times.size()) < options.min_runs) {
+  while (times.empty() || (!bench.once && (total < options.min_time || static_cast<int>(times.size()) < options.min_runs))) {
     const double begin = seconds();
     for (std::size_t i = 0; i < calls_per_run; ++i) bench.body();
     const double time = seconds() - begin;

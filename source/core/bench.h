@@ -30,6 +30,7 @@ struct Bench {
   std::function<void()> body;
   bool one_core = true;     // pinned; false for frames on all threads
   std::function<std::vector<BenchPass>()> passes = {};  // medians of the calls so far; none: a call has no parts
+  bool once = false;        // takes seconds: one call, neither warmed up nor repeated
 };
 
 // What `steradian bench` can run. Data is made only when a bench is chosen by its name.
