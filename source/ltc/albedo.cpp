@@ -10,6 +10,8 @@
 namespace steradian {
 namespace {
 
+constexpr double kGrazing = 0.02;  // cosine of the view below which samples of the lobe tell nothing any more
+
 double table_albedo(const CompactTable& table, double roughness, double cosine) {
   const LtcValue value = table.look_up(roughness, cosine);
   return std::clamp(value.n_a * ltc_above_horizon(value.inverse), 0.0, 1.0);
@@ -19,7 +21,8 @@ double table_albedo(const CompactTable& table, double roughness, double cosine) 
 double anisotropic_albedo(const Material& material, const ShadingPoint& at) {
   constexpr int kNodes = 128;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const reference::Lobe lobe(material, frame.to_local(at.view));
+  const Vec3d view = frame.to_local(at.view);
+  const reference::Lobe lobe(material, normalized(Vec3d{view.x, view.y, std::max(view.z, kGrazing)}));
   double sum = 0;
   for (int i = 0; i < kNodes; ++i) {
     const double b = i * 0.6180339887498949;

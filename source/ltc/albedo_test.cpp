@@ -141,6 +141,24 @@ TEST(Sheen, OfTheTableIsNearTheReference) {
     }
 }
 
+// The energy that comes back is at most what was lost, whatever the view.
+TEST(MultipleScattering, StaysInBoundsAtGrazingViews) {
+  for (double ax : {1e-4, 0.1, 1.0})
+    for (double ay : {1e-4, 0.3, 1.0})
+      for (double c : {1e-7, 1e-4, 0.01, 0.05}) {
+        Material m = ggx(ax, ay);
+        m.multiple_scattering = true;
+        const Material all = with_multiple_scattering(m, {{}, {0, 0, 1}, view_at(c, 0.7)});
+        EXPECT_GE(all.f0.x, 1) << ax << " " << ay << " " << c;
+        EXPECT_LT(all.f0.x, 4) << ax << " " << ay << " " << c;
+      }
+}
+
+TEST(Sheen, IsNeverNegative) {
+  for (double r = 0; r <= 1; r += 0.01)
+    for (double c = 0.005; c <= 1; c += 0.005) EXPECT_GE(ltc_radiance(LtcMethod::compact, lamp(), {{}, {0, 0, 1}, view_at(c)}, charlie(r * r)).x, 0) << r << " " << c;
+}
+
 TEST(Sheen, IsRefusedByTheTablesOfGgx) {
   EXPECT_FALSE(serves(LtcMethod::classic, charlie(0.3)));
   EXPECT_TRUE(serves(LtcMethod::compact, charlie(0.3)));

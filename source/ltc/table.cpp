@@ -114,7 +114,7 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
   table.magnitude_size = sizes.magnitude;
   table.shapes.resize(static_cast<std::size_t>(sizes.shape * sizes.shape));
   table.magnitudes.resize(static_cast<std::size_t>(sizes.magnitude * sizes.magnitude));
-  const auto resample = [&](auto value, auto importance, int coarse, auto put) {
+  const auto resample = [&](auto value, auto importance, int coarse, auto put, double least = -1e30) {
     std::vector<double> fine, weights;
     for (int j = 0; j < fit.size; ++j)
       for (int i = 0; i < fit.size; ++i) {
@@ -124,7 +124,7 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
         weights.push_back(importance(fit.at(i, j), scale) * std::clamp(10 * fit.at(i, j).albedo, 1e-6, 1.0));
       }
     const std::vector<double> result = fit.size == coarse ? fine : fit_coarse(fine, weights, fit.size, coarse);
-    for (std::size_t k = 0; k < result.size(); ++k) put(k) = round_to_half(static_cast<float>(result[k]));
+    for (std::size_t k = 0; k < result.size(); ++k) put(k) = round_to_half(static_cast<float>(std::max(result[k], least)));
   };
   const auto even = [](const LtcCell&, double) { return 1.0; };
   // What a change of an entry does to the lobe, in units of the lobe's own width.
@@ -139,8 +139,8 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
   resample([](const LtcCell& c) { return c.shape.e11; }, width_y, sizes.shape, shape(1));
   resample([](const LtcCell& c) { return c.shape.e02; }, width_x, sizes.shape, shape(2));
   resample([](const LtcCell& c) { return c.shape.e20; }, shear, sizes.shape, shape(3));
-  resample([](const LtcCell& c) { return c.n_a(); }, even, sizes.magnitude, magnitude(0));
-  resample([](const LtcCell& c) { return c.f_a(); }, even, sizes.magnitude, magnitude(1));
+  resample([](const LtcCell& c) { return c.n_a(); }, even, sizes.magnitude, magnitude(0), 0.0);
+  resample([](const LtcCell& c) { return c.f_a(); }, even, sizes.magnitude, magnitude(1), 0.0);
   return table;
 }
 
