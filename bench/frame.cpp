@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "benches.h"
+#include "frame.h"
 #include "core/float_mode.h"
 #include "render/cpu/gbuffer.h"
 #include "steradian/load_scene.h"
@@ -76,41 +76,6 @@ std::vector<AreaLight> ceiling(int count) {
   for (int i = 0; i < count; ++i)
     lights.push_back(ceiling_quad((i % side + 0.5) * step - kHalf, (i / side + 0.5) * step - kHalf, 0.2));
   return lights;
-}
-
-// A scene, what to do with it, and the passes of every call so far.
-struct Frame {
-  Scene scene;
-  RenderOptions options;
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<double>> passes;
-
-  void call() {
-    RenderStats stats;
-    const Picture picture = render(scene, options, &stats);
-    keep(picture.pixels.front());
-    order.clear();
-    for (const PassTime& pass : stats.passes) {
-      order.push_back(pass.name);
-      passes[pass.name].push_back(pass.ms);
-    }
-  }
-  std::vector<BenchPass> medians() const {
-    std::vector<BenchPass> result;
-    for (const std::string& name : order) {
-      std::vector<double> times = passes.at(name);
-      const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-      std::nth_element(times.begin(), middle, times.end());
-      result.push_back({name, *middle});
-    }
-    return result;
-  }
-};
-
-Bench bench_of(const std::string& name, std::shared_ptr<Frame> frame) {
-  const auto pixels = static_cast<std::size_t>(frame->options.width) * static_cast<std::size_t>(frame->options.height);
-  // Never pinned: threads that the first frame starts would inherit it.
-  return {name, pixels, name_of(active_simd()), [frame] { frame->call(); }, false, [frame] { return frame->medians(); }};
 }
 
 Bench direct(const std::string& name, const std::string& method, int threads) {

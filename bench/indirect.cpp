@@ -4,10 +4,10 @@
 // the time of every pass. Virtual lights are points in both (no quads), so that only the pair differs.
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "benches.h"
+#include "frame.h"
 #include "indirect/pairs.h"
 #include "reference/random.h"
 #include "steradian/load_scene.h"
@@ -50,10 +50,7 @@ struct Pairs {
       r.f90.put(i, {1, 1, 1});
     }
     ShadowMap map;
-    map.count = kLights;
-    map.normal.resize(kLights);
-    map.incoming.resize(kLights);
-    map.alpha.resize(kLights);
+    map.resize(kLights);
     for (std::size_t i = 0; i < kLights; ++i) {
       map.normal.put(i, direction({0, -1, 0}));
       map.incoming.put(i, direction(map.normal[i]));
@@ -89,37 +86,11 @@ void add_pair(BenchList& list, const std::string& name, Pair pair) {
   });
 }
 
-struct IndirectFrame {
-  Scene scene;
-  RenderOptions options;
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<double>> passes;
-
-  void call() {
-    RenderStats stats;
-    keep(render(scene, options, &stats).pixels.front());
-    order.clear();
-    for (const PassTime& pass : stats.passes) {
-      order.push_back(pass.name);
-      passes[pass.name].push_back(pass.ms);
-    }
-  }
-  std::vector<BenchPass> medians() const {
-    std::vector<BenchPass> result;
-    for (const std::string& name : order) {
-      std::vector<double> times = passes.at(name);
-      std::sort(times.begin(), times.end());
-      result.push_back({name, times[times.size() / 2]});
-    }
-    return result;
-  }
-};
-
 std::string ring() { return std::string(STERADIAN_SCENES) + "/ring.glb"; }
 
 void add_frame_of(BenchList& list, const std::string& name, IndirectMode mode, int lights) {
   list.add(name, [=](const BenchOptions&) -> Bench {
-    auto frame = std::make_shared<IndirectFrame>();
+    auto frame = std::make_shared<Frame>();
     frame->scene = load_scene(ring()).scene;
     RenderOptions& o = frame->options;
     o.width = 1920;
@@ -128,7 +99,7 @@ void add_frame_of(BenchList& list, const std::string& name, IndirectMode mode, i
     o.indirect.mode = mode;
     o.indirect.virtual_lights = lights;
     o.indirect.quads = false;
-    return {name, std::size_t{1920} * 1080, name_of(active_simd()), [frame] { frame->call(); }, false, [frame] { return frame->medians(); }};
+    return bench_of(name, frame);
   });
 }
 

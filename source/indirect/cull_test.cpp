@@ -24,13 +24,7 @@ struct Draw {
 
 ShadowMap random_map(Draw& draw, std::size_t count) {
   ShadowMap map;
-  map.count = count;
-  for (VectorArray* a : {&map.position, &map.normal, &map.incoming, &map.flux, &map.albedo, &map.f0, &map.f90, &map.edge_x, &map.edge_y})
-    a->resize(count);
-  map.alpha.resize(count);
-  map.area.resize(count);
-  map.column.resize(count);
-  map.row.resize(count);
+  map.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     map.position.put(i, {draw.number(-2, 2), draw.number(-2, 2), draw.number(-2, 2)});
     map.normal.put(i, draw.direction());

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/pack.h"
+#include "indirect/arrays_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
@@ -21,15 +21,6 @@ struct Likeness {
 constexpr Likeness kSame{0.9, 0.05, 0.2}, kLoose{0.3, 0.7, 0.5};
 constexpr double kEnough = 0.6;      // share of the weights
 constexpr double kRounding = 1e-5;   // a hundredth of a millimetre
-
-STERADIAN_INLINE PackVec3 load_at(const VectorArray& a, std::size_t i) {
-  return {load(a.x.data() + i), load(a.y.data() + i), load(a.z.data() + i)};
-}
-STERADIAN_INLINE void store_at(VectorArray& a, std::size_t i, const PackVec3& v) {
-  store(a.x.data() + i, v.x);
-  store(a.y.data() + i, v.y);
-  store(a.z.data() + i, v.z);
-}
 
 struct Sums {
   PackVec3 diffuse{0.0, 0.0, 0.0}, shine{0.0, 0.0, 0.0};

@@ -1,5 +1,6 @@
 #include "indirect/pairs.h"
 
+#include "indirect/arrays_pack.h"
 #include "indirect/lobe_pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -10,16 +11,6 @@ using indirect::GgxPairLight;
 using indirect::Light;
 using indirect::PairLight;
 using indirect::Receivers;
-using indirect::VectorArray;
-
-STERADIAN_INLINE PackVec3 load_at(const VectorArray& a, std::size_t i) {
-  return {load(a.x.data() + i), load(a.y.data() + i), load(a.z.data() + i)};
-}
-STERADIAN_INLINE void store_at(VectorArray& a, std::size_t i, const PackVec3& v) {
-  store(a.x.data() + i, v.x);
-  store(a.y.data() + i, v.y);
-  store(a.z.data() + i, v.z);
-}
 
 template <bool schlick>
 STERADIAN_INLINE void sum_ltc(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables,

@@ -1,13 +1,10 @@
 #include "indirect/resolve.h"
 
+#include "indirect/arrays_pack.h"
 #include "indirect/lobe_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
-
-STERADIAN_INLINE PackVec3 load_at(const indirect::VectorArray& a, std::size_t i) {
-  return {load(a.x.data() + i), load(a.y.data() + i), load(a.z.data() + i)};
-}
 
 __attribute__((flatten)) void run(const indirect::FrameSurfaces& s, const indirect::Light& light, const LtcPackTables& tables, int first,
                                   int last, indirect::VectorArray& radiance) {

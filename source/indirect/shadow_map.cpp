@@ -245,15 +245,6 @@ void trace_block(const Scene& scene, const RayScene& rays, const Emitter& emitte
   }
 }
 
-void resize(ShadowMap& map, std::size_t size) {
-  for (VectorArray* a : {&map.position, &map.normal, &map.incoming, &map.flux, &map.albedo, &map.f0, &map.f90, &map.edge_x, &map.edge_y})
-    a->resize(size);
-  map.alpha.resize(size);
-  map.area.resize(size);
-  map.column.resize(size);
-  map.row.resize(size);
-}
-
 void put(ShadowMap& map, std::size_t n, const Texel& t) {
   map.column[n] = t.column;
   map.row[n] = t.row;
@@ -278,6 +269,15 @@ void put(ShadowMap& map, std::size_t n, const Texel& t) {
 
 }  // namespace
 
+void ShadowMap::resize(std::size_t size) {
+  count = size;
+  for (VectorArray* a : {&position, &normal, &incoming, &flux, &albedo, &f0, &f90, &edge_x, &edge_y}) a->resize(size);
+  alpha.resize(size);
+  area.resize(size);
+  column.resize(size);
+  row.resize(size);
+}
+
 ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count) {
   const std::vector<Emitter> emitters = emitters_of(scene);
   double power = 0;
@@ -287,8 +287,7 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count) {
     // Multiples of eight, so that the grid falls into 64 sets of one size.
     const int side = 8 * std::clamp(static_cast<int>(std::lround(std::sqrt(count * emitter.power / power) / 8)), 1, 512);
     const std::size_t begin = map.count;
-    map.count += static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    resize(map, map.count);
+    map.resize(begin + static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     tbb::parallel_for(0, side / 4, [&](int by) {
       const FlushDenormals flush;
       for (int bx = 0; bx < side / 4; ++bx) {

@@ -3,20 +3,11 @@
 
 #include <cmath>
 
+#include "scene/test_meshes.h"
 #include "steradian/compare.h"
 #include "steradian/render.h"
 
 namespace steradian::indirect {
-
-inline Mesh quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
-  Mesh mesh;
-  mesh.material = material;
-  mesh.positions = {a, b, c, d};
-  const Vec3f n = normalized(cross(b - a, c - a));
-  mesh.normals = {n, n, n, n};
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  return mesh;
-}
 
 inline SurfaceMaterial metal(float roughness) {
   SurfaceMaterial m;
@@ -37,7 +28,7 @@ inline SurfaceMaterial plastic(float albedo, float roughness) {
 inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
   Scene scene;
   scene.materials = {floor, wall};
-  scene.meshes = {quad({-2, 0, 3}, {2, 0, 3}, {2, 0, 0}, {-2, 0, 0}, 0), quad({-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}, 1)};
+  scene.meshes = {quad_mesh({-2, 0, 3}, {2, 0, 3}, {2, 0, 0}, {-2, 0, 0}, 0), quad_mesh({-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}, 1)};
   scene.bounds_min = {-2, 0, 0};
   scene.bounds_max = {2, 3, 3};
   PunctualLight light;

@@ -141,7 +141,7 @@ TEST(Sheen, OfTheTableIsNearTheReference) {
     }
 }
 
-// The energy that comes back is at most what was lost, whatever the view.
+// One bounce reflects more than a quarter whatever the widths and the view, so that F0 = 1 grows to less than four times itself.
 TEST(MultipleScattering, StaysInBoundsAtGrazingViews) {
   for (double ax : {1e-4, 0.1, 1.0})
     for (double ay : {1e-4, 0.3, 1.0})

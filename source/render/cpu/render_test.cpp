@@ -9,6 +9,7 @@
 #include "compare/z_test.h"
 #include "core/simd.h"
 #include "render/cpu/camera_rays.h"
+#include "scene/test_meshes.h"
 #include "steradian/albedo.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
@@ -18,16 +19,6 @@
 
 namespace steradian {
 namespace {
-
-Mesh quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
-  Mesh mesh;
-  mesh.material = material;
-  mesh.positions = {a, b, c, d};
-  const Vec3f n = normalized(cross(b - a, c - a));
-  mesh.normals = {n, n, n, n};
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  return mesh;
-}
 
 SurfaceMaterial diffuse(float albedo) {
   SurfaceMaterial m;
@@ -41,7 +32,7 @@ SurfaceMaterial diffuse(float albedo) {
 Scene floor_scene() {
   Scene scene;
   scene.materials = {diffuse(0.5f)};
-  scene.meshes = {quad({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
+  scene.meshes = {quad_mesh({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
   Camera camera;
   camera.name = "main";
   camera.position = {0, 3, 4};
@@ -334,7 +325,7 @@ TEST(Render, ShadowsDarkenOnlyWhatTheLightDoesNotSee) {
   Scene scene = floor_scene();
   scene.area_lights = {ceiling_light()};
   // A plate halfway to the light, above the middle of the floor.
-  scene.meshes.push_back(quad({-0.6f, 1, 0.6f}, {0.6f, 1, 0.6f}, {0.6f, 1, -0.6f}, {-0.6f, 1, -0.6f}, 0));
+  scene.meshes.push_back(quad_mesh({-0.6f, 1, 0.6f}, {0.6f, 1, 0.6f}, {0.6f, 1, -0.6f}, {-0.6f, 1, -0.6f}, 0));
   RenderOptions options = small();
   options.method = "sampled";
   options.spp = 16;

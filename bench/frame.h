@@ -1,0 +1,51 @@
+// A whole picture as a bench: it is rendered again and again, and its passes are medians over the calls.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/bench.h"
+#include "core/simd.h"
+#include "steradian/render.h"
+
+namespace steradian::bench {
+
+// A scene, what to do with it, and the passes of every call so far.
+struct Frame {
+  Scene scene;
+  RenderOptions options;
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<double>> passes;
+
+  void call() {
+    RenderStats stats;
+    const Picture picture = render(scene, options, &stats);
+    keep(picture.pixels.front());
+    order.clear();
+    for (const PassTime& pass : stats.passes) {
+      order.push_back(pass.name);
+      passes[pass.name].push_back(pass.ms);
+    }
+  }
+  std::vector<BenchPass> medians() const {
+    std::vector<BenchPass> result;
+    for (const std::string& name : order) {
+      std::vector<double> times = passes.at(name);
+      const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+      std::nth_element(times.begin(), middle, times.end());
+      result.push_back({name, *middle});
+    }
+    return result;
+  }
+};
+
+inline Bench bench_of(const std::string& name, std::shared_ptr<Frame> frame) {
+  const auto pixels = static_cast<std::size_t>(frame->options.width) * static_cast<std::size_t>(frame->options.height);
+  // Not pinned: it is for all cores.
+  return {name, pixels, name_of(active_simd()), [frame] { frame->call(); }, false, [frame] { return frame->medians(); }};
+}
+
+}  // namespace steradian::bench
