@@ -1,7 +1,16 @@
 # Pack code (*_pack.cpp) is compiled once per instruction set, each unit in its own inline namespace
 # (include/steradian/config.h), and chosen at run time (source/core/simd.h). The strict variants are the same code
 # without contraction and without approximate square roots: bit-equal to scalar float, for the tests.
-set(STERADIAN_INSTRUCTION_SETS sse2 avx2 avx512)
+# A build for one machine, or under a sanitizer, may leave some out: cmake -DSTERADIAN_INSTRUCTION_SETS=avx512
+set(STERADIAN_INSTRUCTION_SETS sse2 avx2 avx512 CACHE STRING "Instruction sets that packs are compiled for")
+foreach(isa sse2 avx2 avx512)
+  string(TOUPPER ${isa} upper)
+  if(isa IN_LIST STERADIAN_INSTRUCTION_SETS)
+    add_compile_definitions(STERADIAN_HAS_${upper}=1)
+  else()
+    add_compile_definitions(STERADIAN_HAS_${upper}=0)
+  endif()
+endforeach()
 set(STERADIAN_FLAGS_sse2 -msse2)
 set(STERADIAN_FLAGS_avx2 -mavx2 -mfma -mtune=haswell)
 # A pack copied by two half moves and read whole waits for both to reach the cache.

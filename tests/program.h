@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "paths.h"
+
 namespace steradian {
 
 namespace fs = std::filesystem;
@@ -40,7 +42,7 @@ class Program : public testing::Test {
   // Runs the program on the file `in` of the folder (made of `input`), out and err to files.
   Outcome run(std::vector<std::string> arguments, const std::string& input = {}) {
     if (!input.empty() || !fs::exists(folder / "in")) std::ofstream(folder / "in", std::ios::binary) << input;
-    arguments.insert(arguments.begin(), STERADIAN_PROGRAM);
+    arguments.insert(arguments.begin(), test::kProgram);
     std::vector<char*> argv;
     for (std::string& a : arguments) argv.push_back(a.data());
     argv.push_back(nullptr);

@@ -9,19 +9,19 @@ namespace {
 
 using nlohmann::json;
 
-const std::string kFloor = STERADIAN_SOURCE_DIR "/scenes/diffuse_floor.glb";
-const std::string kGlossy = STERADIAN_SOURCE_DIR "/scenes/glossy_floor.glb";
+std::string floor_scene() { return test::kSourceDir + "/scenes/diffuse_floor.glb"; }
+std::string glossy_scene() { return test::kSourceDir + "/scenes/glossy_floor.glb"; }
 
 TEST_F(Program, RenderWritesAPictureWithItsSettingsAndItsStatistics) {
   const std::string exr = folder / "a.exr", stats = folder / "s.json";
-  const Outcome r = run({"render", kFloor, "-o", exr, "--size", "64x36", "--stats", stats, "--threads", "1"});
+  const Outcome r = run({"render", floor_scene(), "-o", exr, "--size", "64x36", "--stats", stats, "--threads", "1"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.out, "");
   const Picture picture = read_picture(exr);
   EXPECT_EQ(picture.width, 64);
   EXPECT_EQ(picture.height, 36);
   EXPECT_EQ(picture.metadata.at("steradian.method"), "exact");
-  EXPECT_EQ(picture.metadata.at("steradian.scene"), kFloor);
+  EXPECT_EQ(picture.metadata.at("steradian.scene"), floor_scene());
   const json s = json::parse(contents(stats));
   for (const char* key : {"version", "command", "backend", "device", "simd", "threads", "width", "height", "seed",
                           "lights", "method", "passes", "total_ms"})
@@ -38,7 +38,7 @@ TEST_F(Program, RenderGivesTheSameBytesAtOneAndTwoThreads) {
   for (const std::string method : {"auto", "sampled"}) {
     const auto picture = [&](const std::string& threads) {
       const std::string path = folder / ("t" + threads + ".exr");
-      const Outcome r = run({"render", kGlossy, "-o", path, "--size", "96x54", "--method", method, "--spp", "2", "--aa", "2",
+      const Outcome r = run({"render", glossy_scene(), "-o", path, "--size", "96x54", "--method", method, "--spp", "2", "--aa", "2",
                              "--seed", "7", "--threads", threads});
       EXPECT_EQ(r.status, 0) << r.err;
       return contents(path);
@@ -53,20 +53,20 @@ TEST_F(Program, RenderRefusesWrongUseWithTwo) {
   const std::string out = folder / "x.exr";
   const std::vector<std::vector<std::string>> wrong = {
       {"render"},
-      {"render", kFloor},
-      {"render", kFloor, "-o", out, "--size", "64"},
-      {"render", kFloor, "-o", out, "--size", "64x-1"},
-      {"render", kFloor, "-o", out, "--size", "99999x99999"},
-      {"render", kFloor, "-o", out, "--method", "magic"},
-      {"render", kFloor, "-o", out, "--shadows", "maybe"},
-      {"render", kFloor, "-o", out, "--shadows", "on", "--method", "exact"},
-      {"render", kGlossy, "-o", out, "--method", "exact"},
-      {"render", kGlossy, "-o", out, "--method", "series"},
-      {"render", kFloor, "-o", out, "--aa", "0"},
-      {"render", kFloor, "-o", out, "--threads", "many"},
-      {"render", kFloor, "-o", out, "--exposure", "bright"},
-      {"render", kFloor, "-o", out, "--nonsense"},
-      {"diff", kFloor},
+      {"render", floor_scene()},
+      {"render", floor_scene(), "-o", out, "--size", "64"},
+      {"render", floor_scene(), "-o", out, "--size", "64x-1"},
+      {"render", floor_scene(), "-o", out, "--size", "99999x99999"},
+      {"render", floor_scene(), "-o", out, "--method", "magic"},
+      {"render", floor_scene(), "-o", out, "--shadows", "maybe"},
+      {"render", floor_scene(), "-o", out, "--shadows", "on", "--method", "exact"},
+      {"render", glossy_scene(), "-o", out, "--method", "exact"},
+      {"render", glossy_scene(), "-o", out, "--method", "series"},
+      {"render", floor_scene(), "-o", out, "--aa", "0"},
+      {"render", floor_scene(), "-o", out, "--threads", "many"},
+      {"render", floor_scene(), "-o", out, "--exposure", "bright"},
+      {"render", floor_scene(), "-o", out, "--nonsense"},
+      {"diff", floor_scene()},
       {"diff", out, out, "--fail-above", "rmse"},
   };
   for (const auto& arguments : wrong) {
@@ -78,7 +78,7 @@ TEST_F(Program, RenderRefusesWrongUseWithTwo) {
     EXPECT_FALSE(fs::exists(out)) << line;
   }
   // The message names the lobe and the material.
-  const Outcome r = run({"render", kGlossy, "-o", out, "--method", "exact"});
+  const Outcome r = run({"render", glossy_scene(), "-o", out, "--method", "exact"});
   EXPECT_NE(r.err.find("ggx"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("'mirror'"), std::string::npos) << r.err;
 }
@@ -89,10 +89,10 @@ TEST_F(Program, RenderFailsWithOneAndLeavesNothingBehind) {
   const std::vector<std::vector<std::string>> failing = {
       {"render", "/no/such/scene.glb", "-o", out},
       {"render", folder / "broken.glb", "-o", out},
-      {"render", kFloor, "-o", "/no/such/folder/x.exr", "--size", "8x8"},
-      {"render", kFloor, "-o", "/dev/full.exr/x.exr", "--size", "8x8"},
-      {"render", kFloor, "-o", folder / "x.bmp", "--size", "8x8"},
-      {"render", kFloor, "-o", out, "--camera", "nobody", "--size", "8x8"},
+      {"render", floor_scene(), "-o", "/no/such/folder/x.exr", "--size", "8x8"},
+      {"render", floor_scene(), "-o", "/dev/full.exr/x.exr", "--size", "8x8"},
+      {"render", floor_scene(), "-o", folder / "x.bmp", "--size", "8x8"},
+      {"render", floor_scene(), "-o", out, "--camera", "nobody", "--size", "8x8"},
       {"diff", "/no/such/a.exr", "/no/such/b.exr"},
   };
   for (const auto& arguments : failing) {
@@ -111,7 +111,7 @@ TEST_F(Program, RenderFailsWithOneAndLeavesNothingBehind) {
 
 TEST_F(Program, DiffMeasuresAndFailsAboveALimit) {
   const std::string a = folder / "a.exr", b = folder / "b.exr";
-  ASSERT_EQ(run({"render", kFloor, "-o", a, "--size", "32x18"}).status, 0);
+  ASSERT_EQ(run({"render", floor_scene(), "-o", a, "--size", "32x18"}).status, 0);
   Picture darker = read_picture(a);
   for (Vec3f& p : darker.pixels) p *= 0.5f;
   write_picture(darker, b);
@@ -130,11 +130,11 @@ TEST_F(Program, DiffMeasuresAndFailsAboveALimit) {
 // pilot and thus itself uncertain by a quarter. Independent errors add in squares.
 TEST_F(Program, GlossyMethodsAreNearTheReference) {
   const std::string reference = folder / "reference.exr";
-  ASSERT_EQ(run({"render", kGlossy, "-o", reference, "--size", "48x27", "--method", "reference", "--target-error", "0.02"}).status, 0);
+  ASSERT_EQ(run({"render", glossy_scene(), "-o", reference, "--size", "48x27", "--method", "reference", "--target-error", "0.02"}).status, 0);
   for (const auto& [method, limit] :
        std::vector<std::pair<std::string, std::string>>{{"closed-form", "0.0254"}, {"ltc", "0.0321"}, {"ltc-compact", "0.0321"}}) {
     const std::string path = folder / (method + ".exr");
-    ASSERT_EQ(run({"render", kGlossy, "-o", path, "--size", "48x27", "--method", method}).status, 0);
+    ASSERT_EQ(run({"render", glossy_scene(), "-o", path, "--size", "48x27", "--method", method}).status, 0);
     const Outcome r = run({"diff", path, reference, "--json", "--fail-above", "relative_l2=" + limit});
     EXPECT_EQ(r.status, 0) << method << ": " << r.out << r.err;
     EXPECT_NEAR(json::parse(r.out)["mean_ratio"].get<double>(), 1, 0.02) << method;

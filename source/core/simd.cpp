@@ -8,6 +8,7 @@ namespace steradian {
 namespace {
 
 bool runs(Simd simd) {
+  if (!is_built(simd)) return false;
   __builtin_cpu_init();
   switch (simd) {
     case Simd::sse2: return true;
@@ -33,10 +34,17 @@ const char* name_of(Simd simd) {
 
 int lanes_of(Simd simd) { return 4 << static_cast<int>(simd); }
 
+void throw_not_built(Simd simd) {
+  throw Error("this build", std::string("holds no packs for ") + name_of(simd), "see STERADIAN_INSTRUCTION_SETS");
+}
+
 std::vector<Simd> available_simd() {
   std::vector<Simd> result;
   for (Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512})
     if (runs(simd)) result.push_back(simd);
+  if (result.empty())
+    throw Error("this build", "holds no instruction set that this processor runs",
+                "build with -DSTERADIAN_INSTRUCTION_SETS=sse2");
   return result;
 }
 
@@ -46,7 +54,7 @@ Simd active_simd() {
   for (Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512}) {
     if (std::string(forced) != name_of(simd)) continue;
     if (!runs(simd))
-      throw Error("STERADIAN_SIMD", std::string(forced) + " does not run on this processor",
+      throw Error("STERADIAN_SIMD", std::string(forced) + " does not run on this processor, or is not in this build",
                   std::string("widest here: ") + name_of(available_simd().back()));
     return simd;
   }

@@ -13,7 +13,20 @@ enum class Simd { sse2, avx2, avx512 };
 const char* name_of(Simd simd);
 int lanes_of(Simd simd);
 
-// What this processor can run, narrowest first.
+// Whether this build holds packs for it (STERADIAN_INSTRUCTION_SETS of cmake/instruction_sets.cmake).
+constexpr bool is_built(Simd simd) {
+  switch (simd) {
+    case Simd::sse2: return STERADIAN_HAS_SSE2 != 0;
+    case Simd::avx2: return STERADIAN_HAS_AVX2 != 0;
+    case Simd::avx512: return STERADIAN_HAS_AVX512 != 0;
+  }
+  return false;
+}
+
+// Throws Error that names the set.
+[[noreturn]] void throw_not_built(Simd simd);
+
+// What this build holds and this processor can run, narrowest first. Throws Error where there is none.
 std::vector<Simd> available_simd();
 
 // The widest available, or what the environment variable STERADIAN_SIMD (sse2, avx2, avx512) forces.
@@ -24,23 +37,28 @@ Simd active_simd();
 //   STERADIAN_DECLARE_PACK_TABLE(LambertTable, lambert_table)
 // The pack file defines `const LambertTable& lambert_table()` in its own namespace; callers use
 // lambert_table_for(simd).
-#define STERADIAN_DECLARE_PACK_TABLE(Table, function)                \
-  namespace isa_sse2 {                                               \
-  const Table& function();                                           \
-  }                                                                  \
-  namespace isa_avx2 {                                               \
-  const Table& function();                                           \
-  }                                                                  \
-  namespace isa_avx512 {                                             \
-  const Table& function();                                           \
-  }                                                                  \
-  inline const Table& function##_for(Simd simd) {                    \
-    switch (simd) {                                                  \
-      case Simd::sse2: return isa_sse2::function();                  \
-      case Simd::avx2: return isa_avx2::function();                  \
-      case Simd::avx512: return isa_avx512::function();              \
-    }                                                                \
-    return isa_sse2::function();                                     \
+#define STERADIAN_DECLARE_PACK_TABLE(Table, function) STERADIAN_DECLARE_PACK_TABLE_IN(, Table, function)
+
+// The same in namespaces isa_sse2SUFFIX and so on, for units of steradian_pack_objects(NAME SUFFIX ...); callers use
+// lambert_tableSUFFIX_for(simd).
+#define STERADIAN_DECLARE_PACK_TABLE_IN(suffix, Table, function)       \
+  namespace isa_sse2##suffix {                                         \
+  const Table& function();                                             \
+  }                                                                    \
+  namespace isa_avx2##suffix {                                         \
+  const Table& function();                                             \
+  }                                                                    \
+  namespace isa_avx512##suffix {                                       \
+  const Table& function();                                             \
+  }                                                                    \
+  inline const Table& function##suffix##_for(Simd simd) {              \
+    if constexpr (is_built(Simd::avx512))                              \
+      if (simd == Simd::avx512) return isa_avx512##suffix::function(); \
+    if constexpr (is_built(Simd::avx2))                                \
+      if (simd == Simd::avx2) return isa_avx2##suffix::function();     \
+    if constexpr (is_built(Simd::sse2))                                \
+      if (simd == Simd::sse2) return isa_sse2##suffix::function();     \
+    throw_not_built(simd);                                             \
   }
 
 }  // namespace steradian

@@ -10,6 +10,7 @@
 #include "plane/light_field.h"
 #include "plane/random.h"
 #include "plane/world.h"
+#include "paths.h"
 
 namespace steradian {
 namespace {
@@ -116,7 +117,7 @@ TEST(PlaneFrame, EqualsTheQueryWithOverlappingShapesOfEveryKind) {
 
 TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
   for (const char* name : {"lamps", "room", "city", "logo"}) {
-    const PlaneScene scene = load_plane_scene(std::string(STERADIAN_SOURCE_DIR "/scenes/plane/") + name + ".svg").scene;
+    const PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/" + name + ".svg").scene;
     // A size that puts no pixel's centre on a line of no thickness, where either side may be meant.
     expect_query(scene, 97, 61, 7, name);
   }

@@ -7,6 +7,7 @@
 
 #include "scene/gltf_test_file.h"
 #include "steradian/load_scene.h"
+#include "paths.h"
 
 namespace steradian {
 namespace {
@@ -16,13 +17,13 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-const std::string kScenes = STERADIAN_SOURCE_DIR "/scenes";
+std::string scenes() { return test::kSourceDir + "/scenes"; }
 
 class OwnScenes : public testing::Test {
 protected:
   void SetUp() override {
     folder_ = test_path("scenes");
-    const std::string command = "python3 '" + kScenes + "/make_scenes.py' '" + folder_ + "'";
+    const std::string command = "python3 '" + scenes() + "/make_scenes.py' '" + folder_ + "'";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
   }
   Scene made(const std::string& name) {
@@ -35,7 +36,7 @@ protected:
 
 TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
   for (const std::string name : {"gallery", "plane", "ring", "diffuse_floor", "glossy_floor", "textured_floor", "tubes"}) {
-    const std::string checked_in = bytes_of(kScenes + "/" + name + ".glb");
+    const std::string checked_in = bytes_of(scenes() + "/" + name + ".glb");
     EXPECT_FALSE(checked_in.empty()) << name;
     EXPECT_LT(checked_in.size(), 1'000'000u) << name;
     EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb"))

@@ -55,13 +55,7 @@ void fill(std::mt19937_64& random, const Input& input, float* out) {
 }
 
 const PackTable& table_for(Simd simd, PackKind kind) {
-  const bool strict = kind == PackKind::strict;
-  switch (simd) {
-    case Simd::sse2: return strict ? isa_sse2_strict::parity_table() : isa_sse2_parity::parity_table();
-    case Simd::avx2: return strict ? isa_avx2_strict::parity_table() : isa_avx2_parity::parity_table();
-    case Simd::avx512: break;
-  }
-  return strict ? isa_avx512_strict::parity_table() : isa_avx512_parity::parity_table();
+  return kind == PackKind::strict ? parity_table_strict_for(simd) : parity_table_parity_for(simd);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "core/simd.h"
+
 namespace steradian {
 namespace parity {
 
@@ -13,23 +15,7 @@ struct PackTable {
 
 }  // namespace parity
 
-namespace isa_sse2_parity {
-const parity::PackTable& parity_table();
-}
-namespace isa_avx2_parity {
-const parity::PackTable& parity_table();
-}
-namespace isa_avx512_parity {
-const parity::PackTable& parity_table();
-}
-namespace isa_sse2_strict {
-const parity::PackTable& parity_table();
-}
-namespace isa_avx2_strict {
-const parity::PackTable& parity_table();
-}
-namespace isa_avx512_strict {
-const parity::PackTable& parity_table();
-}
+STERADIAN_DECLARE_PACK_TABLE_IN(_parity, parity::PackTable, parity_table)
+STERADIAN_DECLARE_PACK_TABLE_IN(_strict, parity::PackTable, parity_table)
 
 }  // namespace steradian

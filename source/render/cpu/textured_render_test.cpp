@@ -8,6 +8,7 @@
 #include "steradian/compare.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
+#include "paths.h"
 
 namespace steradian {
 namespace {
@@ -123,7 +124,7 @@ TEST(TexturedRender, ReferenceIsTheIntegralOfTextureTimesCosine) {
 // docs/ltc.md, "Textured lights": a look-up is off by at most 6 % in L2, and by 2 % in energy; the tables themselves by 3 %
 // and 2 % (docs/ltc.md), the reference by its target, itself uncertain by a quarter.
 TEST(TexturedRender, EveryMethodIsNearTheReference) {
-  const Scene scene = load_scene(STERADIAN_SOURCE_DIR "/scenes/textured_floor.glb").scene;
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/textured_floor.glb").scene;
   RenderOptions options = small("reference");
   options.camera = "floor";
   options.target_error = 0.03;

@@ -1,0 +1,12 @@
+// Where this checkout and the built program are. Values of paths.cpp alone, so that every other test compiles to the same
+// bytes in every checkout and a compiler cache serves them all.
+#pragma once
+
+#include <string>
+
+namespace steradian::test {
+
+extern const std::string kSourceDir;  // of the repository
+extern const std::string kProgram;    // the program `steradian`
+
+}  // namespace steradian::test
