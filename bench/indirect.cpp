@@ -1,5 +1,5 @@
 // indirect/pair/{ltc,ltc-schlick,ggx}: one pair of a receiver and a virtual light, a diffuse and a glossy lobe at each end,
-// nothing culled; 1024 receivers times 512 lights, GGX by kernels/microfacet.glsl.
+// nothing culled; 1024 receivers times 512 lights, GGX by kernels/lobe/microfacet.glsl.
 // indirect/frame/{ltc,ggx}/N: 1080p of scenes/ring.glb with N virtual lights, both on the same lists; all threads, with
 // the time of every pass. Virtual lights are points in both (no quads), so that only the pair differs.
 #include <cmath>

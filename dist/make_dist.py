@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
-from kernel_text import in_order  # noqa: E402
+from kernel_text import in_order, kernel_files  # noqa: E402
 
 VERSION = re.search(r"project\(steradian VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 LICENCE = (ROOT / "LICENSE").read_text()
@@ -317,11 +317,11 @@ def file_text(name, usage_as_code=False):
     language, place, helpers, make_printer = LANGUAGES[name]
     printer = make_printer()
     kernels = "".join(f"// ==== {p.stem} ====\n\n{printer(without_head(without_double(p.read_text()))).strip()}\n\n"
-                      for p in in_order(ROOT / "kernels"))
+                      for p in in_order(kernel_files()))
     usage = printer(USAGE)
     indented = "".join(f"    {line}\n" if line else "\n" for line in usage.splitlines())
     text = (as_comment(f"Steradian {VERSION}: area light integrals in closed form, for {language}.\n\n{place} Made by\n"
-                       f"dist/make_dist.py from kernels/*.glsl: change those. For example:\n\n")
+                       f"dist/make_dist.py from kernels/: change those. For example:\n\n")
             + as_comment(indented)
             + as_comment("\nA light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,\n"
                          "degenerate case and source.\n\n" + LICENCE)

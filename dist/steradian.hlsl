@@ -1,7 +1,7 @@
 // Steradian 0.1.0: area light integrals in closed form, for HLSL.
 //
 // #include or paste it; it has no macros, globals or resources. Made by
-// dist/make_dist.py from kernels/*.glsl: change those. For example:
+// dist/make_dist.py from kernels/: change those. For example:
 //
 //     // Radiance that a quad light sends to the eye from a Lambert surface.
 //     //   p, n         surface point and its unit normal
@@ -59,6 +59,133 @@ float2 steradian_xy(float3 v) { return v.xy; }
 // HLSL calls rows; use these two and not mul().
 float3 steradian_transform(float3x3 m, float3 v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
 float3 steradian_transform_transposed(float3x3 m, float3 v) { return float3(dot(m[0], v), dot(m[1], v), dot(m[2], v)); }
+
+// ==== complex ====
+
+// Complex numbers: vec2(real part, imaginary part).
+
+// a b.
+float2 complex_product(float2 a, float2 b) {
+    return float2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+float2 complex_quotient(float2 a, float2 b) {
+    float scale = 1.0 / max(dot(b, b), 1.0e-36);
+    return float2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
+}
+
+// a / |a|. Degenerate: the zero vector stays zero.
+float2 complex_sign(float2 a) {
+    return a * rsqrt(max(dot(a, a), 1.0e-36));
+}
+
+// exp(i x) for x in [-pi, pi].
+//
+// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
+// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
+float2 complex_unit(float x) {
+    float y = 0.5 * x;
+    float t = y * y;
+    float c = 1.0;
+    float s = 1.0;
+    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
+    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
+    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
+    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
+    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
+    s = y * (1.0 - t * 0.166666666666666667 * s);
+    return float2(c * c - s * s, 2.0 * c * s);
+}
+
+// ==== frame ====
+
+// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// vector into it, transform(frame, l) back.
+
+// Orthonormal right-handed frame with z along n and x, y in any direction.
+//
+//   n        unit normal
+//
+// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
+float3x3 frame_from_normal(float3 n) {
+    float s = steradian_select(n.z < 0.0, -1.0, 1.0);
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    float3 x = float3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    float3 y = float3(b, s + n.y * n.y * a, -n.y);
+    return float3x3(x, y, n);
+}
+
+// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+//
+//   n, v     unit normal and view
+//
+// Degenerate: a view along the normal (closer than 1e-6) gives any x.
+float3x3 frame_from_normal_and_view(float3 n, float3 v) {
+    float3x3 other = frame_from_normal(n);
+    float3 t = v - n * dot(n, v);
+    float t2 = dot(t, t);
+    float3 x = steradian_select(t2 > 1.0e-12, t * rsqrt(max(t2, 1.0e-12)), steradian_transform(other, float3(1.0, 0.0, 0.0)));
+    return float3x3(x, cross(n, x), n);
+}
+
+// ==== gauss_legendre ====
+
+// Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
+//
+// The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
+
+// Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
+//
+// Degenerate: a rule or node that there is not gives (1/2, 0).
+float2 gauss_legendre_node(int n, int j) {
+    float2 r = float2(0.5, 0.0);
+    if (n == 1) {
+        if (j == 0) { r = float2(0.5, 1.0); }
+    }
+    if (n == 2) {
+        if (j == 0) { r = float2(0.211324865405187118, 0.5); }
+        if (j == 1) { r = float2(0.788675134594812882, 0.5); }
+    }
+    if (n == 3) {
+        if (j == 0) { r = float2(0.112701665379258311, 0.277777777777777778); }
+        if (j == 1) { r = float2(0.5, 0.444444444444444444); }
+        if (j == 2) { r = float2(0.887298334620741689, 0.277777777777777778); }
+    }
+    if (n == 4) {
+        if (j == 0) { r = float2(0.069431844202973712, 0.173927422568726929); }
+        if (j == 1) { r = float2(0.330009478207571868, 0.326072577431273071); }
+        if (j == 2) { r = float2(0.669990521792428132, 0.326072577431273071); }
+        if (j == 3) { r = float2(0.930568155797026288, 0.173927422568726929); }
+    }
+    if (n == 5) {
+        if (j == 0) { r = float2(0.046910077030668004, 0.118463442528094544); }
+        if (j == 1) { r = float2(0.230765344947158454, 0.239314335249683234); }
+        if (j == 2) { r = float2(0.5, 0.284444444444444444); }
+        if (j == 3) { r = float2(0.769234655052841546, 0.239314335249683234); }
+        if (j == 4) { r = float2(0.953089922969331996, 0.118463442528094544); }
+    }
+    if (n == 6) {
+        if (j == 0) { r = float2(0.033765242898423986, 0.085662246189585173); }
+        if (j == 1) { r = float2(0.169395306766867743, 0.180380786524069304); }
+        if (j == 2) { r = float2(0.380690406958401546, 0.233956967286345524); }
+        if (j == 3) { r = float2(0.619309593041598454, 0.233956967286345524); }
+        if (j == 4) { r = float2(0.830604693233132257, 0.180380786524069304); }
+        if (j == 5) { r = float2(0.966234757101576014, 0.085662246189585173); }
+    }
+    if (n == 8) {
+        if (j == 0) { r = float2(0.019855071751231884, 0.05061426814518813); }
+        if (j == 1) { r = float2(0.10166676129318663, 0.111190517226687235); }
+        if (j == 2) { r = float2(0.237233795041835507, 0.156853322938943644); }
+        if (j == 3) { r = float2(0.408282678752175098, 0.181341891689180991); }
+        if (j == 4) { r = float2(0.591717321247824902, 0.181341891689180991); }
+        if (j == 5) { r = float2(0.762766204958164493, 0.156853322938943644); }
+        if (j == 6) { r = float2(0.89833323870681337, 0.111190517226687235); }
+        if (j == 7) { r = float2(0.980144928248768116, 0.05061426814518813); }
+    }
+    return r;
+}
 
 // ==== inverse_trig ====
 
@@ -148,36 +275,64 @@ float trig_atan2_unwrapped(float y, float x) {
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
 }
 
-// ==== frame ====
+// ==== quartic ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
-// vector into it, transform(frame, l) back.
+// Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
 
-// Orthonormal right-handed frame with z along n and x, y in any direction.
+// One root of each pair, with positive imaginary part.
+struct QuarticPoles {
+    float2 z1;
+    float2 z2;
+};
+
+// Largest root of 4 c^3 - 3 c = x: the cosine of a third of the angle whose cosine is x, in [1/2, 1].
 //
-//   n        unit normal
+//   x        in [-1, 1]
 //
-// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
-float3x3 frame_from_normal(float3 n) {
-    float s = steradian_select(n.z < 0.0, -1.0, 1.0);
-    float a = -1.0 / (s + n.z);
-    float b = n.x * n.y * a;
-    float3 x = float3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    float3 y = float3(b, s + n.y * n.y * a, -n.y);
-    return float3x3(x, y, n);
+// The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
+// at x = -1, where the root has infinite slope in x; then two steps of Newton.
+// Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
+float quartic_third_cosine(float x) {
+    float t = sqrt(max(0.5 + 0.5 * x, 0.0));
+    float c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
+    for (int i = 0; i < 2; i++) {
+        float c2 = c * c;
+        c = c - (c * (4.0 * c2 - 3.0) - x) / max(12.0 * c2 - 3.0, 1.0e-6);
+    }
+    return c;
 }
 
-// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+// Roots of t^4 + c3 t^3 + c2 t^2 + c1 t + c0, good enough to start an iteration from.
 //
-//   n, v     unit normal and view
+//   c0..c3   the roots should be of the order of 1: scale the variable so that c0 = 1
+//   returns  imaginary parts at least 1.0e-3: below, the square is the noise of 24 bits
 //
-// Degenerate: a view along the normal (closer than 1e-6) gives any x.
-float3x3 frame_from_normal_and_view(float3 n, float3 v) {
-    float3x3 other = frame_from_normal(n);
-    float3 t = v - n * dot(n, v);
-    float t2 = dot(t, t);
-    float3 x = steradian_select(t2 > 1.0e-12, t * rsqrt(max(t2, 1.0e-12)), steradian_transform(other, float3(1.0, 0.0, 0.0)));
-    return float3x3(x, cross(n, x), n);
+// Ferrari: with y = t + c3/4 the quartic is (y^2 + s y + a)(y^2 - s y + b). s^2, the squared distance of the pairs along
+// the real axis, is the only root of the resolvent that is not negative; all three are real, so that it is a
+// cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
+// Error: a start; float loses half the digits where pairs are nearly equal.
+// Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
+QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
+    float shift = 0.25 * c3;
+    float shift2 = shift * shift;
+    float p = c2 - 6.0 * shift2;
+    float q = c1 - 2.0 * c2 * shift + 8.0 * shift2 * shift;
+    float r = c0 - c1 * shift + c2 * shift2 - 3.0 * shift2 * shift2;
+
+    // Largest root of the resolvent z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
+    float radius2 = max(p * p + 12.0 * r, 1.0e-12);
+    float radius = sqrt(radius2);
+    float cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
+    float z = max(0.666666666666666667 * (radius * quartic_third_cosine(cosine) - p), 0.0);
+    float s = sqrt(z);
+
+    float sum = p + z;
+    float root = sqrt(max(sum * sum - 4.0 * r, 0.0));
+    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, 1.0e-18), steradian_select(q < 0.0, -root, root));
+    QuarticPoles poles;
+    poles.z1 = float2(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
+    poles.z2 = float2(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
+    return poles;
 }
 
 // ==== polygon ====
@@ -328,161 +483,6 @@ SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, float3 a, float3 b) {
 float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
     float y = steradian_select(reversed, -walk.product.y, walk.product.y);
     return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
-}
-
-// ==== complex ====
-
-// Complex numbers: vec2(real part, imaginary part).
-
-// a b.
-float2 complex_product(float2 a, float2 b) {
-    return float2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
-
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
-float2 complex_quotient(float2 a, float2 b) {
-    float scale = 1.0 / max(dot(b, b), 1.0e-36);
-    return float2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
-}
-
-// a / |a|. Degenerate: the zero vector stays zero.
-float2 complex_sign(float2 a) {
-    return a * rsqrt(max(dot(a, a), 1.0e-36));
-}
-
-// exp(i x) for x in [-pi, pi].
-//
-// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
-// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
-float2 complex_unit(float x) {
-    float y = 0.5 * x;
-    float t = y * y;
-    float c = 1.0;
-    float s = 1.0;
-    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
-    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
-    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
-    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
-    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
-    s = y * (1.0 - t * 0.166666666666666667 * s);
-    return float2(c * c - s * s, 2.0 * c * s);
-}
-
-// ==== quartic ====
-
-// Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
-
-// One root of each pair, with positive imaginary part.
-struct QuarticPoles {
-    float2 z1;
-    float2 z2;
-};
-
-// Largest root of 4 c^3 - 3 c = x: the cosine of a third of the angle whose cosine is x, in [1/2, 1].
-//
-//   x        in [-1, 1]
-//
-// The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
-// at x = -1, where the root has infinite slope in x; then two steps of Newton.
-// Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
-float quartic_third_cosine(float x) {
-    float t = sqrt(max(0.5 + 0.5 * x, 0.0));
-    float c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
-    for (int i = 0; i < 2; i++) {
-        float c2 = c * c;
-        c = c - (c * (4.0 * c2 - 3.0) - x) / max(12.0 * c2 - 3.0, 1.0e-6);
-    }
-    return c;
-}
-
-// Roots of t^4 + c3 t^3 + c2 t^2 + c1 t + c0, good enough to start an iteration from.
-//
-//   c0..c3   the roots should be of the order of 1: scale the variable so that c0 = 1
-//   returns  imaginary parts at least 1.0e-3: below, the square is the noise of 24 bits
-//
-// Ferrari: with y = t + c3/4 the quartic is (y^2 + s y + a)(y^2 - s y + b). s^2, the squared distance of the pairs along
-// the real axis, is the only root of the resolvent that is not negative; all three are real, so that it is a
-// cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
-// Error: a start; float loses half the digits where pairs are nearly equal.
-// Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
-QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
-    float shift = 0.25 * c3;
-    float shift2 = shift * shift;
-    float p = c2 - 6.0 * shift2;
-    float q = c1 - 2.0 * c2 * shift + 8.0 * shift2 * shift;
-    float r = c0 - c1 * shift + c2 * shift2 - 3.0 * shift2 * shift2;
-
-    // Largest root of the resolvent z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
-    float radius2 = max(p * p + 12.0 * r, 1.0e-12);
-    float radius = sqrt(radius2);
-    float cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
-    float z = max(0.666666666666666667 * (radius * quartic_third_cosine(cosine) - p), 0.0);
-    float s = sqrt(z);
-
-    float sum = p + z;
-    float root = sqrt(max(sum * sum - 4.0 * r, 0.0));
-    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, 1.0e-18), steradian_select(q < 0.0, -root, root));
-    QuarticPoles poles;
-    poles.z1 = float2(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
-    poles.z2 = float2(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
-    return poles;
-}
-
-// ==== gauss_legendre ====
-
-// Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
-//
-// The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
-
-// Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
-//
-// Degenerate: a rule or node that there is not gives (1/2, 0).
-float2 gauss_legendre_node(int n, int j) {
-    float2 r = float2(0.5, 0.0);
-    if (n == 1) {
-        if (j == 0) { r = float2(0.5, 1.0); }
-    }
-    if (n == 2) {
-        if (j == 0) { r = float2(0.211324865405187118, 0.5); }
-        if (j == 1) { r = float2(0.788675134594812882, 0.5); }
-    }
-    if (n == 3) {
-        if (j == 0) { r = float2(0.112701665379258311, 0.277777777777777778); }
-        if (j == 1) { r = float2(0.5, 0.444444444444444444); }
-        if (j == 2) { r = float2(0.887298334620741689, 0.277777777777777778); }
-    }
-    if (n == 4) {
-        if (j == 0) { r = float2(0.069431844202973712, 0.173927422568726929); }
-        if (j == 1) { r = float2(0.330009478207571868, 0.326072577431273071); }
-        if (j == 2) { r = float2(0.669990521792428132, 0.326072577431273071); }
-        if (j == 3) { r = float2(0.930568155797026288, 0.173927422568726929); }
-    }
-    if (n == 5) {
-        if (j == 0) { r = float2(0.046910077030668004, 0.118463442528094544); }
-        if (j == 1) { r = float2(0.230765344947158454, 0.239314335249683234); }
-        if (j == 2) { r = float2(0.5, 0.284444444444444444); }
-        if (j == 3) { r = float2(0.769234655052841546, 0.239314335249683234); }
-        if (j == 4) { r = float2(0.953089922969331996, 0.118463442528094544); }
-    }
-    if (n == 6) {
-        if (j == 0) { r = float2(0.033765242898423986, 0.085662246189585173); }
-        if (j == 1) { r = float2(0.169395306766867743, 0.180380786524069304); }
-        if (j == 2) { r = float2(0.380690406958401546, 0.233956967286345524); }
-        if (j == 3) { r = float2(0.619309593041598454, 0.233956967286345524); }
-        if (j == 4) { r = float2(0.830604693233132257, 0.180380786524069304); }
-        if (j == 5) { r = float2(0.966234757101576014, 0.085662246189585173); }
-    }
-    if (n == 8) {
-        if (j == 0) { r = float2(0.019855071751231884, 0.05061426814518813); }
-        if (j == 1) { r = float2(0.10166676129318663, 0.111190517226687235); }
-        if (j == 2) { r = float2(0.237233795041835507, 0.156853322938943644); }
-        if (j == 3) { r = float2(0.408282678752175098, 0.181341891689180991); }
-        if (j == 4) { r = float2(0.591717321247824902, 0.181341891689180991); }
-        if (j == 5) { r = float2(0.762766204958164493, 0.156853322938943644); }
-        if (j == 6) { r = float2(0.89833323870681337, 0.111190517226687235); }
-        if (j == 7) { r = float2(0.980144928248768116, 0.05061426814518813); }
-    }
-    return r;
 }
 
 // ==== conic ====
@@ -1293,89 +1293,263 @@ EllipsoidOutline ellipsoid_outline(float3 to_center, float3x3 s, float3x3 invers
     return outline;
 }
 
-// ==== ggx_closed_form ====
+// ==== horizon_clip ====
 
-// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
-// Fresnel (ggx_cubature.glsl adds both).
+// Clipping a walked outline to the horizon, for integrals along its edges.
 //
-// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
-// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
-// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
-//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
+// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
+// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
+// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
+// different contours, and one clip serves a whole light with its holes:
 //
-//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
-//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//   HorizonClip clip = horizon_clip_begin();
+//   for each edge a, b of each contour:
+//       clip = horizon_clip_edge(clip, a, b);
+//       integrate clip.start, clip.end
+//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//   clip = horizon_clip_finish(clip);
+//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //
-// docs/ggx.md has the derivation.
-// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 
-// What the lobe's integrals need of the view and the surface.
-//   v        unit view, z > 0
-//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
-//   ax, ay   widths: roughness squared, at least 1.0e-4
-//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
-struct GgxView {
-    float3 v;
-    float3 w;
-    float ax;
-    float ay;
-    float masking;
+// The state of a clip and what it last handed out.
+//   start, end          the edge's part above the horizon; equal where there is none
+//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
+//   closes              whether there is an arc
+//   leave               where the outline last went down and did not come back yet; zero: nowhere
+//   entry               where it came up without having been seen to go down; zero: nowhere
+struct HorizonClip {
+    float3 start;
+    float3 end;
+    float3 arc_start;
+    float3 arc_end;
+    bool closes;
+    float3 leave;
+    float3 entry;
 };
 
-// Prepares a view.
-//
-// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
-GgxView ggx_view(float3 v, float ax, float ay) {
-    GgxView view;
-    float z = max(v.z, 1.0e-6);
-    view.v = float3(v.x, v.y, z);
-    view.w = float3(ax * v.x, ay * v.y, z);
-    view.ax = ax;
-    view.ay = ay;
-    view.masking = sqrt(dot(view.w, view.w)) / z;
-    return view;
+// The state before the first edge.
+HorizonClip horizon_clip_begin() {
+    float3 nowhere = float3(0.0, 0.0, 0.0);
+    float zero = 0.0;
+    HorizonClip clip;
+    clip.start = nowhere;
+    clip.end = nowhere;
+    clip.arc_start = nowhere;
+    clip.arc_end = nowhere;
+    clip.closes = zero > 0.0;
+    clip.leave = nowhere;
+    clip.entry = nowhere;
+    return clip;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
-//   a, b     unit directions of the ends, in walk order, not below the horizon
-//
-// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
-// is further from it.
-// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-ConicArc ggx_edge(GgxView view, float3 a, float3 b) {
-    float3 chord = b - a;
-    float3 sum = a + b;
-    float chord2 = dot(chord, chord);
-    float sum2 = dot(sum, sum);
-    bool usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
-    float3 middle = sum * rsqrt(max(sum2, 1.0e-30));
-    float3 along = chord * rsqrt(max(chord2, 1.0e-36));
-    float half_sine = 0.5 * sqrt(chord2);
-    float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
-
-    bool from_end = dot(middle, view.v) > 0.9;
-    float side = steradian_select(from_end, steradian_select(dot(chord, view.v) > 0.0, -1.0, 1.0), 0.0);
-    float turn_cosine = steradian_select(from_end, half_cosine, 1.0);
-    float3 base = middle * turn_cosine + along * (side * half_sine);
-    float3 q = along * turn_cosine - middle * (side * half_sine);
-    float reach = steradian_select(usable, half_sine / (half_cosine + steradian_select(from_end, 0.0, 1.0)), 0.0);
-
-    float x = 1.0 / view.ax;
-    float y = 1.0 / view.ay;
-    float3 u0 = view.v + base;
-    float3 u2 = view.v - base;
-    return conic_prepare(
-        float3(u0.x * x, u0.y * y, u0.z), float3(q.x * x, q.y * y, q.z) * 2.0, float3(u2.x * x, u2.y * y, u2.z),
-        steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
+// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
+float3 horizon_crossing(float3 a, float3 b) {
+    float wa = abs(b.z);
+    float wb = abs(a.z);
+    float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    p = p * rsqrt(max(dot(p, p), 1.0e-36));
+    return float3(p.x, p.y, 0.0);
 }
 
-// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+// Clips one edge.
 //
-//   e        sum over the edges of conic_vector, negated where the light is seen from behind
-//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
-float ggx_unshadowed(GgxView view, float3 e) {
-    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
+//   a, b     unit directions of the edge's ends; z < 0 is below
+//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
+HorizonClip horizon_clip_edge(HorizonClip clip, float3 a, float3 b) {
+    HorizonClip next = clip;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    next.start = a;
+    next.end = b;
+    next.closes = a.z > 2.0;
+    if (a_below || b_below) {
+        float3 nowhere = float3(0.0, 0.0, 0.0);
+        float3 crossing = horizon_crossing(a, b);
+        next.start = steradian_select(a_below, crossing, a);
+        next.end = steradian_select(b_below, crossing, b);  // both below: start = end
+        bool comes_up = a_below && !b_below;
+        bool goes_down = b_below && !a_below;
+        bool was_left = dot(clip.leave, clip.leave) > 0.5;
+        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
+        bool due = goes_down && was_left;
+        next.closes = (comes_up && was_left) || due;
+        next.arc_end = steradian_select(due, clip.entry, crossing);
+        next.arc_start = steradian_select(next.closes, clip.leave, next.arc_end);
+        next.leave = steradian_select(goes_down, crossing, steradian_select(comes_up, nowhere, clip.leave));
+        next.entry = steradian_select(comes_up && !was_left, crossing, steradian_select(due, nowhere, clip.entry));
+    }
+    return next;
+}
+
+// Ends the walk: the last arc, from where the outline went down to where it had first come up.
+HorizonClip horizon_clip_finish(HorizonClip clip) {
+    HorizonClip next = clip;
+    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
+    next.start = clip.end;
+    next.arc_start = steradian_select(next.closes, clip.leave, clip.entry);
+    next.arc_end = clip.entry;
+    return next;
+}
+
+// ==== lambert ====
+
+// The diffuse surface: the same radiance to every side.
+
+// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+//
+//   irradiance  polygon_irradiance, in [0, pi]
+float lambert_radiance(float irradiance) {
+    return irradiance * 0.318309886183790672;
+}
+
+// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
+float lambert_lobe(float3 l) {
+    return max(l.z, 0.0) * 0.318309886183790672;
+}
+
+// ==== lobe_product ====
+
+// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
+//
+// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
+// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
+// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
+//
+//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = lobe_product_add(p, r_i, n_i);
+//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
+//   ... the same again, then
+//   CosineLobe lobe = lobe_product_isotropic(p);
+//
+// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
+// Source: this project (docs/moments.md).
+
+// scale (u.axis)^exponent
+struct CosineLobe {
+    float3 axis;
+    float exponent;
+    float scale;
+};
+
+// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+struct StretchedLobe {
+    float3x3 frame;
+    float3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
+    float exponent;
+    float scale;
+};
+
+// Sums over the lobes, seen from a direction.
+//   about      frame whose z is that direction
+//   total      sum of n_i
+//   log_scale  sum of n_i log(z.r_i)
+//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
+//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
+//   lowest     smallest z.r_i
+struct LobeProduct {
+    float3x3 about;
+    float total;
+    float log_scale;
+    float2 slope;
+    float3 curvature;
+    float lowest;
+};
+
+// The state before the first lobe.
+LobeProduct lobe_product_begin(float3 direction) {
+    LobeProduct p;
+    p.about = frame_from_normal(direction);
+    p.total = 0.0;
+    p.log_scale = 0.0;
+    p.slope = float2(0.0, 0.0);
+    p.curvature = float3(0.0, 0.0, 0.0);
+    p.lowest = 1.0;
+    return p;
+}
+
+// Adds (u.r)^n.
+LobeProduct lobe_product_add(LobeProduct p, float3 r, float n) {
+    float3 local = steradian_transform_transposed(p.about, r);
+    float z = max(local.z, 1.0e-4);
+    float x = local.x / z;
+    float y = local.y / z;
+    LobeProduct next = p;
+    next.total = p.total + n;
+    next.log_scale = p.log_scale + n * log(z);
+    next.slope = p.slope + float2(n * x, n * y);
+    next.curvature = p.curvature + float3(n * x * x, n * x * y, n * y * y);
+    next.lowest = min(p.lowest, local.z);
+    return next;
+}
+
+// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
+float3 lobe_product_newton(LobeProduct p) {
+    float xx = p.total + p.curvature.x;
+    float yy = p.total + p.curvature.z;
+    float xy = p.curvature.y;
+    float inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    float3 step_to = float3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
+    float3 u = steradian_transform(p.about, step_to);
+    return u * rsqrt(dot(u, u));
+}
+
+// Height of the product at the sums' direction; 0 where a lobe does not reach.
+float lobe_product_scale(LobeProduct p) {
+    return steradian_select(p.lowest > 1.0e-4, exp(p.log_scale), 0.0);
+}
+
+// The isotropic lobe; its exponent gives the full lobe's integral the right size.
+CosineLobe lobe_product_isotropic(LobeProduct p) {
+    float xx = p.total + p.curvature.x;
+    float yy = p.total + p.curvature.z;
+    CosineLobe lobe;
+    lobe.axis = steradian_transform(p.about, float3(0.0, 0.0, 1.0));
+    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
+// the integral over a light is scale times the moment of the stretched outline about z.
+StretchedLobe lobe_product_anisotropic(LobeProduct p) {
+    float xx = p.total + p.curvature.x + 3.0;
+    float yy = p.total + p.curvature.z + 3.0;
+    float xy = p.curvature.y;
+    float d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
+    float root = rsqrt((xx + yy) / d + 2.0);
+    StretchedLobe lobe;
+    lobe.frame = p.about;
+    lobe.stretch = float3(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
+    lobe.exponent = d - 3.0;
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// A direction in the lobe's stretched frame, not unit; 0 at zero.
+float3 lobe_product_stretch(StretchedLobe lobe, float3 u) {
+    float3 l = steradian_transform_transposed(lobe.frame, u);
+    return float3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
+}
+
+// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
+//
+// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
+float3 lobe_product_peak_of_two(float3 r1, float n1, float3 r2, float n2) {
+    float cosine = max(dot(r1, r2), 1.0e-6);
+    float3 across = r2 - r1 * dot(r1, r2);
+    float sine2 = dot(across, across);
+    float tangent = sqrt(sine2) / cosine;
+    float sum = n1 + n2;
+    float t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
+    float3 u = r1 + across * (t * rsqrt(max(sine2, 1.0e-30)));
+    return u * rsqrt(dot(u, u));
 }
 
 // ==== microfacet ====
@@ -1459,6 +1633,147 @@ float ggx_lobe(float3 l, float3 v, float ax, float ay) {
     float3 h = microfacet_half_vector(l, v);
     float g = ggx_shadowing(l, v, ax, ay);
     return microfacet_lobe_unshadowed(ggx_distribution(h, ax, ay) * g, l, v);
+}
+
+// ==== phong ====
+
+// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
+
+// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
+// high exponent multiplies it.
+//
+// Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
+float phong_log(float x) {
+    float near = 0.75;
+    float result = log(x);
+    bool high = x > near;
+    if (high) {
+        // d - d^2 / (2 + d) is twice t, the first term of twice the inverse hyperbolic tangent of t: so d, which is exact, carries
+        // most of the digits. The next term is 2 t^9 / 9, relative 2e-8 at t = 1/7.
+        float d = x - 1.0;
+        float t = d / (2.0 + d);
+        float t2 = t * t;
+        float series = d - t * (d - t2 * (0.666666666666666667 + t2 * (0.4 + t2 * 0.285714285714285714)));
+        result = steradian_select(high, series, result);
+    }
+    return result;
+}
+
+// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
+//
+// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
+// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
+float phong_power(float x, float n) {
+    return exp(n * phong_log(max(x, 1.0e-30)));
+}
+
+// The view mirrored at the surface.
+//
+//   v        view direction, shading frame
+float3 phong_mirror(float3 v) {
+    return float3(-v.x, -v.y, v.z);
+}
+
+// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
+//
+//   l        unit direction of the light, r unit axis of the lobe
+//   n        exponent, at least 0
+//
+// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
+float phong_lobe(float3 l, float3 r, float n) {
+    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
+}
+
+// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
+//
+//   h        unit half vector, shading frame
+float blinn_phong_distribution(float3 h, float n) {
+    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+}
+
+// ==== ggx_closed_form ====
+
+// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
+// Fresnel (ggx_cubature.glsl adds both).
+//
+// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
+// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
+// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
+//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+//
+//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//
+// docs/ggx.md has the derivation.
+// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+
+// What the lobe's integrals need of the view and the surface.
+//   v        unit view, z > 0
+//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
+//   ax, ay   widths: roughness squared, at least 1.0e-4
+//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
+struct GgxView {
+    float3 v;
+    float3 w;
+    float ax;
+    float ay;
+    float masking;
+};
+
+// Prepares a view.
+//
+// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
+GgxView ggx_view(float3 v, float ax, float ay) {
+    GgxView view;
+    float z = max(v.z, 1.0e-6);
+    view.v = float3(v.x, v.y, z);
+    view.w = float3(ax * v.x, ay * v.y, z);
+    view.ax = ax;
+    view.ay = ay;
+    view.masking = sqrt(dot(view.w, view.w)) / z;
+    return view;
+}
+
+// One edge of a light as an arc in stretched half vector space.
+//
+//   a, b     unit directions of the ends, in walk order, not below the horizon
+//
+// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
+// is further from it.
+// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
+ConicArc ggx_edge(GgxView view, float3 a, float3 b) {
+    float3 chord = b - a;
+    float3 sum = a + b;
+    float chord2 = dot(chord, chord);
+    float sum2 = dot(sum, sum);
+    bool usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
+    float3 middle = sum * rsqrt(max(sum2, 1.0e-30));
+    float3 along = chord * rsqrt(max(chord2, 1.0e-36));
+    float half_sine = 0.5 * sqrt(chord2);
+    float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
+
+    bool from_end = dot(middle, view.v) > 0.9;
+    float side = steradian_select(from_end, steradian_select(dot(chord, view.v) > 0.0, -1.0, 1.0), 0.0);
+    float turn_cosine = steradian_select(from_end, half_cosine, 1.0);
+    float3 base = middle * turn_cosine + along * (side * half_sine);
+    float3 q = along * turn_cosine - middle * (side * half_sine);
+    float reach = steradian_select(usable, half_sine / (half_cosine + steradian_select(from_end, 0.0, 1.0)), 0.0);
+
+    float x = 1.0 / view.ax;
+    float y = 1.0 / view.ay;
+    float3 u0 = view.v + base;
+    float3 u2 = view.v - base;
+    return conic_prepare(
+        float3(u0.x * x, u0.y * y, u0.z), float3(q.x * x, q.y * y, q.z) * 2.0, float3(u2.x * x, u2.y * y, u2.z),
+        steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+
+// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+//
+//   e        sum over the edges of conic_vector, negated where the light is seen from behind
+//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
+float ggx_unshadowed(GgxView view, float3 e) {
+    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
 }
 
 // ==== ggx_cubature ====
@@ -1657,62 +1972,6 @@ float ggx_radiance(float2 r, float f0, float f90) {
     return f0 * (r.x - r.y) + f90 * r.y;
 }
 
-// ==== phong ====
-
-// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
-
-// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
-// high exponent multiplies it.
-//
-// Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
-float phong_log(float x) {
-    float near = 0.75;
-    float result = log(x);
-    bool high = x > near;
-    if (high) {
-        // d - d^2 / (2 + d) is twice t, the first term of twice the inverse hyperbolic tangent of t: so d, which is exact, carries
-        // most of the digits. The next term is 2 t^9 / 9, relative 2e-8 at t = 1/7.
-        float d = x - 1.0;
-        float t = d / (2.0 + d);
-        float t2 = t * t;
-        float series = d - t * (d - t2 * (0.666666666666666667 + t2 * (0.4 + t2 * 0.285714285714285714)));
-        result = steradian_select(high, series, result);
-    }
-    return result;
-}
-
-// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
-//
-// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
-// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
-float phong_power(float x, float n) {
-    return exp(n * phong_log(max(x, 1.0e-30)));
-}
-
-// The view mirrored at the surface.
-//
-//   v        view direction, shading frame
-float3 phong_mirror(float3 v) {
-    return float3(-v.x, -v.y, v.z);
-}
-
-// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
-//
-//   l        unit direction of the light, r unit axis of the lobe
-//   n        exponent, at least 0
-//
-// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
-float phong_lobe(float3 l, float3 r, float n) {
-    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
-}
-
-// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
-//
-//   h        unit half vector, shading frame
-float blinn_phong_distribution(float3 h, float n) {
-    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
-}
-
 // ==== moment ====
 
 // Axial moments of spherical polygons: the integral of max(u.r, 0)^n over a light, for the Phong lobe about r.
@@ -1727,8 +1986,8 @@ float blinn_phong_distribution(float3 h, float n) {
 //                 + the azimuth that the part behind sweeps ).
 // moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
 //
-// Frame: any; r is the unit axis. Edges in walk order (kernels/polygon.glsl), clipped to the surface's horizon
-// (kernels/horizon_clip.glsl) before, so that -r cannot be inside a light.
+// Frame: any; r is the unit axis. Edges in walk order (kernels/outline/polygon.glsl), clipped to the surface's horizon
+// (kernels/outline/horizon_clip.glsl) before, so that -r cannot be inside a light.
 // Source: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena", 1995; Lecocq,
 // Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017. The form without
 // parity is this project's own.
@@ -2437,110 +2696,6 @@ float half_vector_radiance(GgxView view, float sum, float facing) {
     return max(sum * facing, 0.0) * 0.159154943091895336 / view.v.z;
 }
 
-// ==== horizon_clip ====
-
-// Clipping a walked outline to the horizon, for integrals along its edges.
-//
-// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
-// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
-// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
-// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
-// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
-// different contours, and one clip serves a whole light with its holes:
-//
-//   HorizonClip clip = horizon_clip_begin();
-//   for each edge a, b of each contour:
-//       clip = horizon_clip_edge(clip, a, b);
-//       integrate clip.start, clip.end
-//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//   clip = horizon_clip_finish(clip);
-//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//
-// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
-
-// The state of a clip and what it last handed out.
-//   start, end          the edge's part above the horizon; equal where there is none
-//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
-//   closes              whether there is an arc
-//   leave               where the outline last went down and did not come back yet; zero: nowhere
-//   entry               where it came up without having been seen to go down; zero: nowhere
-struct HorizonClip {
-    float3 start;
-    float3 end;
-    float3 arc_start;
-    float3 arc_end;
-    bool closes;
-    float3 leave;
-    float3 entry;
-};
-
-// The state before the first edge.
-HorizonClip horizon_clip_begin() {
-    float3 nowhere = float3(0.0, 0.0, 0.0);
-    float zero = 0.0;
-    HorizonClip clip;
-    clip.start = nowhere;
-    clip.end = nowhere;
-    clip.arc_start = nowhere;
-    clip.arc_end = nowhere;
-    clip.closes = zero > 0.0;
-    clip.leave = nowhere;
-    clip.entry = nowhere;
-    return clip;
-}
-
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
-//
-// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
-// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
-float3 horizon_crossing(float3 a, float3 b) {
-    float wa = abs(b.z);
-    float wb = abs(a.z);
-    float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    p = p * rsqrt(max(dot(p, p), 1.0e-36));
-    return float3(p.x, p.y, 0.0);
-}
-
-// Clips one edge.
-//
-//   a, b     unit directions of the edge's ends; z < 0 is below
-//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
-HorizonClip horizon_clip_edge(HorizonClip clip, float3 a, float3 b) {
-    HorizonClip next = clip;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    next.start = a;
-    next.end = b;
-    next.closes = a.z > 2.0;
-    if (a_below || b_below) {
-        float3 nowhere = float3(0.0, 0.0, 0.0);
-        float3 crossing = horizon_crossing(a, b);
-        next.start = steradian_select(a_below, crossing, a);
-        next.end = steradian_select(b_below, crossing, b);  // both below: start = end
-        bool comes_up = a_below && !b_below;
-        bool goes_down = b_below && !a_below;
-        bool was_left = dot(clip.leave, clip.leave) > 0.5;
-        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
-        bool due = goes_down && was_left;
-        next.closes = (comes_up && was_left) || due;
-        next.arc_end = steradian_select(due, clip.entry, crossing);
-        next.arc_start = steradian_select(next.closes, clip.leave, next.arc_end);
-        next.leave = steradian_select(goes_down, crossing, steradian_select(comes_up, nowhere, clip.leave));
-        next.entry = steradian_select(comes_up && !was_left, crossing, steradian_select(due, nowhere, clip.entry));
-    }
-    return next;
-}
-
-// Ends the walk: the last arc, from where the outline went down to where it had first come up.
-HorizonClip horizon_clip_finish(HorizonClip clip) {
-    HorizonClip next = clip;
-    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
-    next.start = clip.end;
-    next.arc_start = steradian_select(next.closes, clip.leave, clip.entry);
-    next.arc_end = clip.entry;
-    return next;
-}
-
 // ==== ltc ====
 
 // Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
@@ -2743,394 +2898,6 @@ float ltc_sheen(float base, float sheen, float strongest, float albedo) {
     return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
 }
 
-// ==== indirect ====
-
-// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
-//
-// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
-// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
-// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
-//
-//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
-//
-// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
-// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
-// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
-
-// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
-//
-// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
-struct IndirectLobe {
-    float3 x;
-    float3 y;
-    float3 z;
-    float scale;
-};
-
-// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
-IndirectLobe indirect_lobe(LtcMatrix m, float3x3 frame) {
-    IndirectLobe lobe;
-    lobe.x = steradian_transform(frame, float3(m.xx, 0.0, m.xz));
-    lobe.y = steradian_transform(frame, float3(0.0, m.yy, 0.0));
-    lobe.z = steradian_transform(frame, float3(m.zx, 0.0, m.zz));
-    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
-    return lobe;
-}
-
-// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
-IndirectLobe indirect_turned(IndirectLobe lobe) {
-    IndirectLobe turned;
-    turned.x = -lobe.x;
-    turned.y = -lobe.y;
-    turned.z = -lobe.z;
-    turned.scale = lobe.scale;
-    return turned;
-}
-
-// Under M^-1. Any vector.
-float3 indirect_under(IndirectLobe lobe, float3 v) {
-    return float3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
-}
-
-// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
-//
-//   v        as the lobe's rows take it
-//   d2       dot(v, v)
-//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
-//
-// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
-float indirect_glossy_half(IndirectLobe lobe, float3 v, float d2, float wide2) {
-    float3 w = indirect_under(lobe, v);
-    float w2 = dot(w, w);
-    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
-}
-
-// Half of a diffuse end of albedo pi: cosine over distance.
-float indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
-    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
-}
-
-// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
-//
-//   v        light's position minus the surface's
-//   lobe     of the surface and its view; times rho_f: with Fresnel
-//
-// Degenerate: v = 0 gives 0.
-// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
-float indirect_point_light(IndirectLobe lobe, float3 v) {
-    float d2 = dot(v, v);
-    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * rsqrt(max(d2, 1.0e-36));
-}
-
-// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
-// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
-struct IndirectPair {
-    float from_diffuse;
-    float from_glossy;
-    float to_diffuse;
-    float to_glossy;
-};
-
-// Both ends at once: no square root, one division.
-//
-//   receiver, n          the receiver's lobe and normal
-//   light, light_n       the virtual light's, turned
-//
-// What lies below either horizon gives 0: a lobe leaks there.
-// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
-// falls below 1.0e-36 the peak is cut.
-IndirectPair indirect_pair(float3 v, float3 n, IndirectLobe receiver, float3 light_n, IndirectLobe light) {
-    float d2 = dot(v, v);
-    float3 w = indirect_under(receiver, v);
-    float3 o = indirect_under(light, v);
-    float w2 = dot(w, w);
-    float o2 = dot(o, o);
-    float w4 = w2 * w2;
-    float o4 = o2 * o2;
-    float both = w4 * o4;
-    float inverse = 1.0 / max(d2 * both, 1.0e-36);
-    float peak = inverse * d2 * d2;
-    float n_v = max(dot(n, v), 0.0);
-    float light_n_v = max(dot(light_n, v), 0.0);
-    IndirectPair pair;
-    pair.to_diffuse = n_v * (inverse * both);
-    pair.from_diffuse = light_n_v * (inverse * both);
-    pair.to_glossy = steradian_select(n_v > 0.0, max(w.z, 0.0) * (peak * o4), 0.0);
-    pair.from_glossy = steradian_select(light_n_v > 0.0, max(o.z, 0.0) * (peak * w4), 0.0);
-    return pair;
-}
-
-// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
-//
-//   incoming unit, from the virtual light to the light that feeds it
-//   v        to the virtual light
-float indirect_grazing(float3 incoming, float3 v, float d2) {
-    float cosine = -dot(incoming, v) * rsqrt(max(d2, 1.0e-36));
-    float half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
-    return fresnel_schlick(0.0, 1.0, half_angle * rsqrt(half_angle));
-}
-
-// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
-struct IndirectGgx {
-    float lobe;
-    float grazing;
-};
-
-// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
-//
-//   frame    x along the view, z the normal
-//   view     unit, in the frame
-IndirectGgx indirect_ggx(float3x3 frame, float3 view, float alpha, float3 l) {
-    float3 local = steradian_transform_transposed(frame, l);
-    float3 h = microfacet_half_vector(local, view);
-    IndirectGgx end;
-    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
-    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
-    return end;
-}
-
-// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
-//
-//   value      the half; its irradiance at the receiver is bright times value over distance
-//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
-//   xi         of the virtual light, in (0, 1)
-//
-// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
-// Source: Tokuyoshi, Harada 2016.
-float indirect_kept(float value, float reach, float xi) {
-    return steradian_select(value > xi * reach, max(value, reach), 0.0);
-}
-
-// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
-float indirect_largest_stretch(LtcMatrix m) {
-    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
-    float determinant = m.xx * m.zz - m.xz * m.zx;
-    float square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
-    float gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
-    float larger2 = 0.5 * (square + gap2 * rsqrt(max(gap2, 1.0e-36)));
-    float least2 = determinant * determinant / max(larger2, 1.0e-36);
-    return rsqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
-}
-
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
-//
-//   lobe     turned; a diffuse light's: its frame
-//   v        virtual light's position minus the point's
-//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
-//
-// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
-// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
-// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
-float3 indirect_spheroid(IndirectLobe lobe, float3 v, float range) {
-    float3 w = indirect_under(lobe, v);
-    float inverse = 1.0 / range;
-    return float3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
-}
-
-// ==== lambert ====
-
-// The diffuse surface: the same radiance to every side.
-
-// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
-//
-//   irradiance  polygon_irradiance, in [0, pi]
-float lambert_radiance(float irradiance) {
-    return irradiance * 0.318309886183790672;
-}
-
-// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
-float lambert_lobe(float3 l) {
-    return max(l.z, 0.0) * 0.318309886183790672;
-}
-
-// ==== lobe_product ====
-
-// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
-//
-// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
-// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
-// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
-//
-//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
-//   for each lobe: p = lobe_product_add(p, r_i, n_i);
-//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
-//   ... the same again, then
-//   CosineLobe lobe = lobe_product_isotropic(p);
-//
-// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
-
-// scale (u.axis)^exponent
-struct CosineLobe {
-    float3 axis;
-    float exponent;
-    float scale;
-};
-
-// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
-struct StretchedLobe {
-    float3x3 frame;
-    float3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
-    float exponent;
-    float scale;
-};
-
-// Sums over the lobes, seen from a direction.
-//   about      frame whose z is that direction
-//   total      sum of n_i
-//   log_scale  sum of n_i log(z.r_i)
-//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
-//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
-//   lowest     smallest z.r_i
-struct LobeProduct {
-    float3x3 about;
-    float total;
-    float log_scale;
-    float2 slope;
-    float3 curvature;
-    float lowest;
-};
-
-// The state before the first lobe.
-LobeProduct lobe_product_begin(float3 direction) {
-    LobeProduct p;
-    p.about = frame_from_normal(direction);
-    p.total = 0.0;
-    p.log_scale = 0.0;
-    p.slope = float2(0.0, 0.0);
-    p.curvature = float3(0.0, 0.0, 0.0);
-    p.lowest = 1.0;
-    return p;
-}
-
-// Adds (u.r)^n.
-LobeProduct lobe_product_add(LobeProduct p, float3 r, float n) {
-    float3 local = steradian_transform_transposed(p.about, r);
-    float z = max(local.z, 1.0e-4);
-    float x = local.x / z;
-    float y = local.y / z;
-    LobeProduct next = p;
-    next.total = p.total + n;
-    next.log_scale = p.log_scale + n * log(z);
-    next.slope = p.slope + float2(n * x, n * y);
-    next.curvature = p.curvature + float3(n * x * x, n * x * y, n * y * y);
-    next.lowest = min(p.lowest, local.z);
-    return next;
-}
-
-// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
-float3 lobe_product_newton(LobeProduct p) {
-    float xx = p.total + p.curvature.x;
-    float yy = p.total + p.curvature.z;
-    float xy = p.curvature.y;
-    float inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
-    float3 step_to = float3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
-    float3 u = steradian_transform(p.about, step_to);
-    return u * rsqrt(dot(u, u));
-}
-
-// Height of the product at the sums' direction; 0 where a lobe does not reach.
-float lobe_product_scale(LobeProduct p) {
-    return steradian_select(p.lowest > 1.0e-4, exp(p.log_scale), 0.0);
-}
-
-// The isotropic lobe; its exponent gives the full lobe's integral the right size.
-CosineLobe lobe_product_isotropic(LobeProduct p) {
-    float xx = p.total + p.curvature.x;
-    float yy = p.total + p.curvature.z;
-    CosineLobe lobe;
-    lobe.axis = steradian_transform(p.about, float3(0.0, 0.0, 1.0));
-    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
-// the integral over a light is scale times the moment of the stretched outline about z.
-StretchedLobe lobe_product_anisotropic(LobeProduct p) {
-    float xx = p.total + p.curvature.x + 3.0;
-    float yy = p.total + p.curvature.z + 3.0;
-    float xy = p.curvature.y;
-    float d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
-    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
-    float root = rsqrt((xx + yy) / d + 2.0);
-    StretchedLobe lobe;
-    lobe.frame = p.about;
-    lobe.stretch = float3(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
-    lobe.exponent = d - 3.0;
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// A direction in the lobe's stretched frame, not unit; 0 at zero.
-float3 lobe_product_stretch(StretchedLobe lobe, float3 u) {
-    float3 l = steradian_transform_transposed(lobe.frame, u);
-    return float3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
-}
-
-// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
-//
-// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
-float3 lobe_product_peak_of_two(float3 r1, float n1, float3 r2, float n2) {
-    float cosine = max(dot(r1, r2), 1.0e-6);
-    float3 across = r2 - r1 * dot(r1, r2);
-    float sine2 = dot(across, across);
-    float tangent = sqrt(sine2) / cosine;
-    float sum = n1 + n2;
-    float t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    float3 u = r1 + across * (t * rsqrt(max(sine2, 1.0e-30)));
-    return u * rsqrt(dot(u, u));
-}
-
-// ==== ltc_clipless ====
-
-// Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
-// irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
-// Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
-
-// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
-//
-//   cosine   of the sphere's centre to z, in [-1, 1]
-//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
-//
-// Degenerate: f = 0 gives max(cosine, 0).
-// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
-float ltc_clipped_sphere(float cosine, float f) {
-    float z = clamp(cosine, -1.0, 1.0);
-    float s2 = clamp(f, 1.0e-12, 1.0);
-    float sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
-    float cos_s = sqrt(1.0 - s2);
-    bool crossed = z * z < s2;
-    // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
-    float x = clamp(cos_s / sin_w, 0.0, 1.0);
-    float y = sqrt(max(1.0 - x * x, 0.0));
-    float root = sqrt(max(s2 - y * y, 0.0));
-    float arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
-    float rim = abs(z) * (y * root + s2 * trig_atan2(y, root));
-    float whole = steradian_pi() * s2 * max(z, 0.0);
-    float cut = steradian_select(crossed, whole + arc - rim, whole);
-    return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
-}
-
-// Adds one edge to the irradiance vector under M^-1 [rad].
-//
-//   ta, tb   ltc_direction of the edge's ends, in walk order
-float3 ltc_clipless_add_edge(float3 sum, float3 ta, float3 tb) {
-    return sum + polygon_edge(ta, tb);
-}
-
-// Integral of the lobe over the light, approximately, in [0, 1].
-//
-//   sum      of ltc_clipless_add_edge, begun at zero
-//   reversed true where the light is seen from behind
-float ltc_clipless_integral(float3 sum, bool reversed) {
-    float3 e = sum * steradian_select(reversed, -1.0, 1.0);
-    float e2 = dot(e, e);
-    float inverse = rsqrt(max(e2, 1.0e-36));
-    float form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
-    return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
-}
-
 // ==== ltc_texture ====
 
 // Textured lights: where on a light a lobe looks, and how widely.
@@ -3295,6 +3062,55 @@ float2 ltc_texture_place(LtcTextureEllipse g, float2 aside, float2 slope, float3
     float2 push = float2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
     float pushed2 = max(dot(push, e), 0.0);
     return d + push * (2.5 * rsqrt(max(pushed2, 6.25)));
+}
+
+// ==== ltc_clipless ====
+
+// Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
+// irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
+// Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
+
+// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
+//
+//   cosine   of the sphere's centre to z, in [-1, 1]
+//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
+//
+// Degenerate: f = 0 gives max(cosine, 0).
+// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
+float ltc_clipped_sphere(float cosine, float f) {
+    float z = clamp(cosine, -1.0, 1.0);
+    float s2 = clamp(f, 1.0e-12, 1.0);
+    float sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
+    float cos_s = sqrt(1.0 - s2);
+    bool crossed = z * z < s2;
+    // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
+    float x = clamp(cos_s / sin_w, 0.0, 1.0);
+    float y = sqrt(max(1.0 - x * x, 0.0));
+    float root = sqrt(max(s2 - y * y, 0.0));
+    float arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
+    float rim = abs(z) * (y * root + s2 * trig_atan2(y, root));
+    float whole = steradian_pi() * s2 * max(z, 0.0);
+    float cut = steradian_select(crossed, whole + arc - rim, whole);
+    return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
+}
+
+// Adds one edge to the irradiance vector under M^-1 [rad].
+//
+//   ta, tb   ltc_direction of the edge's ends, in walk order
+float3 ltc_clipless_add_edge(float3 sum, float3 ta, float3 tb) {
+    return sum + polygon_edge(ta, tb);
+}
+
+// Integral of the lobe over the light, approximately, in [0, 1].
+//
+//   sum      of ltc_clipless_add_edge, begun at zero
+//   reversed true where the light is seen from behind
+float ltc_clipless_integral(float3 sum, bool reversed) {
+    float3 e = sum * steradian_select(reversed, -1.0, 1.0);
+    float e2 = dot(e, e);
+    float inverse = rsqrt(max(e2, 1.0e-36));
+    float form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
+    return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }
 
 // ==== moment_arvo ====
@@ -3577,6 +3393,94 @@ float moment_ellipsoid_front(MomentEdge edge, float n, int even_n) {
     return moment_fit_front(edge, p, fit, even_n);
 }
 
+// ==== representative_point ====
+
+// The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
+// the mirror direction, on a lobe widened to make up for it.
+//
+// Assumes that the light is small against the lobe, or the lobe against the light; between the two it is off by a third and more.
+//   1. The light is a point light of the light's solid angle, in the direction nearest to the mirror's.
+//   2. The lobe's peak falls by (alpha/alpha')^2, alpha' = alpha + radius/(2 distance). A sphere of that radius and distance
+//      has the solid angle W = pi (radius/distance)^2; of half vectors it covers W/(4 v.h), a disk of radius sqrt(W/(4 pi v.h)),
+//      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
+//      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
+// Walk the outline clipped to the horizon (horizon_clip.glsl).
+// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
+// radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
+
+// The state of a walk.
+//   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
+//            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
+//   nearest  direction on the outline nearest to it
+//   cosine   between the two
+struct RepresentativeWalk {
+    float turn;
+    float3 nearest;
+    float cosine;
+};
+
+// A walk with no edge yet.
+RepresentativeWalk representative_begin() {
+    RepresentativeWalk walk;
+    walk.turn = 0.0;
+    walk.nearest = float3(0.0, 0.0, 1.0);
+    walk.cosine = -2.0;
+    return walk;
+}
+
+// Adds one edge.
+//
+//   mirror   unit: the view mirrored at the normal
+//   a, b     unit directions of the edge's ends
+RepresentativeWalk representative_add_edge(RepresentativeWalk walk, float3 mirror, float3 a, float3 b) {
+    RepresentativeWalk next = walk;
+    float ca = dot(mirror, a);
+    float cb = dot(mirror, b);
+    next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
+    // The nearest of the great circle, if it lies between the ends.
+    float3 n = cross(a, b);
+    float n2 = max(dot(n, n), 1.0e-30);
+    float3 p = mirror - n * (dot(mirror, n) / n2);
+    float3 on_circle = p * rsqrt(max(dot(p, p), 1.0e-30));
+    bool between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
+    float3 nearest = steradian_select(between, on_circle, steradian_select(ca > cb, a, b));
+    float cosine = dot(mirror, nearest);
+    bool better = cosine > walk.cosine;
+    next.nearest = steradian_select(better, nearest, walk.nearest);
+    next.cosine = steradian_select(better, cosine, walk.cosine);
+    return next;
+}
+
+// The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
+float3 representative_direction(RepresentativeWalk walk, float3 mirror, bool reversed) {
+    float turn = steradian_select(reversed, -walk.turn, walk.turn);
+    return steradian_select(turn > steradian_pi(), mirror, walk.nearest);
+}
+
+// Radiance towards the view, per radiance of the light, without Fresnel.
+//
+//   view, mirror  unit, in the shading frame
+//   solid_angle   of the light's part above the horizon [sr]
+//   alpha         of the GGX lobe
+//   reversed      true where the light is seen from behind
+//
+// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
+// towards alpha = 0 it is 1.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+float representative_radiance(RepresentativeWalk walk, float3 view, float3 mirror, float solid_angle, float alpha, bool reversed) {
+    float3 l = representative_direction(walk, mirror, reversed);
+    float3 h = microfacet_half_vector(l, view);
+    float wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
+    float fall = alpha / wider;
+    return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
+}
+
+// The half vector's cosine for Fresnel. Arguments as above.
+float representative_v_dot_h(RepresentativeWalk walk, float3 view, float3 mirror, bool reversed) {
+    float3 h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
+    return dot(view, h);
+}
+
 // ==== plane ====
 
 // Light in the plane: integrals of emission over the directions in which a piece of an edge or of a circle is seen.
@@ -3747,90 +3651,186 @@ float plane_slope(float w, float t, float beyond) {
     return steradian_select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
 }
 
-// ==== representative_point ====
+// ==== indirect ====
 
-// The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
-// the mirror direction, on a lobe widened to make up for it.
+// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
 //
-// Assumes that the light is small against the lobe, or the lobe against the light; between the two it is off by a third and more.
-//   1. The light is a point light of the light's solid angle, in the direction nearest to the mirror's.
-//   2. The lobe's peak falls by (alpha/alpha')^2, alpha' = alpha + radius/(2 distance). A sphere of that radius and distance
-//      has the solid angle W = pi (radius/distance)^2; of half vectors it covers W/(4 v.h), a disk of radius sqrt(W/(4 pi v.h)),
-//      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
-//      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
-// Walk the outline clipped to the horizon (horizon_clip.glsl).
-// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
-// radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
+// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
+// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
+// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
+//
+//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
+//
+// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
+// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
+// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
 
-// The state of a walk.
-//   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
-//            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
-//   nearest  direction on the outline nearest to it
-//   cosine   between the two
-struct RepresentativeWalk {
-    float turn;
-    float3 nearest;
-    float cosine;
+// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
+//
+// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
+struct IndirectLobe {
+    float3 x;
+    float3 y;
+    float3 z;
+    float scale;
 };
 
-// A walk with no edge yet.
-RepresentativeWalk representative_begin() {
-    RepresentativeWalk walk;
-    walk.turn = 0.0;
-    walk.nearest = float3(0.0, 0.0, 1.0);
-    walk.cosine = -2.0;
-    return walk;
+// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+IndirectLobe indirect_lobe(LtcMatrix m, float3x3 frame) {
+    IndirectLobe lobe;
+    lobe.x = steradian_transform(frame, float3(m.xx, 0.0, m.xz));
+    lobe.y = steradian_transform(frame, float3(0.0, m.yy, 0.0));
+    lobe.z = steradian_transform(frame, float3(m.zx, 0.0, m.zz));
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    return lobe;
 }
 
-// Adds one edge.
+// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
+IndirectLobe indirect_turned(IndirectLobe lobe) {
+    IndirectLobe turned;
+    turned.x = -lobe.x;
+    turned.y = -lobe.y;
+    turned.z = -lobe.z;
+    turned.scale = lobe.scale;
+    return turned;
+}
+
+// Under M^-1. Any vector.
+float3 indirect_under(IndirectLobe lobe, float3 v) {
+    return float3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
+}
+
+// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
 //
-//   mirror   unit: the view mirrored at the normal
-//   a, b     unit directions of the edge's ends
-RepresentativeWalk representative_add_edge(RepresentativeWalk walk, float3 mirror, float3 a, float3 b) {
-    RepresentativeWalk next = walk;
-    float ca = dot(mirror, a);
-    float cb = dot(mirror, b);
-    next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
-    // The nearest of the great circle, if it lies between the ends.
-    float3 n = cross(a, b);
-    float n2 = max(dot(n, n), 1.0e-30);
-    float3 p = mirror - n * (dot(mirror, n) / n2);
-    float3 on_circle = p * rsqrt(max(dot(p, p), 1.0e-30));
-    bool between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
-    float3 nearest = steradian_select(between, on_circle, steradian_select(ca > cb, a, b));
-    float cosine = dot(mirror, nearest);
-    bool better = cosine > walk.cosine;
-    next.nearest = steradian_select(better, nearest, walk.nearest);
-    next.cosine = steradian_select(better, cosine, walk.cosine);
-    return next;
-}
-
-// The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
-float3 representative_direction(RepresentativeWalk walk, float3 mirror, bool reversed) {
-    float turn = steradian_select(reversed, -walk.turn, walk.turn);
-    return steradian_select(turn > steradian_pi(), mirror, walk.nearest);
-}
-
-// Radiance towards the view, per radiance of the light, without Fresnel.
+//   v        as the lobe's rows take it
+//   d2       dot(v, v)
+//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
 //
-//   view, mirror  unit, in the shading frame
-//   solid_angle   of the light's part above the horizon [sr]
-//   alpha         of the GGX lobe
-//   reversed      true where the light is seen from behind
-//
-// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
-// towards alpha = 0 it is 1.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
-float representative_radiance(RepresentativeWalk walk, float3 view, float3 mirror, float solid_angle, float alpha, bool reversed) {
-    float3 l = representative_direction(walk, mirror, reversed);
-    float3 h = microfacet_half_vector(l, view);
-    float wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
-    float fall = alpha / wider;
-    return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
+// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
+float indirect_glossy_half(IndirectLobe lobe, float3 v, float d2, float wide2) {
+    float3 w = indirect_under(lobe, v);
+    float w2 = dot(w, w);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
 }
 
-// The half vector's cosine for Fresnel. Arguments as above.
-float representative_v_dot_h(RepresentativeWalk walk, float3 view, float3 mirror, bool reversed) {
-    float3 h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
-    return dot(view, h);
+// Half of a diffuse end of albedo pi: cosine over distance.
+float indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
+    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+}
+
+// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
+//
+//   v        light's position minus the surface's
+//   lobe     of the surface and its view; times rho_f: with Fresnel
+//
+// Degenerate: v = 0 gives 0.
+// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
+float indirect_point_light(IndirectLobe lobe, float3 v) {
+    float d2 = dot(v, v);
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * rsqrt(max(d2, 1.0e-36));
+}
+
+// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
+// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
+struct IndirectPair {
+    float from_diffuse;
+    float from_glossy;
+    float to_diffuse;
+    float to_glossy;
+};
+
+// Both ends at once: no square root, one division.
+//
+//   receiver, n          the receiver's lobe and normal
+//   light, light_n       the virtual light's, turned
+//
+// What lies below either horizon gives 0: a lobe leaks there.
+// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
+// falls below 1.0e-36 the peak is cut.
+IndirectPair indirect_pair(float3 v, float3 n, IndirectLobe receiver, float3 light_n, IndirectLobe light) {
+    float d2 = dot(v, v);
+    float3 w = indirect_under(receiver, v);
+    float3 o = indirect_under(light, v);
+    float w2 = dot(w, w);
+    float o2 = dot(o, o);
+    float w4 = w2 * w2;
+    float o4 = o2 * o2;
+    float both = w4 * o4;
+    float inverse = 1.0 / max(d2 * both, 1.0e-36);
+    float peak = inverse * d2 * d2;
+    float n_v = max(dot(n, v), 0.0);
+    float light_n_v = max(dot(light_n, v), 0.0);
+    IndirectPair pair;
+    pair.to_diffuse = n_v * (inverse * both);
+    pair.from_diffuse = light_n_v * (inverse * both);
+    pair.to_glossy = steradian_select(n_v > 0.0, max(w.z, 0.0) * (peak * o4), 0.0);
+    pair.from_glossy = steradian_select(light_n_v > 0.0, max(o.z, 0.0) * (peak * w4), 0.0);
+    return pair;
+}
+
+// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
+//
+//   incoming unit, from the virtual light to the light that feeds it
+//   v        to the virtual light
+float indirect_grazing(float3 incoming, float3 v, float d2) {
+    float cosine = -dot(incoming, v) * rsqrt(max(d2, 1.0e-36));
+    float half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
+    return fresnel_schlick(0.0, 1.0, half_angle * rsqrt(half_angle));
+}
+
+// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
+struct IndirectGgx {
+    float lobe;
+    float grazing;
+};
+
+// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
+//
+//   frame    x along the view, z the normal
+//   view     unit, in the frame
+IndirectGgx indirect_ggx(float3x3 frame, float3 view, float alpha, float3 l) {
+    float3 local = steradian_transform_transposed(frame, l);
+    float3 h = microfacet_half_vector(local, view);
+    IndirectGgx end;
+    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
+    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
+    return end;
+}
+
+// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
+//
+//   value      the half; its irradiance at the receiver is bright times value over distance
+//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
+//   xi         of the virtual light, in (0, 1)
+//
+// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
+// Source: Tokuyoshi, Harada 2016.
+float indirect_kept(float value, float reach, float xi) {
+    return steradian_select(value > xi * reach, max(value, reach), 0.0);
+}
+
+// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
+float indirect_largest_stretch(LtcMatrix m) {
+    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
+    float determinant = m.xx * m.zz - m.xz * m.zx;
+    float square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
+    float gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
+    float larger2 = 0.5 * (square + gap2 * rsqrt(max(gap2, 1.0e-36)));
+    float least2 = determinant * determinant / max(larger2, 1.0e-36);
+    return rsqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+}
+
+// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+//
+//   lobe     turned; a diffuse light's: its frame
+//   v        virtual light's position minus the point's
+//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//
+// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
+// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
+// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
+float3 indirect_spheroid(IndirectLobe lobe, float3 v, float range) {
+    float3 w = indirect_under(lobe, v);
+    float inverse = 1.0 / range;
+    return float3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
 }

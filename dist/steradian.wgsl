@@ -1,7 +1,7 @@
 // Steradian 0.1.0: area light integrals in closed form, for WGSL.
 //
 // Put it before your module's text; it has no bindings or globals. Made by
-// dist/make_dist.py from kernels/*.glsl: change those. For example:
+// dist/make_dist.py from kernels/: change those. For example:
 //
 //     // Radiance that a quad light sends to the eye from a Lambert surface.
 //     //   p, n         surface point and its unit normal
@@ -54,6 +54,133 @@ fn steradian_xy(v: vec3f) -> vec2f { return v.xy; }
 fn steradian_transform(m: mat3x3f, v: vec3f) -> vec3f { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
 fn steradian_transform_transposed(m: mat3x3f, v: vec3f) -> vec3f {
     return vec3f(dot(m[0], v), dot(m[1], v), dot(m[2], v));
+}
+
+// ==== complex ====
+
+// Complex numbers: vec2(real part, imaginary part).
+
+// a b.
+fn complex_product(a: vec2f, b: vec2f) -> vec2f {
+    return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+fn complex_quotient(a: vec2f, b: vec2f) -> vec2f {
+    let scale = 1.0 / max(dot(b, b), 1.0e-36);
+    return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
+}
+
+// a / |a|. Degenerate: the zero vector stays zero.
+fn complex_sign(a: vec2f) -> vec2f {
+    return a * inverseSqrt(max(dot(a, a), 1.0e-36));
+}
+
+// exp(i x) for x in [-pi, pi].
+//
+// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
+// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
+fn complex_unit(x: f32) -> vec2f {
+    let y = 0.5 * x;
+    let t = y * y;
+    var c = 1.0;
+    var s = 1.0;
+    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
+    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
+    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
+    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
+    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
+    s = y * (1.0 - t * 0.166666666666666667 * s);
+    return vec2f(c * c - s * s, 2.0 * c * s);
+}
+
+// ==== frame ====
+
+// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// vector into it, transform(frame, l) back.
+
+// Orthonormal right-handed frame with z along n and x, y in any direction.
+//
+//   n        unit normal
+//
+// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
+fn frame_from_normal(n: vec3f) -> mat3x3f {
+    let s = select(1.0, -1.0, n.z < 0.0);
+    let a = -1.0 / (s + n.z);
+    let b = n.x * n.y * a;
+    let x = vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    let y = vec3f(b, s + n.y * n.y * a, -n.y);
+    return mat3x3f(x, y, n);
+}
+
+// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+//
+//   n, v     unit normal and view
+//
+// Degenerate: a view along the normal (closer than 1e-6) gives any x.
+fn frame_from_normal_and_view(n: vec3f, v: vec3f) -> mat3x3f {
+    let other = frame_from_normal(n);
+    let t = v - n * dot(n, v);
+    let t2 = dot(t, t);
+    let x = select(steradian_transform(other, vec3f(1.0, 0.0, 0.0)), t * inverseSqrt(max(t2, 1.0e-12)), t2 > 1.0e-12);
+    return mat3x3f(x, cross(n, x), n);
+}
+
+// ==== gauss_legendre ====
+
+// Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
+//
+// The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
+
+// Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
+//
+// Degenerate: a rule or node that there is not gives (1/2, 0).
+fn gauss_legendre_node(n: i32, j: i32) -> vec2f {
+    var r = vec2f(0.5, 0.0);
+    if (n == 1) {
+        if (j == 0) { r = vec2f(0.5, 1.0); }
+    }
+    if (n == 2) {
+        if (j == 0) { r = vec2f(0.211324865405187118, 0.5); }
+        if (j == 1) { r = vec2f(0.788675134594812882, 0.5); }
+    }
+    if (n == 3) {
+        if (j == 0) { r = vec2f(0.112701665379258311, 0.277777777777777778); }
+        if (j == 1) { r = vec2f(0.5, 0.444444444444444444); }
+        if (j == 2) { r = vec2f(0.887298334620741689, 0.277777777777777778); }
+    }
+    if (n == 4) {
+        if (j == 0) { r = vec2f(0.069431844202973712, 0.173927422568726929); }
+        if (j == 1) { r = vec2f(0.330009478207571868, 0.326072577431273071); }
+        if (j == 2) { r = vec2f(0.669990521792428132, 0.326072577431273071); }
+        if (j == 3) { r = vec2f(0.930568155797026288, 0.173927422568726929); }
+    }
+    if (n == 5) {
+        if (j == 0) { r = vec2f(0.046910077030668004, 0.118463442528094544); }
+        if (j == 1) { r = vec2f(0.230765344947158454, 0.239314335249683234); }
+        if (j == 2) { r = vec2f(0.5, 0.284444444444444444); }
+        if (j == 3) { r = vec2f(0.769234655052841546, 0.239314335249683234); }
+        if (j == 4) { r = vec2f(0.953089922969331996, 0.118463442528094544); }
+    }
+    if (n == 6) {
+        if (j == 0) { r = vec2f(0.033765242898423986, 0.085662246189585173); }
+        if (j == 1) { r = vec2f(0.169395306766867743, 0.180380786524069304); }
+        if (j == 2) { r = vec2f(0.380690406958401546, 0.233956967286345524); }
+        if (j == 3) { r = vec2f(0.619309593041598454, 0.233956967286345524); }
+        if (j == 4) { r = vec2f(0.830604693233132257, 0.180380786524069304); }
+        if (j == 5) { r = vec2f(0.966234757101576014, 0.085662246189585173); }
+    }
+    if (n == 8) {
+        if (j == 0) { r = vec2f(0.019855071751231884, 0.05061426814518813); }
+        if (j == 1) { r = vec2f(0.10166676129318663, 0.111190517226687235); }
+        if (j == 2) { r = vec2f(0.237233795041835507, 0.156853322938943644); }
+        if (j == 3) { r = vec2f(0.408282678752175098, 0.181341891689180991); }
+        if (j == 4) { r = vec2f(0.591717321247824902, 0.181341891689180991); }
+        if (j == 5) { r = vec2f(0.762766204958164493, 0.156853322938943644); }
+        if (j == 6) { r = vec2f(0.89833323870681337, 0.111190517226687235); }
+        if (j == 7) { r = vec2f(0.980144928248768116, 0.05061426814518813); }
+    }
+    return r;
 }
 
 // ==== inverse_trig ====
@@ -144,36 +271,64 @@ fn trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
     return select(angle, angle + 2.0 * steradian_pi(), angle < -0.5 * steradian_pi());
 }
 
-// ==== frame ====
+// ==== quartic ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
-// vector into it, transform(frame, l) back.
+// Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
 
-// Orthonormal right-handed frame with z along n and x, y in any direction.
-//
-//   n        unit normal
-//
-// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
-fn frame_from_normal(n: vec3f) -> mat3x3f {
-    let s = select(1.0, -1.0, n.z < 0.0);
-    let a = -1.0 / (s + n.z);
-    let b = n.x * n.y * a;
-    let x = vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    let y = vec3f(b, s + n.y * n.y * a, -n.y);
-    return mat3x3f(x, y, n);
+// One root of each pair, with positive imaginary part.
+struct QuarticPoles {
+    z1: vec2f,
+    z2: vec2f,
 }
 
-// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+// Largest root of 4 c^3 - 3 c = x: the cosine of a third of the angle whose cosine is x, in [1/2, 1].
 //
-//   n, v     unit normal and view
+//   x        in [-1, 1]
 //
-// Degenerate: a view along the normal (closer than 1e-6) gives any x.
-fn frame_from_normal_and_view(n: vec3f, v: vec3f) -> mat3x3f {
-    let other = frame_from_normal(n);
-    let t = v - n * dot(n, v);
-    let t2 = dot(t, t);
-    let x = select(steradian_transform(other, vec3f(1.0, 0.0, 0.0)), t * inverseSqrt(max(t2, 1.0e-12)), t2 > 1.0e-12);
-    return mat3x3f(x, cross(n, x), n);
+// The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
+// at x = -1, where the root has infinite slope in x; then two steps of Newton.
+// Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
+fn quartic_third_cosine(x: f32) -> f32 {
+    let t = sqrt(max(0.5 + 0.5 * x, 0.0));
+    var c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
+    for (var i: i32 = 0; i < 2; i++) {
+        let c2 = c * c;
+        c = c - (c * (4.0 * c2 - 3.0) - x) / max(12.0 * c2 - 3.0, 1.0e-6);
+    }
+    return c;
+}
+
+// Roots of t^4 + c3 t^3 + c2 t^2 + c1 t + c0, good enough to start an iteration from.
+//
+//   c0..c3   the roots should be of the order of 1: scale the variable so that c0 = 1
+//   returns  imaginary parts at least 1.0e-3: below, the square is the noise of 24 bits
+//
+// Ferrari: with y = t + c3/4 the quartic is (y^2 + s y + a)(y^2 - s y + b). s^2, the squared distance of the pairs along
+// the real axis, is the only root of the resolvent that is not negative; all three are real, so that it is a
+// cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
+// Error: a start; float loses half the digits where pairs are nearly equal.
+// Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
+fn quartic_poles_approximate(c0: f32, c1: f32, c2: f32, c3: f32) -> QuarticPoles {
+    let shift = 0.25 * c3;
+    let shift2 = shift * shift;
+    let p = c2 - 6.0 * shift2;
+    let q = c1 - 2.0 * c2 * shift + 8.0 * shift2 * shift;
+    let r = c0 - c1 * shift + c2 * shift2 - 3.0 * shift2 * shift2;
+
+    // Largest root of the resolvent z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
+    let radius2 = max(p * p + 12.0 * r, 1.0e-12);
+    let radius = sqrt(radius2);
+    let cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
+    let z = max(0.666666666666666667 * (radius * quartic_third_cosine(cosine) - p), 0.0);
+    let s = sqrt(z);
+
+    let sum = p + z;
+    let root = sqrt(max(sum * sum - 4.0 * r, 0.0));
+    let difference = select(select(root, -root, q < 0.0), q / max(s, 1.0e-18), z > 1.0e-3 * abs(p));
+    var poles: QuarticPoles;
+    poles.z1 = vec2f(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
+    poles.z2 = vec2f(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
+    return poles;
 }
 
 // ==== polygon ====
@@ -324,161 +479,6 @@ fn solid_angle_add_edge(walk: SolidAngleWalk, a: vec3f, b: vec3f) -> SolidAngleW
 fn solid_angle_finish(walk: SolidAngleWalk, reversed: bool) -> f32 {
     let y = select(walk.product.y, -walk.product.y, reversed);
     return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
-}
-
-// ==== complex ====
-
-// Complex numbers: vec2(real part, imaginary part).
-
-// a b.
-fn complex_product(a: vec2f, b: vec2f) -> vec2f {
-    return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
-
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
-fn complex_quotient(a: vec2f, b: vec2f) -> vec2f {
-    let scale = 1.0 / max(dot(b, b), 1.0e-36);
-    return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
-}
-
-// a / |a|. Degenerate: the zero vector stays zero.
-fn complex_sign(a: vec2f) -> vec2f {
-    return a * inverseSqrt(max(dot(a, a), 1.0e-36));
-}
-
-// exp(i x) for x in [-pi, pi].
-//
-// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
-// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
-fn complex_unit(x: f32) -> vec2f {
-    let y = 0.5 * x;
-    let t = y * y;
-    var c = 1.0;
-    var s = 1.0;
-    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
-    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
-    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
-    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
-    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
-    s = y * (1.0 - t * 0.166666666666666667 * s);
-    return vec2f(c * c - s * s, 2.0 * c * s);
-}
-
-// ==== quartic ====
-
-// Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
-
-// One root of each pair, with positive imaginary part.
-struct QuarticPoles {
-    z1: vec2f,
-    z2: vec2f,
-}
-
-// Largest root of 4 c^3 - 3 c = x: the cosine of a third of the angle whose cosine is x, in [1/2, 1].
-//
-//   x        in [-1, 1]
-//
-// The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
-// at x = -1, where the root has infinite slope in x; then two steps of Newton.
-// Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
-fn quartic_third_cosine(x: f32) -> f32 {
-    let t = sqrt(max(0.5 + 0.5 * x, 0.0));
-    var c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
-    for (var i: i32 = 0; i < 2; i++) {
-        let c2 = c * c;
-        c = c - (c * (4.0 * c2 - 3.0) - x) / max(12.0 * c2 - 3.0, 1.0e-6);
-    }
-    return c;
-}
-
-// Roots of t^4 + c3 t^3 + c2 t^2 + c1 t + c0, good enough to start an iteration from.
-//
-//   c0..c3   the roots should be of the order of 1: scale the variable so that c0 = 1
-//   returns  imaginary parts at least 1.0e-3: below, the square is the noise of 24 bits
-//
-// Ferrari: with y = t + c3/4 the quartic is (y^2 + s y + a)(y^2 - s y + b). s^2, the squared distance of the pairs along
-// the real axis, is the only root of the resolvent that is not negative; all three are real, so that it is a
-// cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
-// Error: a start; float loses half the digits where pairs are nearly equal.
-// Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
-fn quartic_poles_approximate(c0: f32, c1: f32, c2: f32, c3: f32) -> QuarticPoles {
-    let shift = 0.25 * c3;
-    let shift2 = shift * shift;
-    let p = c2 - 6.0 * shift2;
-    let q = c1 - 2.0 * c2 * shift + 8.0 * shift2 * shift;
-    let r = c0 - c1 * shift + c2 * shift2 - 3.0 * shift2 * shift2;
-
-    // Largest root of the resolvent z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
-    let radius2 = max(p * p + 12.0 * r, 1.0e-12);
-    let radius = sqrt(radius2);
-    let cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
-    let z = max(0.666666666666666667 * (radius * quartic_third_cosine(cosine) - p), 0.0);
-    let s = sqrt(z);
-
-    let sum = p + z;
-    let root = sqrt(max(sum * sum - 4.0 * r, 0.0));
-    let difference = select(select(root, -root, q < 0.0), q / max(s, 1.0e-18), z > 1.0e-3 * abs(p));
-    var poles: QuarticPoles;
-    poles.z1 = vec2f(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
-    poles.z2 = vec2f(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
-    return poles;
-}
-
-// ==== gauss_legendre ====
-
-// Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
-//
-// The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
-
-// Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
-//
-// Degenerate: a rule or node that there is not gives (1/2, 0).
-fn gauss_legendre_node(n: i32, j: i32) -> vec2f {
-    var r = vec2f(0.5, 0.0);
-    if (n == 1) {
-        if (j == 0) { r = vec2f(0.5, 1.0); }
-    }
-    if (n == 2) {
-        if (j == 0) { r = vec2f(0.211324865405187118, 0.5); }
-        if (j == 1) { r = vec2f(0.788675134594812882, 0.5); }
-    }
-    if (n == 3) {
-        if (j == 0) { r = vec2f(0.112701665379258311, 0.277777777777777778); }
-        if (j == 1) { r = vec2f(0.5, 0.444444444444444444); }
-        if (j == 2) { r = vec2f(0.887298334620741689, 0.277777777777777778); }
-    }
-    if (n == 4) {
-        if (j == 0) { r = vec2f(0.069431844202973712, 0.173927422568726929); }
-        if (j == 1) { r = vec2f(0.330009478207571868, 0.326072577431273071); }
-        if (j == 2) { r = vec2f(0.669990521792428132, 0.326072577431273071); }
-        if (j == 3) { r = vec2f(0.930568155797026288, 0.173927422568726929); }
-    }
-    if (n == 5) {
-        if (j == 0) { r = vec2f(0.046910077030668004, 0.118463442528094544); }
-        if (j == 1) { r = vec2f(0.230765344947158454, 0.239314335249683234); }
-        if (j == 2) { r = vec2f(0.5, 0.284444444444444444); }
-        if (j == 3) { r = vec2f(0.769234655052841546, 0.239314335249683234); }
-        if (j == 4) { r = vec2f(0.953089922969331996, 0.118463442528094544); }
-    }
-    if (n == 6) {
-        if (j == 0) { r = vec2f(0.033765242898423986, 0.085662246189585173); }
-        if (j == 1) { r = vec2f(0.169395306766867743, 0.180380786524069304); }
-        if (j == 2) { r = vec2f(0.380690406958401546, 0.233956967286345524); }
-        if (j == 3) { r = vec2f(0.619309593041598454, 0.233956967286345524); }
-        if (j == 4) { r = vec2f(0.830604693233132257, 0.180380786524069304); }
-        if (j == 5) { r = vec2f(0.966234757101576014, 0.085662246189585173); }
-    }
-    if (n == 8) {
-        if (j == 0) { r = vec2f(0.019855071751231884, 0.05061426814518813); }
-        if (j == 1) { r = vec2f(0.10166676129318663, 0.111190517226687235); }
-        if (j == 2) { r = vec2f(0.237233795041835507, 0.156853322938943644); }
-        if (j == 3) { r = vec2f(0.408282678752175098, 0.181341891689180991); }
-        if (j == 4) { r = vec2f(0.591717321247824902, 0.181341891689180991); }
-        if (j == 5) { r = vec2f(0.762766204958164493, 0.156853322938943644); }
-        if (j == 6) { r = vec2f(0.89833323870681337, 0.111190517226687235); }
-        if (j == 7) { r = vec2f(0.980144928248768116, 0.05061426814518813); }
-    }
-    return r;
 }
 
 // ==== conic ====
@@ -1289,89 +1289,263 @@ fn ellipsoid_outline(to_center: vec3f, s: mat3x3f, inverse: mat3x3f) -> Ellipsoi
     return outline;
 }
 
-// ==== ggx_closed_form ====
+// ==== horizon_clip ====
 
-// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
-// Fresnel (ggx_cubature.glsl adds both).
+// Clipping a walked outline to the horizon, for integrals along its edges.
 //
-// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
-// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
-// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
-//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
+// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
+// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
+// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
+// different contours, and one clip serves a whole light with its holes:
 //
-//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
-//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//   HorizonClip clip = horizon_clip_begin();
+//   for each edge a, b of each contour:
+//       clip = horizon_clip_edge(clip, a, b);
+//       integrate clip.start, clip.end
+//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//   clip = horizon_clip_finish(clip);
+//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //
-// docs/ggx.md has the derivation.
-// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 
-// What the lobe's integrals need of the view and the surface.
-//   v        unit view, z > 0
-//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
-//   ax, ay   widths: roughness squared, at least 1.0e-4
-//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
-struct GgxView {
-    v: vec3f,
-    w: vec3f,
-    ax: f32,
-    ay: f32,
-    masking: f32,
+// The state of a clip and what it last handed out.
+//   start, end          the edge's part above the horizon; equal where there is none
+//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
+//   closes              whether there is an arc
+//   leave               where the outline last went down and did not come back yet; zero: nowhere
+//   entry               where it came up without having been seen to go down; zero: nowhere
+struct HorizonClip {
+    start: vec3f,
+    end: vec3f,
+    arc_start: vec3f,
+    arc_end: vec3f,
+    closes: bool,
+    leave: vec3f,
+    entry: vec3f,
 }
 
-// Prepares a view.
-//
-// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
-fn ggx_view(v: vec3f, ax: f32, ay: f32) -> GgxView {
-    var view: GgxView;
-    let z = max(v.z, 1.0e-6);
-    view.v = vec3f(v.x, v.y, z);
-    view.w = vec3f(ax * v.x, ay * v.y, z);
-    view.ax = ax;
-    view.ay = ay;
-    view.masking = sqrt(dot(view.w, view.w)) / z;
-    return view;
+// The state before the first edge.
+fn horizon_clip_begin() -> HorizonClip {
+    let nowhere = vec3f(0.0, 0.0, 0.0);
+    let zero = 0.0;
+    var clip: HorizonClip;
+    clip.start = nowhere;
+    clip.end = nowhere;
+    clip.arc_start = nowhere;
+    clip.arc_end = nowhere;
+    clip.closes = zero > 0.0;
+    clip.leave = nowhere;
+    clip.entry = nowhere;
+    return clip;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
-//   a, b     unit directions of the ends, in walk order, not below the horizon
-//
-// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
-// is further from it.
-// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-fn ggx_edge(view: GgxView, a: vec3f, b: vec3f) -> ConicArc {
-    let chord = b - a;
-    let sum = a + b;
-    let chord2 = dot(chord, chord);
-    let sum2 = dot(sum, sum);
-    let usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
-    let middle = sum * inverseSqrt(max(sum2, 1.0e-30));
-    let along = chord * inverseSqrt(max(chord2, 1.0e-36));
-    let half_sine = 0.5 * sqrt(chord2);
-    let half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
-
-    let from_end = dot(middle, view.v) > 0.9;
-    let side = select(0.0, select(1.0, -1.0, dot(chord, view.v) > 0.0), from_end);
-    let turn_cosine = select(1.0, half_cosine, from_end);
-    let base = middle * turn_cosine + along * (side * half_sine);
-    let q = along * turn_cosine - middle * (side * half_sine);
-    let reach = select(0.0, half_sine / (half_cosine + select(1.0, 0.0, from_end)), usable);
-
-    let x = 1.0 / view.ax;
-    let y = 1.0 / view.ay;
-    let u0 = view.v + base;
-    let u2 = view.v - base;
-    return conic_prepare(
-        vec3f(u0.x * x, u0.y * y, u0.z), vec3f(q.x * x, q.y * y, q.z) * 2.0, vec3f(u2.x * x, u2.y * y, u2.z),
-        select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
+// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
+// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
+fn horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
+    let wa = abs(b.z);
+    let wb = abs(a.z);
+    var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
+    return vec3f(p.x, p.y, 0.0);
 }
 
-// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+// Clips one edge.
 //
-//   e        sum over the edges of conic_vector, negated where the light is seen from behind
-//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
-fn ggx_unshadowed(view: GgxView, e: vec3f) -> f32 {
-    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
+//   a, b     unit directions of the edge's ends; z < 0 is below
+//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
+fn horizon_clip_edge(clip: HorizonClip, a: vec3f, b: vec3f) -> HorizonClip {
+    var next = clip;
+    let a_below = a.z < 0.0;
+    let b_below = b.z < 0.0;
+    next.start = a;
+    next.end = b;
+    next.closes = a.z > 2.0;
+    if (a_below || b_below) {
+        let nowhere = vec3f(0.0, 0.0, 0.0);
+        let crossing = horizon_crossing(a, b);
+        next.start = select(a, crossing, a_below);
+        next.end = select(b, crossing, b_below);  // both below: start = end
+        let comes_up = a_below && !b_below;
+        let goes_down = b_below && !a_below;
+        let was_left = dot(clip.leave, clip.leave) > 0.5;
+        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
+        let due = goes_down && was_left;
+        next.closes = (comes_up && was_left) || due;
+        next.arc_end = select(crossing, clip.entry, due);
+        next.arc_start = select(next.arc_end, clip.leave, next.closes);
+        next.leave = select(select(clip.leave, nowhere, comes_up), crossing, goes_down);
+        next.entry = select(select(clip.entry, nowhere, due), crossing, comes_up && !was_left);
+    }
+    return next;
+}
+
+// Ends the walk: the last arc, from where the outline went down to where it had first come up.
+fn horizon_clip_finish(clip: HorizonClip) -> HorizonClip {
+    var next = clip;
+    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
+    next.start = clip.end;
+    next.arc_start = select(clip.entry, clip.leave, next.closes);
+    next.arc_end = clip.entry;
+    return next;
+}
+
+// ==== lambert ====
+
+// The diffuse surface: the same radiance to every side.
+
+// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+//
+//   irradiance  polygon_irradiance, in [0, pi]
+fn lambert_radiance(irradiance: f32) -> f32 {
+    return irradiance * 0.318309886183790672;
+}
+
+// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
+fn lambert_lobe(l: vec3f) -> f32 {
+    return max(l.z, 0.0) * 0.318309886183790672;
+}
+
+// ==== lobe_product ====
+
+// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
+//
+// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
+// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
+// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
+//
+//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = lobe_product_add(p, r_i, n_i);
+//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
+//   ... the same again, then
+//   CosineLobe lobe = lobe_product_isotropic(p);
+//
+// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
+// Source: this project (docs/moments.md).
+
+// scale (u.axis)^exponent
+struct CosineLobe {
+    axis: vec3f,
+    exponent: f32,
+    scale: f32,
+}
+
+// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+struct StretchedLobe {
+    frame: mat3x3f,
+    stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy
+    exponent: f32,
+    scale: f32,
+}
+
+// Sums over the lobes, seen from a direction.
+//   about      frame whose z is that direction
+//   total      sum of n_i
+//   log_scale  sum of n_i log(z.r_i)
+//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
+//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
+//   lowest     smallest z.r_i
+struct LobeProduct {
+    about: mat3x3f,
+    total: f32,
+    log_scale: f32,
+    slope: vec2f,
+    curvature: vec3f,
+    lowest: f32,
+}
+
+// The state before the first lobe.
+fn lobe_product_begin(direction: vec3f) -> LobeProduct {
+    var p: LobeProduct;
+    p.about = frame_from_normal(direction);
+    p.total = 0.0;
+    p.log_scale = 0.0;
+    p.slope = vec2f(0.0, 0.0);
+    p.curvature = vec3f(0.0, 0.0, 0.0);
+    p.lowest = 1.0;
+    return p;
+}
+
+// Adds (u.r)^n.
+fn lobe_product_add(p: LobeProduct, r: vec3f, n: f32) -> LobeProduct {
+    let local = steradian_transform_transposed(p.about, r);
+    let z = max(local.z, 1.0e-4);
+    let x = local.x / z;
+    let y = local.y / z;
+    var next = p;
+    next.total = p.total + n;
+    next.log_scale = p.log_scale + n * log(z);
+    next.slope = p.slope + vec2f(n * x, n * y);
+    next.curvature = p.curvature + vec3f(n * x * x, n * x * y, n * y * y);
+    next.lowest = min(p.lowest, local.z);
+    return next;
+}
+
+// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
+fn lobe_product_newton(p: LobeProduct) -> vec3f {
+    let xx = p.total + p.curvature.x;
+    let yy = p.total + p.curvature.z;
+    let xy = p.curvature.y;
+    let inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    let step_to = vec3f(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
+    let u = steradian_transform(p.about, step_to);
+    return u * inverseSqrt(dot(u, u));
+}
+
+// Height of the product at the sums' direction; 0 where a lobe does not reach.
+fn lobe_product_scale(p: LobeProduct) -> f32 {
+    return select(0.0, exp(p.log_scale), p.lowest > 1.0e-4);
+}
+
+// The isotropic lobe; its exponent gives the full lobe's integral the right size.
+fn lobe_product_isotropic(p: LobeProduct) -> CosineLobe {
+    let xx = p.total + p.curvature.x;
+    let yy = p.total + p.curvature.z;
+    var lobe: CosineLobe;
+    lobe.axis = steradian_transform(p.about, vec3f(0.0, 0.0, 1.0));
+    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
+// the integral over a light is scale times the moment of the stretched outline about z.
+fn lobe_product_anisotropic(p: LobeProduct) -> StretchedLobe {
+    let xx = p.total + p.curvature.x + 3.0;
+    let yy = p.total + p.curvature.z + 3.0;
+    let xy = p.curvature.y;
+    let d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
+    let root = inverseSqrt((xx + yy) / d + 2.0);
+    var lobe: StretchedLobe;
+    lobe.frame = p.about;
+    lobe.stretch = vec3f(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
+    lobe.exponent = d - 3.0;
+    lobe.scale = lobe_product_scale(p);
+    return lobe;
+}
+
+// A direction in the lobe's stretched frame, not unit; 0 at zero.
+fn lobe_product_stretch(lobe: StretchedLobe, u: vec3f) -> vec3f {
+    let l = steradian_transform_transposed(lobe.frame, u);
+    return vec3f(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
+}
+
+// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
+//
+// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
+fn lobe_product_peak_of_two(r1: vec3f, n1: f32, r2: vec3f, n2: f32) -> vec3f {
+    let cosine = max(dot(r1, r2), 1.0e-6);
+    let across = r2 - r1 * dot(r1, r2);
+    let sine2 = dot(across, across);
+    let tangent = sqrt(sine2) / cosine;
+    let sum = n1 + n2;
+    let t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
+    let u = r1 + across * (t * inverseSqrt(max(sine2, 1.0e-30)));
+    return u * inverseSqrt(dot(u, u));
 }
 
 // ==== microfacet ====
@@ -1455,6 +1629,147 @@ fn ggx_lobe(l: vec3f, v: vec3f, ax: f32, ay: f32) -> f32 {
     let h = microfacet_half_vector(l, v);
     let g = ggx_shadowing(l, v, ax, ay);
     return microfacet_lobe_unshadowed(ggx_distribution(h, ax, ay) * g, l, v);
+}
+
+// ==== phong ====
+
+// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
+
+// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
+// high exponent multiplies it.
+//
+// Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
+fn phong_log(x: f32) -> f32 {
+    let near = 0.75;
+    var result = log(x);
+    let high = x > near;
+    if (high) {
+        // d - d^2 / (2 + d) is twice t, the first term of twice the inverse hyperbolic tangent of t: so d, which is exact, carries
+        // most of the digits. The next term is 2 t^9 / 9, relative 2e-8 at t = 1/7.
+        let d = x - 1.0;
+        let t = d / (2.0 + d);
+        let t2 = t * t;
+        let series = d - t * (d - t2 * (0.666666666666666667 + t2 * (0.4 + t2 * 0.285714285714285714)));
+        result = select(result, series, high);
+    }
+    return result;
+}
+
+// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
+//
+// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
+// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
+fn phong_power(x: f32, n: f32) -> f32 {
+    return exp(n * phong_log(max(x, 1.0e-30)));
+}
+
+// The view mirrored at the surface.
+//
+//   v        view direction, shading frame
+fn phong_mirror(v: vec3f) -> vec3f {
+    return vec3f(-v.x, -v.y, v.z);
+}
+
+// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
+//
+//   l        unit direction of the light, r unit axis of the lobe
+//   n        exponent, at least 0
+//
+// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
+fn phong_lobe(l: vec3f, r: vec3f, n: f32) -> f32 {
+    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
+}
+
+// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
+//
+//   h        unit half vector, shading frame
+fn blinn_phong_distribution(h: vec3f, n: f32) -> f32 {
+    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+}
+
+// ==== ggx_closed_form ====
+
+// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
+// Fresnel (ggx_cubature.glsl adds both).
+//
+// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
+// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
+// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
+//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+//
+//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//
+// docs/ggx.md has the derivation.
+// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+
+// What the lobe's integrals need of the view and the surface.
+//   v        unit view, z > 0
+//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
+//   ax, ay   widths: roughness squared, at least 1.0e-4
+//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
+struct GgxView {
+    v: vec3f,
+    w: vec3f,
+    ax: f32,
+    ay: f32,
+    masking: f32,
+}
+
+// Prepares a view.
+//
+// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
+fn ggx_view(v: vec3f, ax: f32, ay: f32) -> GgxView {
+    var view: GgxView;
+    let z = max(v.z, 1.0e-6);
+    view.v = vec3f(v.x, v.y, z);
+    view.w = vec3f(ax * v.x, ay * v.y, z);
+    view.ax = ax;
+    view.ay = ay;
+    view.masking = sqrt(dot(view.w, view.w)) / z;
+    return view;
+}
+
+// One edge of a light as an arc in stretched half vector space.
+//
+//   a, b     unit directions of the ends, in walk order, not below the horizon
+//
+// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
+// is further from it.
+// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
+fn ggx_edge(view: GgxView, a: vec3f, b: vec3f) -> ConicArc {
+    let chord = b - a;
+    let sum = a + b;
+    let chord2 = dot(chord, chord);
+    let sum2 = dot(sum, sum);
+    let usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
+    let middle = sum * inverseSqrt(max(sum2, 1.0e-30));
+    let along = chord * inverseSqrt(max(chord2, 1.0e-36));
+    let half_sine = 0.5 * sqrt(chord2);
+    let half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
+
+    let from_end = dot(middle, view.v) > 0.9;
+    let side = select(0.0, select(1.0, -1.0, dot(chord, view.v) > 0.0), from_end);
+    let turn_cosine = select(1.0, half_cosine, from_end);
+    let base = middle * turn_cosine + along * (side * half_sine);
+    let q = along * turn_cosine - middle * (side * half_sine);
+    let reach = select(0.0, half_sine / (half_cosine + select(1.0, 0.0, from_end)), usable);
+
+    let x = 1.0 / view.ax;
+    let y = 1.0 / view.ay;
+    let u0 = view.v + base;
+    let u2 = view.v - base;
+    return conic_prepare(
+        vec3f(u0.x * x, u0.y * y, u0.z), vec3f(q.x * x, q.y * y, q.z) * 2.0, vec3f(u2.x * x, u2.y * y, u2.z),
+        select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
+}
+
+// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+//
+//   e        sum over the edges of conic_vector, negated where the light is seen from behind
+//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
+fn ggx_unshadowed(view: GgxView, e: vec3f) -> f32 {
+    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
 }
 
 // ==== ggx_cubature ====
@@ -1653,62 +1968,6 @@ fn ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
     return f0 * (r.x - r.y) + f90 * r.y;
 }
 
-// ==== phong ====
-
-// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
-
-// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
-// high exponent multiplies it.
-//
-// Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
-fn phong_log(x: f32) -> f32 {
-    let near = 0.75;
-    var result = log(x);
-    let high = x > near;
-    if (high) {
-        // d - d^2 / (2 + d) is twice t, the first term of twice the inverse hyperbolic tangent of t: so d, which is exact, carries
-        // most of the digits. The next term is 2 t^9 / 9, relative 2e-8 at t = 1/7.
-        let d = x - 1.0;
-        let t = d / (2.0 + d);
-        let t2 = t * t;
-        let series = d - t * (d - t2 * (0.666666666666666667 + t2 * (0.4 + t2 * 0.285714285714285714)));
-        result = select(result, series, high);
-    }
-    return result;
-}
-
-// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
-//
-// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
-// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
-fn phong_power(x: f32, n: f32) -> f32 {
-    return exp(n * phong_log(max(x, 1.0e-30)));
-}
-
-// The view mirrored at the surface.
-//
-//   v        view direction, shading frame
-fn phong_mirror(v: vec3f) -> vec3f {
-    return vec3f(-v.x, -v.y, v.z);
-}
-
-// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
-//
-//   l        unit direction of the light, r unit axis of the lobe
-//   n        exponent, at least 0
-//
-// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
-fn phong_lobe(l: vec3f, r: vec3f, n: f32) -> f32 {
-    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
-}
-
-// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
-//
-//   h        unit half vector, shading frame
-fn blinn_phong_distribution(h: vec3f, n: f32) -> f32 {
-    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
-}
-
 // ==== moment ====
 
 // Axial moments of spherical polygons: the integral of max(u.r, 0)^n over a light, for the Phong lobe about r.
@@ -1723,8 +1982,8 @@ fn blinn_phong_distribution(h: vec3f, n: f32) -> f32 {
 //                 + the azimuth that the part behind sweeps ).
 // moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
 //
-// Frame: any; r is the unit axis. Edges in walk order (kernels/polygon.glsl), clipped to the surface's horizon
-// (kernels/horizon_clip.glsl) before, so that -r cannot be inside a light.
+// Frame: any; r is the unit axis. Edges in walk order (kernels/outline/polygon.glsl), clipped to the surface's horizon
+// (kernels/outline/horizon_clip.glsl) before, so that -r cannot be inside a light.
 // Source: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena", 1995; Lecocq,
 // Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017. The form without
 // parity is this project's own.
@@ -2433,110 +2692,6 @@ fn half_vector_radiance(view: GgxView, sum: f32, facing: f32) -> f32 {
     return max(sum * facing, 0.0) * 0.159154943091895336 / view.v.z;
 }
 
-// ==== horizon_clip ====
-
-// Clipping a walked outline to the horizon, for integrals along its edges.
-//
-// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
-// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
-// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
-// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
-// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
-// different contours, and one clip serves a whole light with its holes:
-//
-//   HorizonClip clip = horizon_clip_begin();
-//   for each edge a, b of each contour:
-//       clip = horizon_clip_edge(clip, a, b);
-//       integrate clip.start, clip.end
-//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//   clip = horizon_clip_finish(clip);
-//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//
-// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
-
-// The state of a clip and what it last handed out.
-//   start, end          the edge's part above the horizon; equal where there is none
-//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
-//   closes              whether there is an arc
-//   leave               where the outline last went down and did not come back yet; zero: nowhere
-//   entry               where it came up without having been seen to go down; zero: nowhere
-struct HorizonClip {
-    start: vec3f,
-    end: vec3f,
-    arc_start: vec3f,
-    arc_end: vec3f,
-    closes: bool,
-    leave: vec3f,
-    entry: vec3f,
-}
-
-// The state before the first edge.
-fn horizon_clip_begin() -> HorizonClip {
-    let nowhere = vec3f(0.0, 0.0, 0.0);
-    let zero = 0.0;
-    var clip: HorizonClip;
-    clip.start = nowhere;
-    clip.end = nowhere;
-    clip.arc_start = nowhere;
-    clip.arc_end = nowhere;
-    clip.closes = zero > 0.0;
-    clip.leave = nowhere;
-    clip.entry = nowhere;
-    return clip;
-}
-
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
-//
-// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
-// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
-fn horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
-    let wa = abs(b.z);
-    let wb = abs(a.z);
-    var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
-    return vec3f(p.x, p.y, 0.0);
-}
-
-// Clips one edge.
-//
-//   a, b     unit directions of the edge's ends; z < 0 is below
-//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
-fn horizon_clip_edge(clip: HorizonClip, a: vec3f, b: vec3f) -> HorizonClip {
-    var next = clip;
-    let a_below = a.z < 0.0;
-    let b_below = b.z < 0.0;
-    next.start = a;
-    next.end = b;
-    next.closes = a.z > 2.0;
-    if (a_below || b_below) {
-        let nowhere = vec3f(0.0, 0.0, 0.0);
-        let crossing = horizon_crossing(a, b);
-        next.start = select(a, crossing, a_below);
-        next.end = select(b, crossing, b_below);  // both below: start = end
-        let comes_up = a_below && !b_below;
-        let goes_down = b_below && !a_below;
-        let was_left = dot(clip.leave, clip.leave) > 0.5;
-        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
-        let due = goes_down && was_left;
-        next.closes = (comes_up && was_left) || due;
-        next.arc_end = select(crossing, clip.entry, due);
-        next.arc_start = select(next.arc_end, clip.leave, next.closes);
-        next.leave = select(select(clip.leave, nowhere, comes_up), crossing, goes_down);
-        next.entry = select(select(clip.entry, nowhere, due), crossing, comes_up && !was_left);
-    }
-    return next;
-}
-
-// Ends the walk: the last arc, from where the outline went down to where it had first come up.
-fn horizon_clip_finish(clip: HorizonClip) -> HorizonClip {
-    var next = clip;
-    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
-    next.start = clip.end;
-    next.arc_start = select(clip.entry, clip.leave, next.closes);
-    next.arc_end = clip.entry;
-    return next;
-}
-
 // ==== ltc ====
 
 // Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
@@ -2739,394 +2894,6 @@ fn ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f32 {
     return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
 }
 
-// ==== indirect ====
-
-// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
-//
-// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
-// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
-// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
-//
-//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
-//
-// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
-// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
-// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
-
-// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
-//
-// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
-struct IndirectLobe {
-    x: vec3f,
-    y: vec3f,
-    z: vec3f,
-    scale: f32,
-}
-
-// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
-fn indirect_lobe(m: LtcMatrix, frame: mat3x3f) -> IndirectLobe {
-    var lobe: IndirectLobe;
-    lobe.x = steradian_transform(frame, vec3f(m.xx, 0.0, m.xz));
-    lobe.y = steradian_transform(frame, vec3f(0.0, m.yy, 0.0));
-    lobe.z = steradian_transform(frame, vec3f(m.zx, 0.0, m.zz));
-    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
-    return lobe;
-}
-
-// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
-fn indirect_turned(lobe: IndirectLobe) -> IndirectLobe {
-    var turned: IndirectLobe;
-    turned.x = -lobe.x;
-    turned.y = -lobe.y;
-    turned.z = -lobe.z;
-    turned.scale = lobe.scale;
-    return turned;
-}
-
-// Under M^-1. Any vector.
-fn indirect_under(lobe: IndirectLobe, v: vec3f) -> vec3f {
-    return vec3f(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
-}
-
-// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
-//
-//   v        as the lobe's rows take it
-//   d2       dot(v, v)
-//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
-//
-// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
-fn indirect_glossy_half(lobe: IndirectLobe, v: vec3f, d2: f32, wide2: f32) -> f32 {
-    let w = indirect_under(lobe, v);
-    let w2 = dot(w, w);
-    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
-}
-
-// Half of a diffuse end of albedo pi: cosine over distance.
-fn indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
-    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
-}
-
-// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
-//
-//   v        light's position minus the surface's
-//   lobe     of the surface and its view; times rho_f: with Fresnel
-//
-// Degenerate: v = 0 gives 0.
-// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
-fn indirect_point_light(lobe: IndirectLobe, v: vec3f) -> f32 {
-    let d2 = dot(v, v);
-    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inverseSqrt(max(d2, 1.0e-36));
-}
-
-// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
-// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
-struct IndirectPair {
-    from_diffuse: f32,
-    from_glossy: f32,
-    to_diffuse: f32,
-    to_glossy: f32,
-}
-
-// Both ends at once: no square root, one division.
-//
-//   receiver, n          the receiver's lobe and normal
-//   light, light_n       the virtual light's, turned
-//
-// What lies below either horizon gives 0: a lobe leaks there.
-// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
-// falls below 1.0e-36 the peak is cut.
-fn indirect_pair(v: vec3f, n: vec3f, receiver: IndirectLobe, light_n: vec3f, light: IndirectLobe) -> IndirectPair {
-    let d2 = dot(v, v);
-    let w = indirect_under(receiver, v);
-    let o = indirect_under(light, v);
-    let w2 = dot(w, w);
-    let o2 = dot(o, o);
-    let w4 = w2 * w2;
-    let o4 = o2 * o2;
-    let both = w4 * o4;
-    let inverse = 1.0 / max(d2 * both, 1.0e-36);
-    let peak = inverse * d2 * d2;
-    let n_v = max(dot(n, v), 0.0);
-    let light_n_v = max(dot(light_n, v), 0.0);
-    var pair: IndirectPair;
-    pair.to_diffuse = n_v * (inverse * both);
-    pair.from_diffuse = light_n_v * (inverse * both);
-    pair.to_glossy = select(0.0, max(w.z, 0.0) * (peak * o4), n_v > 0.0);
-    pair.from_glossy = select(0.0, max(o.z, 0.0) * (peak * w4), light_n_v > 0.0);
-    return pair;
-}
-
-// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
-//
-//   incoming unit, from the virtual light to the light that feeds it
-//   v        to the virtual light
-fn indirect_grazing(incoming: vec3f, v: vec3f, d2: f32) -> f32 {
-    let cosine = -dot(incoming, v) * inverseSqrt(max(d2, 1.0e-36));
-    let half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
-    return fresnel_schlick(0.0, 1.0, half_angle * inverseSqrt(half_angle));
-}
-
-// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
-struct IndirectGgx {
-    lobe: f32,
-    grazing: f32,
-}
-
-// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
-//
-//   frame    x along the view, z the normal
-//   view     unit, in the frame
-fn indirect_ggx(frame: mat3x3f, view: vec3f, alpha: f32, l: vec3f) -> IndirectGgx {
-    let local = steradian_transform_transposed(frame, l);
-    let h = microfacet_half_vector(local, view);
-    var end: IndirectGgx;
-    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
-    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
-    return end;
-}
-
-// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
-//
-//   value      the half; its irradiance at the receiver is bright times value over distance
-//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
-//   xi         of the virtual light, in (0, 1)
-//
-// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
-// Source: Tokuyoshi, Harada 2016.
-fn indirect_kept(value: f32, reach: f32, xi: f32) -> f32 {
-    return select(0.0, max(value, reach), value > xi * reach);
-}
-
-// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
-fn indirect_largest_stretch(m: LtcMatrix) -> f32 {
-    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
-    let determinant = m.xx * m.zz - m.xz * m.zx;
-    let square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
-    let gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
-    let larger2 = 0.5 * (square + gap2 * inverseSqrt(max(gap2, 1.0e-36)));
-    let least2 = determinant * determinant / max(larger2, 1.0e-36);
-    return inverseSqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
-}
-
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
-//
-//   lobe     turned; a diffuse light's: its frame
-//   v        virtual light's position minus the point's
-//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
-//
-// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
-// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
-// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
-fn indirect_spheroid(lobe: IndirectLobe, v: vec3f, range: f32) -> vec3f {
-    let w = indirect_under(lobe, v);
-    let inverse = 1.0 / range;
-    return vec3f(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
-}
-
-// ==== lambert ====
-
-// The diffuse surface: the same radiance to every side.
-
-// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
-//
-//   irradiance  polygon_irradiance, in [0, pi]
-fn lambert_radiance(irradiance: f32) -> f32 {
-    return irradiance * 0.318309886183790672;
-}
-
-// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
-fn lambert_lobe(l: vec3f) -> f32 {
-    return max(l.z, 0.0) * 0.318309886183790672;
-}
-
-// ==== lobe_product ====
-
-// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
-//
-// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
-// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
-// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
-//
-//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
-//   for each lobe: p = lobe_product_add(p, r_i, n_i);
-//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
-//   ... the same again, then
-//   CosineLobe lobe = lobe_product_isotropic(p);
-//
-// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
-
-// scale (u.axis)^exponent
-struct CosineLobe {
-    axis: vec3f,
-    exponent: f32,
-    scale: f32,
-}
-
-// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
-struct StretchedLobe {
-    frame: mat3x3f,
-    stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy
-    exponent: f32,
-    scale: f32,
-}
-
-// Sums over the lobes, seen from a direction.
-//   about      frame whose z is that direction
-//   total      sum of n_i
-//   log_scale  sum of n_i log(z.r_i)
-//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
-//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
-//   lowest     smallest z.r_i
-struct LobeProduct {
-    about: mat3x3f,
-    total: f32,
-    log_scale: f32,
-    slope: vec2f,
-    curvature: vec3f,
-    lowest: f32,
-}
-
-// The state before the first lobe.
-fn lobe_product_begin(direction: vec3f) -> LobeProduct {
-    var p: LobeProduct;
-    p.about = frame_from_normal(direction);
-    p.total = 0.0;
-    p.log_scale = 0.0;
-    p.slope = vec2f(0.0, 0.0);
-    p.curvature = vec3f(0.0, 0.0, 0.0);
-    p.lowest = 1.0;
-    return p;
-}
-
-// Adds (u.r)^n.
-fn lobe_product_add(p: LobeProduct, r: vec3f, n: f32) -> LobeProduct {
-    let local = steradian_transform_transposed(p.about, r);
-    let z = max(local.z, 1.0e-4);
-    let x = local.x / z;
-    let y = local.y / z;
-    var next = p;
-    next.total = p.total + n;
-    next.log_scale = p.log_scale + n * log(z);
-    next.slope = p.slope + vec2f(n * x, n * y);
-    next.curvature = p.curvature + vec3f(n * x * x, n * x * y, n * y * y);
-    next.lowest = min(p.lowest, local.z);
-    return next;
-}
-
-// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
-fn lobe_product_newton(p: LobeProduct) -> vec3f {
-    let xx = p.total + p.curvature.x;
-    let yy = p.total + p.curvature.z;
-    let xy = p.curvature.y;
-    let inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
-    let step_to = vec3f(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
-    let u = steradian_transform(p.about, step_to);
-    return u * inverseSqrt(dot(u, u));
-}
-
-// Height of the product at the sums' direction; 0 where a lobe does not reach.
-fn lobe_product_scale(p: LobeProduct) -> f32 {
-    return select(0.0, exp(p.log_scale), p.lowest > 1.0e-4);
-}
-
-// The isotropic lobe; its exponent gives the full lobe's integral the right size.
-fn lobe_product_isotropic(p: LobeProduct) -> CosineLobe {
-    let xx = p.total + p.curvature.x;
-    let yy = p.total + p.curvature.z;
-    var lobe: CosineLobe;
-    lobe.axis = steradian_transform(p.about, vec3f(0.0, 0.0, 1.0));
-    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
-// the integral over a light is scale times the moment of the stretched outline about z.
-fn lobe_product_anisotropic(p: LobeProduct) -> StretchedLobe {
-    let xx = p.total + p.curvature.x + 3.0;
-    let yy = p.total + p.curvature.z + 3.0;
-    let xy = p.curvature.y;
-    let d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
-    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
-    let root = inverseSqrt((xx + yy) / d + 2.0);
-    var lobe: StretchedLobe;
-    lobe.frame = p.about;
-    lobe.stretch = vec3f(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
-    lobe.exponent = d - 3.0;
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// A direction in the lobe's stretched frame, not unit; 0 at zero.
-fn lobe_product_stretch(lobe: StretchedLobe, u: vec3f) -> vec3f {
-    let l = steradian_transform_transposed(lobe.frame, u);
-    return vec3f(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
-}
-
-// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
-//
-// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
-fn lobe_product_peak_of_two(r1: vec3f, n1: f32, r2: vec3f, n2: f32) -> vec3f {
-    let cosine = max(dot(r1, r2), 1.0e-6);
-    let across = r2 - r1 * dot(r1, r2);
-    let sine2 = dot(across, across);
-    let tangent = sqrt(sine2) / cosine;
-    let sum = n1 + n2;
-    let t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    let u = r1 + across * (t * inverseSqrt(max(sine2, 1.0e-30)));
-    return u * inverseSqrt(dot(u, u));
-}
-
-// ==== ltc_clipless ====
-
-// Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
-// irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
-// Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
-
-// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
-//
-//   cosine   of the sphere's centre to z, in [-1, 1]
-//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
-//
-// Degenerate: f = 0 gives max(cosine, 0).
-// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
-fn ltc_clipped_sphere(cosine: f32, f: f32) -> f32 {
-    let z = clamp(cosine, -1.0, 1.0);
-    let s2 = clamp(f, 1.0e-12, 1.0);
-    let sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
-    let cos_s = sqrt(1.0 - s2);
-    let crossed = z * z < s2;
-    // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
-    let x = clamp(cos_s / sin_w, 0.0, 1.0);
-    let y = sqrt(max(1.0 - x * x, 0.0));
-    let root = sqrt(max(s2 - y * y, 0.0));
-    let arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
-    let rim = abs(z) * (y * root + s2 * trig_atan2(y, root));
-    let whole = steradian_pi() * s2 * max(z, 0.0);
-    let cut = select(whole, whole + arc - rim, crossed);
-    return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
-}
-
-// Adds one edge to the irradiance vector under M^-1 [rad].
-//
-//   ta, tb   ltc_direction of the edge's ends, in walk order
-fn ltc_clipless_add_edge(sum: vec3f, ta: vec3f, tb: vec3f) -> vec3f {
-    return sum + polygon_edge(ta, tb);
-}
-
-// Integral of the lobe over the light, approximately, in [0, 1].
-//
-//   sum      of ltc_clipless_add_edge, begun at zero
-//   reversed true where the light is seen from behind
-fn ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
-    let e = sum * select(1.0, -1.0, reversed);
-    let e2 = dot(e, e);
-    let inverse = inverseSqrt(max(e2, 1.0e-36));
-    let form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
-    return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
-}
-
 // ==== ltc_texture ====
 
 // Textured lights: where on a light a lobe looks, and how widely.
@@ -3291,6 +3058,55 @@ fn ltc_texture_place(g: LtcTextureEllipse, aside: vec2f, slope: vec2f, light: ve
     let push = vec2f(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
     let pushed2 = max(dot(push, e), 0.0);
     return d + push * (2.5 * inverseSqrt(max(pushed2, 6.25)));
+}
+
+// ==== ltc_clipless ====
+
+// Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
+// irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
+// Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
+
+// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
+//
+//   cosine   of the sphere's centre to z, in [-1, 1]
+//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
+//
+// Degenerate: f = 0 gives max(cosine, 0).
+// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
+fn ltc_clipped_sphere(cosine: f32, f: f32) -> f32 {
+    let z = clamp(cosine, -1.0, 1.0);
+    let s2 = clamp(f, 1.0e-12, 1.0);
+    let sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
+    let cos_s = sqrt(1.0 - s2);
+    let crossed = z * z < s2;
+    // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
+    let x = clamp(cos_s / sin_w, 0.0, 1.0);
+    let y = sqrt(max(1.0 - x * x, 0.0));
+    let root = sqrt(max(s2 - y * y, 0.0));
+    let arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
+    let rim = abs(z) * (y * root + s2 * trig_atan2(y, root));
+    let whole = steradian_pi() * s2 * max(z, 0.0);
+    let cut = select(whole, whole + arc - rim, crossed);
+    return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
+}
+
+// Adds one edge to the irradiance vector under M^-1 [rad].
+//
+//   ta, tb   ltc_direction of the edge's ends, in walk order
+fn ltc_clipless_add_edge(sum: vec3f, ta: vec3f, tb: vec3f) -> vec3f {
+    return sum + polygon_edge(ta, tb);
+}
+
+// Integral of the lobe over the light, approximately, in [0, 1].
+//
+//   sum      of ltc_clipless_add_edge, begun at zero
+//   reversed true where the light is seen from behind
+fn ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
+    let e = sum * select(1.0, -1.0, reversed);
+    let e2 = dot(e, e);
+    let inverse = inverseSqrt(max(e2, 1.0e-36));
+    let form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
+    return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }
 
 // ==== moment_arvo ====
@@ -3573,6 +3389,94 @@ fn moment_ellipsoid_front(edge: MomentEdge, n: f32, even_n: i32) -> f32 {
     return moment_fit_front(edge, p, fit, even_n);
 }
 
+// ==== representative_point ====
+
+// The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
+// the mirror direction, on a lobe widened to make up for it.
+//
+// Assumes that the light is small against the lobe, or the lobe against the light; between the two it is off by a third and more.
+//   1. The light is a point light of the light's solid angle, in the direction nearest to the mirror's.
+//   2. The lobe's peak falls by (alpha/alpha')^2, alpha' = alpha + radius/(2 distance). A sphere of that radius and distance
+//      has the solid angle W = pi (radius/distance)^2; of half vectors it covers W/(4 v.h), a disk of radius sqrt(W/(4 pi v.h)),
+//      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
+//      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
+// Walk the outline clipped to the horizon (horizon_clip.glsl).
+// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
+// radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
+
+// The state of a walk.
+//   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
+//            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
+//   nearest  direction on the outline nearest to it
+//   cosine   between the two
+struct RepresentativeWalk {
+    turn: f32,
+    nearest: vec3f,
+    cosine: f32,
+}
+
+// A walk with no edge yet.
+fn representative_begin() -> RepresentativeWalk {
+    var walk: RepresentativeWalk;
+    walk.turn = 0.0;
+    walk.nearest = vec3f(0.0, 0.0, 1.0);
+    walk.cosine = -2.0;
+    return walk;
+}
+
+// Adds one edge.
+//
+//   mirror   unit: the view mirrored at the normal
+//   a, b     unit directions of the edge's ends
+fn representative_add_edge(walk: RepresentativeWalk, mirror: vec3f, a: vec3f, b: vec3f) -> RepresentativeWalk {
+    var next = walk;
+    let ca = dot(mirror, a);
+    let cb = dot(mirror, b);
+    next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
+    // The nearest of the great circle, if it lies between the ends.
+    let n = cross(a, b);
+    let n2 = max(dot(n, n), 1.0e-30);
+    let p = mirror - n * (dot(mirror, n) / n2);
+    let on_circle = p * inverseSqrt(max(dot(p, p), 1.0e-30));
+    let between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
+    let nearest = select(select(b, a, ca > cb), on_circle, between);
+    let cosine = dot(mirror, nearest);
+    let better = cosine > walk.cosine;
+    next.nearest = select(walk.nearest, nearest, better);
+    next.cosine = select(walk.cosine, cosine, better);
+    return next;
+}
+
+// The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
+fn representative_direction(walk: RepresentativeWalk, mirror: vec3f, reversed: bool) -> vec3f {
+    let turn = select(walk.turn, -walk.turn, reversed);
+    return select(walk.nearest, mirror, turn > steradian_pi());
+}
+
+// Radiance towards the view, per radiance of the light, without Fresnel.
+//
+//   view, mirror  unit, in the shading frame
+//   solid_angle   of the light's part above the horizon [sr]
+//   alpha         of the GGX lobe
+//   reversed      true where the light is seen from behind
+//
+// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
+// towards alpha = 0 it is 1.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+fn representative_radiance(walk: RepresentativeWalk, view: vec3f, mirror: vec3f, solid_angle: f32, alpha: f32, reversed: bool) -> f32 {
+    let l = representative_direction(walk, mirror, reversed);
+    let h = microfacet_half_vector(l, view);
+    let wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
+    let fall = alpha / wider;
+    return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
+}
+
+// The half vector's cosine for Fresnel. Arguments as above.
+fn representative_v_dot_h(walk: RepresentativeWalk, view: vec3f, mirror: vec3f, reversed: bool) -> f32 {
+    let h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
+    return dot(view, h);
+}
+
 // ==== plane ====
 
 // Light in the plane: integrals of emission over the directions in which a piece of an edge or of a circle is seen.
@@ -3743,90 +3647,186 @@ fn plane_slope(w: f32, t: f32, beyond: f32) -> f32 {
     return select(beyond, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), w > 1.0e-12);
 }
 
-// ==== representative_point ====
+// ==== indirect ====
 
-// The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
-// the mirror direction, on a lobe widened to make up for it.
+// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
 //
-// Assumes that the light is small against the lobe, or the lobe against the light; between the two it is off by a third and more.
-//   1. The light is a point light of the light's solid angle, in the direction nearest to the mirror's.
-//   2. The lobe's peak falls by (alpha/alpha')^2, alpha' = alpha + radius/(2 distance). A sphere of that radius and distance
-//      has the solid angle W = pi (radius/distance)^2; of half vectors it covers W/(4 v.h), a disk of radius sqrt(W/(4 pi v.h)),
-//      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
-//      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
-// Walk the outline clipped to the horizon (horizon_clip.glsl).
-// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
-// radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
-
-// The state of a walk.
-//   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
-//            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
-//   nearest  direction on the outline nearest to it
-//   cosine   between the two
-struct RepresentativeWalk {
-    turn: f32,
-    nearest: vec3f,
-    cosine: f32,
-}
-
-// A walk with no edge yet.
-fn representative_begin() -> RepresentativeWalk {
-    var walk: RepresentativeWalk;
-    walk.turn = 0.0;
-    walk.nearest = vec3f(0.0, 0.0, 1.0);
-    walk.cosine = -2.0;
-    return walk;
-}
-
-// Adds one edge.
+// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
+// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
+// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
 //
-//   mirror   unit: the view mirrored at the normal
-//   a, b     unit directions of the edge's ends
-fn representative_add_edge(walk: RepresentativeWalk, mirror: vec3f, a: vec3f, b: vec3f) -> RepresentativeWalk {
-    var next = walk;
-    let ca = dot(mirror, a);
-    let cb = dot(mirror, b);
-    next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
-    // The nearest of the great circle, if it lies between the ends.
-    let n = cross(a, b);
-    let n2 = max(dot(n, n), 1.0e-30);
-    let p = mirror - n * (dot(mirror, n) / n2);
-    let on_circle = p * inverseSqrt(max(dot(p, p), 1.0e-30));
-    let between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
-    let nearest = select(select(b, a, ca > cb), on_circle, between);
-    let cosine = dot(mirror, nearest);
-    let better = cosine > walk.cosine;
-    next.nearest = select(walk.nearest, nearest, better);
-    next.cosine = select(walk.cosine, cosine, better);
-    return next;
-}
-
-// The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
-fn representative_direction(walk: RepresentativeWalk, mirror: vec3f, reversed: bool) -> vec3f {
-    let turn = select(walk.turn, -walk.turn, reversed);
-    return select(walk.nearest, mirror, turn > steradian_pi());
-}
-
-// Radiance towards the view, per radiance of the light, without Fresnel.
+//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
 //
-//   view, mirror  unit, in the shading frame
-//   solid_angle   of the light's part above the horizon [sr]
-//   alpha         of the GGX lobe
-//   reversed      true where the light is seen from behind
+// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
+// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
+// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
+
+// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
 //
-// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
-// towards alpha = 0 it is 1.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
-fn representative_radiance(walk: RepresentativeWalk, view: vec3f, mirror: vec3f, solid_angle: f32, alpha: f32, reversed: bool) -> f32 {
-    let l = representative_direction(walk, mirror, reversed);
-    let h = microfacet_half_vector(l, view);
-    let wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
-    let fall = alpha / wider;
-    return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
+// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
+struct IndirectLobe {
+    x: vec3f,
+    y: vec3f,
+    z: vec3f,
+    scale: f32,
 }
 
-// The half vector's cosine for Fresnel. Arguments as above.
-fn representative_v_dot_h(walk: RepresentativeWalk, view: vec3f, mirror: vec3f, reversed: bool) -> f32 {
-    let h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
-    return dot(view, h);
+// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+fn indirect_lobe(m: LtcMatrix, frame: mat3x3f) -> IndirectLobe {
+    var lobe: IndirectLobe;
+    lobe.x = steradian_transform(frame, vec3f(m.xx, 0.0, m.xz));
+    lobe.y = steradian_transform(frame, vec3f(0.0, m.yy, 0.0));
+    lobe.z = steradian_transform(frame, vec3f(m.zx, 0.0, m.zz));
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    return lobe;
+}
+
+// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
+fn indirect_turned(lobe: IndirectLobe) -> IndirectLobe {
+    var turned: IndirectLobe;
+    turned.x = -lobe.x;
+    turned.y = -lobe.y;
+    turned.z = -lobe.z;
+    turned.scale = lobe.scale;
+    return turned;
+}
+
+// Under M^-1. Any vector.
+fn indirect_under(lobe: IndirectLobe, v: vec3f) -> vec3f {
+    return vec3f(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
+}
+
+// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
+//
+//   v        as the lobe's rows take it
+//   d2       dot(v, v)
+//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
+//
+// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
+fn indirect_glossy_half(lobe: IndirectLobe, v: vec3f, d2: f32, wide2: f32) -> f32 {
+    let w = indirect_under(lobe, v);
+    let w2 = dot(w, w);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
+}
+
+// Half of a diffuse end of albedo pi: cosine over distance.
+fn indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
+    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+}
+
+// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
+//
+//   v        light's position minus the surface's
+//   lobe     of the surface and its view; times rho_f: with Fresnel
+//
+// Degenerate: v = 0 gives 0.
+// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
+fn indirect_point_light(lobe: IndirectLobe, v: vec3f) -> f32 {
+    let d2 = dot(v, v);
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inverseSqrt(max(d2, 1.0e-36));
+}
+
+// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
+// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
+struct IndirectPair {
+    from_diffuse: f32,
+    from_glossy: f32,
+    to_diffuse: f32,
+    to_glossy: f32,
+}
+
+// Both ends at once: no square root, one division.
+//
+//   receiver, n          the receiver's lobe and normal
+//   light, light_n       the virtual light's, turned
+//
+// What lies below either horizon gives 0: a lobe leaks there.
+// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
+// falls below 1.0e-36 the peak is cut.
+fn indirect_pair(v: vec3f, n: vec3f, receiver: IndirectLobe, light_n: vec3f, light: IndirectLobe) -> IndirectPair {
+    let d2 = dot(v, v);
+    let w = indirect_under(receiver, v);
+    let o = indirect_under(light, v);
+    let w2 = dot(w, w);
+    let o2 = dot(o, o);
+    let w4 = w2 * w2;
+    let o4 = o2 * o2;
+    let both = w4 * o4;
+    let inverse = 1.0 / max(d2 * both, 1.0e-36);
+    let peak = inverse * d2 * d2;
+    let n_v = max(dot(n, v), 0.0);
+    let light_n_v = max(dot(light_n, v), 0.0);
+    var pair: IndirectPair;
+    pair.to_diffuse = n_v * (inverse * both);
+    pair.from_diffuse = light_n_v * (inverse * both);
+    pair.to_glossy = select(0.0, max(w.z, 0.0) * (peak * o4), n_v > 0.0);
+    pair.from_glossy = select(0.0, max(o.z, 0.0) * (peak * w4), light_n_v > 0.0);
+    return pair;
+}
+
+// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
+//
+//   incoming unit, from the virtual light to the light that feeds it
+//   v        to the virtual light
+fn indirect_grazing(incoming: vec3f, v: vec3f, d2: f32) -> f32 {
+    let cosine = -dot(incoming, v) * inverseSqrt(max(d2, 1.0e-36));
+    let half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
+    return fresnel_schlick(0.0, 1.0, half_angle * inverseSqrt(half_angle));
+}
+
+// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
+struct IndirectGgx {
+    lobe: f32,
+    grazing: f32,
+}
+
+// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
+//
+//   frame    x along the view, z the normal
+//   view     unit, in the frame
+fn indirect_ggx(frame: mat3x3f, view: vec3f, alpha: f32, l: vec3f) -> IndirectGgx {
+    let local = steradian_transform_transposed(frame, l);
+    let h = microfacet_half_vector(local, view);
+    var end: IndirectGgx;
+    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
+    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
+    return end;
+}
+
+// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
+//
+//   value      the half; its irradiance at the receiver is bright times value over distance
+//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
+//   xi         of the virtual light, in (0, 1)
+//
+// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
+// Source: Tokuyoshi, Harada 2016.
+fn indirect_kept(value: f32, reach: f32, xi: f32) -> f32 {
+    return select(0.0, max(value, reach), value > xi * reach);
+}
+
+// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
+fn indirect_largest_stretch(m: LtcMatrix) -> f32 {
+    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
+    let determinant = m.xx * m.zz - m.xz * m.zx;
+    let square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
+    let gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
+    let larger2 = 0.5 * (square + gap2 * inverseSqrt(max(gap2, 1.0e-36)));
+    let least2 = determinant * determinant / max(larger2, 1.0e-36);
+    return inverseSqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+}
+
+// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+//
+//   lobe     turned; a diffuse light's: its frame
+//   v        virtual light's position minus the point's
+//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//
+// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
+// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
+// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
+fn indirect_spheroid(lobe: IndirectLobe, v: vec3f, range: f32) -> vec3f {
+    let w = indirect_under(lobe, v);
+    let inverse = 1.0 / range;
+    return vec3f(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds kernel files to the dialect of docs/dialect.md: dialect_lint.py FILE.glsl...
+"""Holds kernels and their parity cases to the dialect of docs/dialect.md.
 
 Works on tokens, without types: what only a type checker can see is left to the compilers, which read the same files.
 Exit 1 when a file breaks a rule; each finding names file, line and rule.
@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
-from kernel_text import tokenize, topics, with_needs  # noqa: E402
+from kernel_text import CASE, FOLDERS, KERNELS, ROOT, case_files, kernel_files, needs, tokenize, topics, with_needs  # noqa: E402
 from reserved_words import RESERVED  # noqa: E402
 
 VECTORS = {"vec2": 2, "vec3": 3, "vec4": 4, "mat3": 3}
@@ -369,11 +369,20 @@ def lint_file(path, cache):
     return cache[path][0]
 
 
+def upward_needs(path):
+    """What a file needs of folders after its own."""
+    place = {folder: n for n, folder in enumerate(FOLDERS)}
+    return [p for p in needs(path, path.read_text()) if place.get(p.parent.name, -1) > place.get(path.parent.name, -1)]
+
+
 def main():
     cache, bad = {}, 0
-    files = [Path(a) for a in sys.argv[1:]]
+    files = kernel_files() + [CASE] + case_files()
     owner = {}
     for path in files:
+        for needed in upward_needs(path):
+            bad += 1
+            print(f"{path}: needs {needed}: a folder may need those before it ({', '.join(FOLDERS)})")
         for line, rule in lint_file(path, cache):
             bad += 1
             print(f"{path}:{line}: {rule}")
@@ -382,6 +391,10 @@ def main():
                 bad += 1
                 print(f"{path}: {name} is also defined in {owner[name]}: all kernels share one scope")
             owner[name] = path
+    listed = re.findall(r'#include "(\w+/\w+\.glsl)"', (ROOT / "include" / "steradian" / "kernels.h").read_text())
+    for path in {str(p.relative_to(KERNELS)) for p in kernel_files()} ^ set(listed):
+        bad += 1
+        print(f"include/steradian/kernels.h: {path} is a kernel or is included, and not both")
     print(f"{len(files)} files, {len(owner)} functions and structs, {bad} findings")
     sys.exit(bad > 0 or not files)
 

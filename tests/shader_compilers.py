@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compiles every kernel file with one shader compiler: shader_compilers.py glsl|es|hlsl KERNELS
+"""Compiles every kernel file with one shader compiler: shader_compilers.py glsl|es|hlsl
 
 Each file alone, after its language's prelude and what its `// Needs:` line names.
 """
@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
-from kernel_text import kernel_files, with_needs  # noqa: E402
+from kernel_text import KERNELS, kernel_files, with_needs  # noqa: E402
 
 LANGUAGES = {
     "glsl": ("prelude.glsl", "#version 450\n", "layout(local_size_x = 1) in;\nvoid main() {}\n", ".comp",
@@ -24,7 +24,7 @@ LANGUAGES = {
 def compile_kernel(language, path):
     """(compiled, the compiler's words)"""
     prelude, head, tail, suffix, command = LANGUAGES[language]
-    parts = [path.parent / "prelude" / prelude] + with_needs(path)
+    parts = [KERNELS / "prelude" / prelude] + with_needs(path)
     text = head
     for number, part in enumerate(parts):  # messages then name the string and the line in the file
         text += f"#line 1 {number}\n" if language != "hlsl" else f'#line 1 "{part.name}"\n'
@@ -38,9 +38,9 @@ def compile_kernel(language, path):
 
 
 def main():
-    language, kernels = sys.argv[1:]
+    language, = sys.argv[1:]
     failed = 0
-    files = kernel_files(kernels)
+    files = kernel_files()
     for path in files:
         good, words = compile_kernel(language, path)
         if not good:

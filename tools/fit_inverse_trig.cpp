@@ -1,4 +1,4 @@
-// Finds the polynomials of kernels/inverse_trig.glsl: Chebyshev interpolation in 113-bit arithmetic, turned into
+// Finds the polynomials of kernels/math/inverse_trig.glsl: Chebyshev interpolation in 113-bit arithmetic, turned into
 // monomials and rounded to 17 digits.
 //
 //   fit_inverse_trig                 prints the four functions as they stand in the kernel file

@@ -1,4 +1,4 @@
-// Finds the coefficients of kernels/moment_series.glsl: the cosine series of E(u), the factor between the Phong
+// Finds the coefficients of kernels/integral/moment_series.glsl: the cosine series of E(u), the factor between the Phong
 // lobe's boundary integrand and the ellipsoid that matches its peak and its tail (docs/moments.md).
 //
 //   fit_phong_series                 prints the two functions as they stand in the kernel file, and their errors

@@ -1,14 +1,20 @@
 """Kernel files as texts: tokens, header lines, order of dependency. Used by the lint, the shader tests and dist/.
 
-The comment at the head of a kernel file may hold two lines that scripts read:
+Kernels lie in the folders of FOLDERS, x.glsl with its parity cases x_cases.glsl beside it. A file may need files of its own
+folder and of the folders before it; names are unique over all of them. The comment at the head of a file may hold two lines
+that scripts read:
     // Needs: inverse_trig.glsl        files whose functions this one calls (comma between several)
     // Topics: phong, blinn_phong      prefixes of its functions; without the line: the file's name
+A file of cases needs the kernels beside it and tests/parity/case.glsl without saying so, and its topic is `case`.
 """
 import re
 from collections import namedtuple
 from pathlib import Path
 
-KERNELS = Path(__file__).resolve().parent.parent / "kernels"
+ROOT = Path(__file__).resolve().parent.parent
+KERNELS = ROOT / "kernels"
+FOLDERS = ("math", "outline", "lobe", "integral", "comparison", "plane", "indirect")
+CASE = ROOT / "tests" / "parity" / "case.glsl"  # what every file of cases needs
 
 Token = namedtuple("Token", "kind text line")  # kind: name, number, op, comment, directive, error
 
@@ -41,13 +47,25 @@ def header_list(text, key):
     return None
 
 
-def needs(text):
-    names = header_list(text, "Needs") or []
-    return [n if n.endswith(".glsl") else n + ".glsl" for n in names]
+def is_cases(path):
+    return path.stem.endswith("_cases")
+
+
+def needs(path, text):
+    """The paths of the files that `path` needs."""
+    path = Path(path)
+    found = [CASE, path.with_name(path.name.replace("_cases.", "."))] if is_cases(path) else []
+    for name in header_list(text, "Needs") or []:
+        name = name if name.endswith(".glsl") else name + ".glsl"
+        places = [p for p in [path.with_name(name), *(KERNELS / folder / name for folder in FOLDERS)] if p.exists()]
+        if not places:
+            raise ValueError(f"{path}: needs {name}, which does not exist")
+        found.append(places[0])
+    return found
 
 
 def topics(path, text):
-    return header_list(text, "Topics") or [Path(path).stem]
+    return header_list(text, "Topics") or (["case"] if is_cases(Path(path)) else [Path(path).stem])
 
 
 def with_needs(path, _open=()):
@@ -56,20 +74,21 @@ def with_needs(path, _open=()):
     if path in _open:
         raise ValueError(f"{path}: Needs run in a circle: {' -> '.join(p.name for p in _open)}")
     order = []
-    for name in needs(path.read_text()):
-        needed = path.parent / name
-        if not needed.exists():
-            needed = KERNELS / name
-        if not needed.exists():
-            raise ValueError(f"{path}: needs {name}, which does not exist")
+    for needed in needs(path, path.read_text()):
         for p in with_needs(needed, _open + (path,)):
             if p not in order:
                 order.append(p)
     return order + [path]
 
 
-def kernel_files(folder):
-    return sorted(Path(folder).glob("*.glsl"))
+def kernel_files():
+    """Every kernel, folder by folder; not their cases."""
+    return [p for folder in FOLDERS for p in sorted((KERNELS / folder).glob("*.glsl")) if not is_cases(p)]
+
+
+def case_files():
+    """Every file of cases, folder by folder."""
+    return [p for folder in FOLDERS for p in sorted((KERNELS / folder).glob("*_cases.glsl"))]
 
 
 def functions(text):
@@ -94,10 +113,10 @@ def calls(body):
     return {t.text for t, after in zip(body[3:], body[4:]) if t.kind == "name" and after.text == "("}
 
 
-def in_order(folder):
-    """Every kernel file of a folder, each after what it needs."""
+def in_order(files):
+    """The files and all they need, each after what it needs."""
     order = []
-    for path in kernel_files(folder):
+    for path in files:
         for p in with_needs(path):
             if p not in order:
                 order.append(p)

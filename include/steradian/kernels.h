@@ -1,4 +1,4 @@
-// Kernels<S>: every integral of kernels/*.glsl, compiled as C++ for the number type S.
+// Kernels<S>: every integral of kernels/, compiled as C++ for the number type S.
 //
 //   steradian::Kernels<double> k;                       // the oracle
 //   auto w = k.polygon_begin();                         // walk a polygon edge by edge, in walk order
@@ -26,65 +26,45 @@ struct Kernels {
   // 24 where float accuracy is all that S carries, 53 for double: kernels choose their polynomials by it.
   static constexpr int real_digits() { return RealTraits<S>::kDigits; }
 
-#include "inverse_trig.glsl"
+// In the order of dependency (tests/dialect_lint.py holds the list to the folders).
+// clang-format off
+#include "math/complex.glsl"
+#include "math/frame.glsl"
+#include "math/gauss_legendre.glsl"
+#include "math/inverse_trig.glsl"
+#include "math/quartic.glsl"
 
-#include "frame.glsl"
+#include "outline/polygon.glsl"
+#include "outline/conic.glsl"
+#include "outline/ellipse.glsl"
+#include "outline/capsule.glsl"
+#include "outline/ellipsoid.glsl"
+#include "outline/horizon_clip.glsl"
 
-#include "polygon.glsl"
+#include "lobe/lambert.glsl"
+#include "lobe/lobe_product.glsl"
+#include "lobe/microfacet.glsl"
+#include "lobe/phong.glsl"
 
-#include "ellipsoid.glsl"
+#include "integral/ggx_closed_form.glsl"
+#include "integral/ggx_cubature.glsl"
+#include "integral/moment.glsl"
+#include "integral/moment_quadrature.glsl"
+#include "integral/moment_series.glsl"
+#include "integral/moment_cosine.glsl"
+#include "integral/half_vector.glsl"
+#include "integral/ltc.glsl"
+#include "integral/ltc_texture.glsl"
 
-#include "horizon_clip.glsl"
+#include "comparison/ltc_clipless.glsl"
+#include "comparison/moment_arvo.glsl"
+#include "comparison/moment_peak_fits.glsl"
+#include "comparison/representative_point.glsl"
 
-#include "lambert.glsl"
+#include "plane/plane.glsl"
 
-#include "phong.glsl"
-
-#include "moment.glsl"
-
-#include "moment_quadrature.glsl"
-
-#include "moment_series.glsl"
-
-#include "moment_cosine.glsl"
-
-#include "moment_arvo.glsl"
-
-#include "moment_peak_fits.glsl"
-
-#include "lobe_product.glsl"
-
-#include "microfacet.glsl"
-
-#include "ltc.glsl"
-
-#include "ltc_texture.glsl"
-
-#include "ltc_clipless.glsl"
-
-#include "representative_point.glsl"
-
-#include "complex.glsl"
-
-#include "gauss_legendre.glsl"
-
-#include "quartic.glsl"
-
-#include "conic.glsl"
-
-#include "ggx_closed_form.glsl"
-
-#include "ggx_cubature.glsl"
-
-#include "half_vector.glsl"
-
-#include "ellipse.glsl"
-
-#include "capsule.glsl"
-
-#include "indirect.glsl"
-
-#include "plane.glsl"
+#include "indirect/indirect.glsl"
+// clang-format on
 
 // Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
 #ifdef STERADIAN_KERNEL_EXTENSION

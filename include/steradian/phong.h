@@ -43,7 +43,7 @@ const char* name_of(PhongMethod method);
 Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                      const PhongOptions& options = {});
 
-// The same in single precision. exact is the fixed quadrature of kernels/moment_quadrature.glsl, with 14 nodes.
+// The same in single precision. exact is the fixed quadrature of kernels/integral/moment_quadrature.glsl, with 14 nodes.
 Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                            const PhongOptions& options = {});
 

@@ -16,7 +16,7 @@ struct PolygonLight {
   bool two_sided = false;
 };
 
-// A light ready to be walked: every contour in walk order (the reverse of the stored order, see kernels/polygon.glsl).
+// A light ready to be walked: every contour in walk order (the reverse of the stored order, see kernels/outline/polygon.glsl).
 struct PreparedPolygon {
   std::vector<Vec3d> vertices;        // of all contours, one after the other
   std::vector<std::size_t> contours;  // where each contour begins, and the number of vertices at the end

@@ -1,4 +1,4 @@
-// The kernels of kernels/indirect.glsl against GGX itself and against the definitions they shorten.
+// The kernels of kernels/indirect/indirect.glsl against GGX itself and against the definitions they shorten.
 #include <gtest/gtest.h>
 
 #include <algorithm>

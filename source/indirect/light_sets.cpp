@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-// Of the spheroid that holds a light's egg (kernels/indirect.glsl, indirect_spheroid).
+// Of the spheroid that holds a light's egg (kernels/indirect/indirect.glsl, indirect_spheroid).
 constexpr float kCenter = kBallCenter, kAlong = kBallAlong, kAcross = kBallRadius;
 
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float

@@ -9,7 +9,7 @@
 
 namespace steradian::indirect {
 
-// Lobes of surfaces, for kernels/indirect.glsl. Arrays of a multiple of 16.
+// Lobes of surfaces, for kernels/indirect/indirect.glsl. Arrays of a multiple of 16.
 struct LobeArrays {
   VectorArray x, y, z;        // rows of M^-1 in world space
   FloatArray scale;   // |M^-1| / pi

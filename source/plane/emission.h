@@ -1,4 +1,4 @@
-// What a visible piece of a light sends to the point: closed forms of kernels/plane.glsl, in double.
+// What a visible piece of a light sends to the point: closed forms of kernels/plane/plane.glsl, in double.
 #pragma once
 
 #include "plane/envelope.h"

@@ -1,4 +1,4 @@
-// Closed forms of kernels/plane.glsl against quadrature.
+// Closed forms of kernels/plane/plane.glsl against quadrature.
 #include <gtest/gtest.h>
 
 #include <cmath>

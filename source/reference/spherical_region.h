@@ -1,5 +1,5 @@
 // SphericalRegion: what a point sees of a light, as arcs of great circles; the ground that quadrature and sampling
-// share. Clipping is done here on vertices (Sutherland-Hodgman), not as in kernels/polygon.glsl, to stay independent.
+// share. Clipping is done here on vertices (Sutherland-Hodgman), not as in kernels/outline/polygon.glsl, to stay independent.
 #pragma once
 
 #include <vector>

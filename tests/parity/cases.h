@@ -1,4 +1,4 @@
-// The parity cases of cases.glsl as C++ sees them: what they are called, where their inputs come from, and the means
+// The parity cases of the kernels' x_cases.glsl as C++ sees them: what they are called, where their inputs come from, and the means
 // to run them as double, float, packs, and in arithmetic that carries a bound on every rounding.
 #pragma once
 

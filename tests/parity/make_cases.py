@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Reads cases.glsl and writes what the parity harness is built from.
+"""Reads the kernels' x_cases.glsl and writes what the parity harness is built from.
 
-    make_cases.py table CASES                 the C++ table: name, title, domains, measure
-    make_cases.py shader glsl|hlsl|wgsl CASES a compute shader whose run() calls every case, for split_spirv.py to take apart
-    make_cases.py broken-shader glsl CASES    the same with a mistake in the prelude, which the parity test must find
-    make_cases.py reached CASES               exit 1 when a kernel function is called by no case, even indirectly
+    make_cases.py table                  the C++ table: name, title, domains, measure
+    make_cases.py includes               #include lines for every file of cases, for C++
+    make_cases.py shader glsl|hlsl|wgsl  a compute shader whose run() calls every case, for split_spirv.py to take apart
+    make_cases.py broken-shader glsl     the same with a mistake in the prelude, which the parity test must find
+    make_cases.py reached                exit 1 when a kernel function is called by no case, even indirectly
 """
 import re
 import sys
@@ -13,16 +14,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "dist")]
 import make_dist  # noqa: E402
-from kernel_text import KERNELS, calls, functions, kernel_files, with_needs  # noqa: E402
+from kernel_text import CASE, KERNELS, calls, case_files, functions, in_order, is_cases, kernel_files  # noqa: E402
 
 MEMBERS = {f"{v}.{c}": 4 * "abcd".index(v) + "xyzw".index(c) for v in "abcd" for c in "xyzw"}
 MEMBERS.update({f"{v}.xyz": 4 * "abcd".index(v) for v in "abcd"})
 WIDE = ("direction", "upper_direction", "vector")
 
 
-def cases(path):
-    """[dict] in file order."""
-    text = Path(path).read_text()
+def cases():
+    """[dict] in the order of the files and in them."""
+    return [case for path in in_order(case_files()) if is_cases(path) for case in cases_of(path)]
+
+
+def cases_of(path):
+    text = path.read_text()
     found = []
     for match in re.finditer(r"((?:^//.*\n)+)vec4 case_(\w+)\(CaseInput i\)", text, re.MULTILINE):
         comment = [line[2:].strip() for line in match.group(1).splitlines()]
@@ -46,9 +51,9 @@ def cases(path):
     return found
 
 
-def call_graph(path):
+def call_graph():
     graph = {}
-    for part in with_needs(path):
+    for part in in_order(case_files()):
         graph.update({name: calls(body) for name, body in functions(part.read_text())})
     return graph
 
@@ -63,14 +68,20 @@ def reached_from(graph, names):
     return seen
 
 
-def table(path):
-    graph = call_graph(path)
-    print("// Written by make_cases.py from cases.glsl: PARITY_CASE(name, title, measure, values, arithmetic only, bound, inputs)")
-    for case in cases(path):
+def table():
+    graph = call_graph()
+    print("// Written by make_cases.py: PARITY_CASE(name, title, measure, values, arithmetic only, bound, inputs)")
+    for case in cases():
         arithmetic = not reached_from(graph, ["case_" + case["name"]]) & {"exp", "log"}
         inputs = ", ".join(f"{{{first}, Domain::{domain}, {low}, {high}}}" for first, domain, low, high in case["inputs"])
         print(f"PARITY_CASE({case['name']}, \"{case['title']}\", Measure::{case['measure']}, {case['values']}, "
               f"{'true' if arithmetic else 'false'}, Bound::{case['bound']}, ({{{inputs}}}))")
+
+
+def includes():
+    for path in in_order(case_files()):
+        if path == CASE or is_cases(path):
+            print(f'#include "{path.relative_to(CASE.parent if path == CASE else KERNELS)}"')
 
 
 GLSL = """
@@ -141,21 +152,21 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
 """
 
 
-def calls_of_every_case(path):
-    return "".join(f"    r = case_{case['name']}(i);\n" for case in cases(path))
+def calls_of_every_case():
+    return "".join(f"    r = case_{case['name']}(i);\n" for case in cases())
 
 
-def wgsl_shader(path):
+def wgsl_shader():
     printer = make_dist.Wgsl()
     print(make_dist.WGSL_HELPERS)
-    for part in with_needs(path):
+    for part in in_order(case_files()):
         print(printer(make_dist.without_double(part.read_text())))
-    print(WGSL.replace("CALLS", calls_of_every_case(path)))
+    print(WGSL.replace("CALLS", calls_of_every_case()))
 
 
-def shader(language, path, broken=False):
+def shader(language, broken=False):
     if language == "wgsl":
-        return wgsl_shader(path)
+        return wgsl_shader()
     prelude = (KERNELS / "prelude" / f"prelude.{language}").read_text()
     if broken:  # a select that mixes up its sides
         right = "float select(bool m, float a, float b) { return m ? a : b; }"
@@ -163,28 +174,28 @@ def shader(language, path, broken=False):
         prelude = prelude.replace(right, right.replace("a : b", "b : a"))
     print("#version 450" if language == "glsl" else "")
     print(prelude)
-    for part in with_needs(path):
+    for part in in_order(case_files()):
         print(part.read_text())
-    print((GLSL if language == "glsl" else HLSL).replace("CALLS", calls_of_every_case(path)))
+    print((GLSL if language == "glsl" else HLSL).replace("CALLS", calls_of_every_case()))
 
 
-def reached(path):
-    graph = call_graph(path)
-    seen = reached_from(graph, ["case_" + case["name"] for case in cases(path)])
+def reached():
+    graph = call_graph()
+    seen = reached_from(graph, ["case_" + case["name"] for case in cases()])
     wrong = 0
-    for part in kernel_files(KERNELS):
+    for part in kernel_files():
         for name, _ in functions(part.read_text()):
             if name not in seen:
                 wrong += 1
-                print(f"{part.name}: {name} is reached by no parity case: add one to {path}")
-    print(f"{len(cases(path))} cases; {wrong} kernel functions without one")
+                print(f"{part.name}: {name} is reached by no parity case: add one to {part.stem}_cases.glsl")
+    print(f"{len(cases())} cases; {wrong} kernel functions without one")
     sys.exit(wrong > 0)
 
 
 def main():
     job, *rest = sys.argv[1:]
-    {"table": table, "shader": shader, "reached": reached,
-     "broken-shader": lambda language, path: shader(language, path, broken=True)}[job](*rest)
+    {"table": table, "includes": includes, "shader": shader, "reached": reached,
+     "broken-shader": lambda language: shader(language, broken=True)}[job](*rest)
 
 
 if __name__ == "__main__":

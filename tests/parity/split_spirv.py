@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""split_spirv.py SPIRV CASES FOLDER: from the shader that knows every case, FOLDER/NAME.spv for each, with that case alone.
+"""split_spirv.py SPIRV FOLDER: from the shader that knows every case, FOLDER/NAME.spv for each, with that case alone.
 
 A driver compiles all that a module holds; with every case in one module the test would spend its time there. main() calls
 run(), whose calls are the cases in their order (make_cases.py): each module calls its case in run()'s place, and what is
@@ -94,7 +94,7 @@ def defined(instruction):
 def main():
     data = Path(sys.argv[1]).read_bytes()
     module = Module(list(struct.unpack(f"<{len(data) // 4}I", data)))
-    names, folder = [case["name"] for case in cases(sys.argv[2])], Path(sys.argv[3])
+    names, folder = [case["name"] for case in cases()], Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     caller, chooser = module.chooser(len(names))
     for name, case in zip(names, module.calls(chooser)):

@@ -36,9 +36,9 @@ def main():
     wgsl_command(scratch)  # fetches naga
     (scratch / "translate.mjs").write_text(TRANSLATE)
     source, spirv, folder = scratch / "parity.wgsl", scratch / "parity_wgsl.spv", scratch / "parity_wgsl"
-    source.write_text(run([sys.executable, HERE / "make_cases.py", "shader", "wgsl", HERE / "cases.glsl"]))
+    source.write_text(run([sys.executable, HERE / "make_cases.py", "shader", "wgsl"]))
     run(["node", scratch / "translate.mjs", source, spirv])
-    run([sys.executable, HERE / "split_spirv.py", spirv, HERE / "cases.glsl", folder])
+    run([sys.executable, HERE / "split_spirv.py", spirv, folder])
     table = run([program, "10000", "WGSL", folder])
     if "WGSL" not in table:
         skip("no Vulkan device")

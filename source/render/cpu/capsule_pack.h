@@ -33,7 +33,7 @@ __attribute__((flatten, noinline)) inline PackKernels::mask is_outside_capsule(c
   return capsule_in_frame(light, PackKernels::mat3(x, y, z), p).outside;
 }
 
-//   axis, width  of the lobe, in the frame: see kernels/capsule.glsl, capsule_fan
+//   axis, width  of the lobe, in the frame: see kernels/outline/capsule.glsl, capsule_fan
 __attribute__((flatten, noinline)) inline void capsule_corners(const PackLight& light, int corners, const PackKernels::mat3& frame,
                                                                const PackVec3& p, const PackVec3& axis, const PackReal& width,
                                                                CapsuleCorners& result) {

@@ -37,7 +37,7 @@ STERADIAN_INLINE PackKernels::Ellipse outline_in_frame(const PackKernels::Ellips
 
 // The outline as a polygon of its area whose corners gather where the lobe is sharp, in walk order.
 //
-//   axis, width  of the lobe, in the frame: see kernels/ellipse.glsl, ellipse_fan_concentrated
+//   axis, width  of the lobe, in the frame: see kernels/outline/ellipse.glsl, ellipse_fan_concentrated
 template <class Start, class Edge>
 STERADIAN_INLINE void walk_outline_about(const PackKernels::EllipsoidOutline& outline, int corners,
                                          const PackKernels::mat3& frame, const PackVec3& axis, const PackReal& width,

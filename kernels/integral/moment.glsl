@@ -10,8 +10,8 @@
 //                 + the azimuth that the part behind sweeps ).
 // moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
 //
-// Frame: any; r is the unit axis. Edges in walk order (kernels/polygon.glsl), clipped to the surface's horizon
-// (kernels/horizon_clip.glsl) before, so that -r cannot be inside a light.
+// Frame: any; r is the unit axis. Edges in walk order (kernels/outline/polygon.glsl), clipped to the surface's horizon
+// (kernels/outline/horizon_clip.glsl) before, so that -r cannot be inside a light.
 // Source: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena", 1995; Lecocq,
 // Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017. The form without
 // parity is this project's own.

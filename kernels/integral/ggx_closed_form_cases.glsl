@@ -1,0 +1,17 @@
+// Parity cases of ggx_closed_form.glsl; tests/parity/case.glsl says how to write one.
+// Needs: half_vector.glsl
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// GGX, the image of an edge: half vectors on it
+//   a.xyz  upper_direction
+//   b.xyz  upper_direction
+//   c.xyz  upper_direction
+//   a.w    log(0.01, 1)
+//   b.w    log(0.01, 1)
+//   c.w    range(0, 1)
+// Values: 3
+vec4 case_ggx_edge(CaseInput i) {
+    GgxView view = ggx_view(case_xyz(i.a), i.a.w, i.b.w);
+    ConicArc edge = ggx_edge(view, case_xyz(i.b), case_xyz(i.c));
+    return case_of_vec3(half_vector_at(view, edge, edge.begin + i.c.w * (edge.end - edge.begin)));
+}
