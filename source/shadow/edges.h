@@ -1,0 +1,48 @@
+// EdgeMesh: the triangles that can block light, and their edges, welded over all meshes. Made once per scene.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "steradian/scene.h"
+#include "steradian/vector.h"
+
+namespace steradian::shadow {
+
+// dot(normal, x) = offset; the front is where the corners run counter-clockwise.
+struct Plane {
+  Vec3d normal;
+  double offset = 0;
+};
+
+// A triangle at an edge: walks is +1 where it walks the edge from v0 to v1, -1 where the other way.
+struct EdgeTriangle {
+  std::uint32_t triangle = 0;
+  std::int32_t walks = 1;
+};
+
+// v0 < v1. Its triangles: edge_triangles[first], ..., as many as there are: one at a border, two inside a surface, any
+// number where surfaces meet.
+struct Edge {
+  std::uint32_t v0 = 0, v1 = 0;
+  std::uint32_t first = 0, count = 0;
+};
+
+struct EdgeMesh {
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Plane> planes;                                // of the triangles
+  std::vector<Edge> edges;                                  // sorted by (v0, v1)
+  std::vector<EdgeTriangle> edge_triangles;
+  std::vector<std::array<std::uint32_t, 3>> triangle_edges; // side i runs from corner i to corner i + 1
+};
+
+// Nothing asks whether surfaces are closed, oriented or manifold. Equal positions become one vertex; triangles with two
+// equal corners or a coordinate that is not finite are dropped.
+EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices);
+
+// Of everything that blocks the light of a scene exactly: not the shapes that stand for lights, not cut-outs.
+EdgeMesh build_edges(const Scene& scene);
+
+}  // namespace steradian::shadow

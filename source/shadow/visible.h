@@ -1,0 +1,47 @@
+// The part of a light that a point sees: which level of the count is the visible one, and the pieces that bound it.
+// Steps 7 and 8 of docs/shadows.md.
+#pragma once
+
+#include <vector>
+
+#include "shadow/arrangement.h"
+
+namespace steradian::shadow {
+
+// What stands between two points. Implementations see exactly the triangles whose edges were gathered.
+class Blockers {
+ public:
+  virtual ~Blockers() = default;
+  // Whether anything lies between them; near the ends counts.
+  virtual bool between(Vec3d from, Vec3d to) const = 0;
+};
+
+// A piece of the boundary of the visible region, in cells of the light's box; the region lies on the left.
+struct Boundary {
+  double ax = 0, ay = 0, bx = 0, by = 0;
+  Source source = Source::edge;
+  std::uint32_t segment = 0;
+};
+
+struct VisibleRegion {
+  std::vector<Boundary> boundary;  // empty: nothing is seen
+  std::int32_t level = 0;          // the count that is none
+  int rays = 0;
+};
+
+// Memory that one thread uses again.
+struct Scratch {
+  SegmentSet set;
+  std::vector<Piece> pieces;
+};
+
+// Arranges scratch.set and finds the visible region; `from` is the point of which the set was made.
+void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result);
+
+// A boundary's ends relative to the point, in world space.
+struct WorldPiece {
+  Vec3d a, b;
+};
+WorldPiece relative_to(Vec3d from, const LightFrame& frame, const Boundary& piece);
+
+}  // namespace steradian::shadow

@@ -1,0 +1,35 @@
+#include "shadow/visible_part.h"
+
+#include "shadow/visible.h"
+
+namespace steradian::shadow {
+
+PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift) {
+  PreparedPolygon part = light;
+  part.vertices.clear();
+  part.contours = {0};
+  const int side = light.side_of(from.position);
+  if (side == 0 || (side < 0 && !light.two_sided)) return part;
+
+  const LightFrame frame = light_frame(light, side);
+  LocalEdges<double> edges;
+  edges.assign_all(occluders.mesh, frame);
+  Scratch scratch;
+  edges.see(from, scratch.set);
+  VisibleRegion region;
+  find_visible(frame, from.position, occluders.rays, scratch, region);
+  const auto place = [&](Vec3d relative) {
+    const double least = lift * length(relative), height = dot(relative, from.normal);
+    return from.position + (height < least ? relative + from.normal * (least - height) : relative);
+  };
+  for (const Boundary& piece : region.boundary) {
+    const WorldPiece w = relative_to(from.position, frame, piece);
+    // The walk of a light that is seen from behind runs the wrong way round; integrals turn it back.
+    part.vertices.push_back(place(side < 0 ? w.b : w.a));
+    part.vertices.push_back(place(side < 0 ? w.a : w.b));
+    part.contours.push_back(part.vertices.size());
+  }
+  return part;
+}
+
+}  // namespace steradian::shadow
