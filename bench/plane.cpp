@@ -5,11 +5,15 @@
 #include <memory>
 
 #include "benches.h"
-#include "plane/light_field.h"
+#include "plane/frame/light_field.h"
 #include "steradian/plane.h"
 
 namespace steradian::bench {
 namespace {
+
+using plane::kLightFields;
+using plane::LightField;
+using plane::make_light_field;
 
 constexpr std::uint64_t kSeed = 1;
 constexpr int kStride = 97;

@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "moment/line_plot.h"
-#include "plane/light_field.h"
+#include "plane/frame/light_field.h"
 #include "steradian/plane.h"
 
 using namespace steradian;
+using namespace steradian::plane;
 
 namespace {
 

@@ -1,0 +1,247 @@
+#include "plane/exact/emission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "steradian/kernels.h"
+
+namespace steradian::plane {
+namespace {
+
+using std::numbers::pi;
+
+Vec2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+void add(PlaneLight& sum, Vec3d radiance, double mean, Vec2d moment) {
+  sum.radiance += radiance * mean;
+  sum.moment_x += radiance * moment.x;
+  sum.moment_y += radiance * moment.y;
+}
+
+bool is_spot(const PlaneEmission& e) { return e.spot_axis.x != 0 || e.spot_axis.y != 0; }
+
+double window(double r, double range) {
+  const double q = r / range;
+  return q < 1 ? (1 - q * q) * (1 - q * q) : 0;
+}
+
+Vec3d radiance_on(const Curve& curve, const PlaneEmission& emission, Vec2d p) {
+  if (curve.kind == Curve::Kind::arc) return radiance_at(emission, p);
+  const Vec2d e = curve.b - curve.a;
+  const double t = std::clamp(dot(p - curve.a, e) / dot(e, e), 0.0, 1.0);
+  return curve.radiance_a * (1 - t) + curve.radiance_b * t;
+}
+
+double cosine(const Curve& curve, Vec2d p, Vec2d u) {
+  Vec2d along = curve.b - curve.a;
+  if (curve.kind == Curve::Kind::arc) {
+    const Vec2d t = curve.ellipse.to_unit(p);
+    along = curve.ellipse.y * t.x - curve.ellipse.x * t.y;
+  }
+  return std::fabs(cross(along, u)) / length(along);
+}
+
+double profile_at(const PlaneEmission& emission, const Curve& curve, Vec2d p, Vec2d u, double r) {
+  switch (emission.profile) {
+    case PlaneProfile::uniform: return 1;
+    case PlaneProfile::lambert: return cosine(curve, p, u);
+    case PlaneProfile::inverse: return 1 / std::max(r, 1e-12);
+  }
+  return 1;
+}
+
+// Segments: everything is a polynomial in tan f times a power of cos f.
+class SegmentIntegral {
+ public:
+  SegmentIntegral(const Curve& curve, const PlaneEmission& emission, Vec2d from) : emission_(emission) {
+    const Vec2d e = curve.b - curve.a;
+    const double size = length(e);
+    along_ = e / size;
+    normal_ = {-along_.y, along_.x};
+    d_ = dot(curve.a - from, normal_);
+    if (d_ < 0) normal_ = -normal_, d_ = -d_;
+    const double foot = dot(from - curve.a, along_) / size;
+    constant_ = curve.radiance_a * (1 - foot) + curve.radiance_b * foot;
+    slope_ = (curve.radiance_b - curve.radiance_a) * (d_ / size);
+  }
+
+  void add(double begin, double end, PlaneLight& sum) const {
+    double from = tangent(direction(begin)), to = tangent(direction(end));
+    if (from > to) std::swap(from, to);
+    double q = 0;
+    if (emission_.range < 1e300) {
+      const double reach2 = emission_.range * emission_.range - d_ * d_;
+      if (reach2 <= 0) return;
+      const double reach = std::sqrt(reach2) / d_;
+      from = std::clamp(from, -reach, reach);
+      to = std::clamp(to, -reach, reach);
+      q = d_ * d_ / (emission_.range * emission_.range);
+    }
+    if (!(to > from)) return;
+    const int k = emission_.profile == PlaneProfile::uniform ? 0 : 1;
+    const double scale = emission_.profile == PlaneProfile::inverse ? 1 / d_ : 1;
+    const bool linear = slope_.x != 0 || slope_.y != 0 || slope_.z != 0;
+    add_term(constant_ * scale, 0, k, from, to, q, sum);
+    if (linear) add_term(slope_ * scale, 1, k, from, to, q, sum);
+  }
+
+ private:
+  double tangent(Vec2d u) const { return dot(u, along_) / std::max(dot(u, normal_), 1e-15); }
+
+  void add_term(Vec3d radiance, int j, int k, double from, double to, double q, PlaneLight& sum) const {
+    const double mean = integral(j, k, from, to, q);
+    const Vec2d moment =
+        normal_ * integral(j, k + 1, from, to, q) + along_ * integral(j + 1, k + 1, from, to, q);
+    plane::add(sum, radiance, mean, moment);
+  }
+
+  static double integral(int j, int k, double from, double to, double q) {
+    Kernels<double> kernel;
+    const double f0 = std::atan(from), f1 = std::atan(to);
+    if (q == 0) return (kernel.plane_term(j, k, to, f1) - kernel.plane_term(j, k, from, f0)).v;
+    return (kernel.plane_edge_integral(j, k, to, f1, q) - kernel.plane_edge_integral(j, k, from, f0, q)).v;
+  }
+
+  const PlaneEmission& emission_;
+  Vec2d along_, normal_;
+  double d_;
+  Vec3d constant_, slope_;
+};
+
+// Arcs in the parameter tau, in which nothing is singular at the tangents: 8-point Gauss-Legendre on pieces that
+// turn and see little. Abramowitz and Stegun, table 25.4.
+class ArcQuadrature {
+ public:
+  ArcQuadrature(const Curve& curve, const PlaneEmission& emission, Vec2d from)
+      : curve_(curve), emission_(emission), from_(from) {}
+
+  void add(double begin, double end, bool back, PlaneLight& sum) const {
+    const int parts = 1 + static_cast<int>((end - begin) / 1.0);
+    for (int i = 0; i < parts; ++i) {
+      const double t0 = parameter(begin + (end - begin) * i / parts, back);
+      double t1 = parameter(begin + (end - begin) * (i + 1) / parts, back);
+      if (back && t1 < t0) t1 += 2 * pi;
+      if (!back && t1 > t0) t1 -= 2 * pi;
+      add_part(t0, t1, 0, sum);
+    }
+  }
+
+ private:
+  double parameter(double angle, bool back) const {
+    const Vec2d u = direction(angle);
+    return angle_of(curve_.ellipse.to_unit(from_ + u * distance_along(curve_, back, from_, u)));
+  }
+
+  void add_part(double t0, double t1, int depth, PlaneLight& sum) const {
+    const Vec2d p = curve_.ellipse.at(t0) - from_, q = curve_.ellipse.at(t1) - from_;
+    const double seen = std::fabs(std::atan2(cross(p, q), dot(p, q)));
+    if (depth < 14 && (std::fabs(t1 - t0) > 0.4 || seen > 0.2)) {
+      add_part(t0, 0.5 * (t0 + t1), depth + 1, sum);
+      add_part(0.5 * (t0 + t1), t1, depth + 1, sum);
+      return;
+    }
+    static constexpr double kNode[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                        0.9602898564975363};
+    static constexpr double kWeight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                          0.1012285362903763};
+    for (int i = 0; i < 4; ++i)
+      for (double sign : {-1.0, 1.0}) {
+        const double tau = 0.5 * (t0 + t1) + 0.5 * (t1 - t0) * sign * kNode[i];
+        const Ellipse& e = curve_.ellipse;
+        const Vec2d hit = e.at(tau), v = hit - from_, dv = e.y * std::cos(tau) - e.x * std::sin(tau);
+        const double r = length(v), d_angle = std::fabs(cross(v, dv)) / (r * r);
+        const Vec2d u = v / r;
+        const double w = window(r, emission_.range) * profile_at(emission_, curve_, hit, u, r);
+        const double weight = 0.5 * std::fabs(t1 - t0) * kWeight[i] * d_angle * w;
+        plane::add(sum, radiance_at(emission_, hit), weight, u * weight);
+      }
+  }
+
+  const Curve& curve_;
+  const PlaneEmission& emission_;
+  Vec2d from_;
+};
+
+bool is_circle(const Ellipse& e) {
+  const double xx = dot(e.x, e.x), yy = dot(e.y, e.y);
+  return std::fabs(xx - yy) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
+}
+
+// Range window on a circle of uniform radiance: the antiderivative between the two directions.
+double circle_window(const Curve& curve, double range, Vec2d from, double begin, double end) {
+  Kernels<double> kernel;
+  const Vec2d c = (curve.ellipse.center - from) / range;
+  const double d2 = dot(c, c), d = std::sqrt(d2), rho2 = dot(curve.ellipse.x, curve.ellipse.x) / (range * range);
+  if (d - std::sqrt(rho2) >= 1) return 0;
+  // Law of cosines: where the near side of the circle leaves the range, if it does before the tangent.
+  const double farthest = d2 - rho2 <= 1 ? pi / 2 : std::acos(std::min((d2 + 1 - rho2) / (2 * d), 1.0));
+  const auto antiderivative = [&](double angle) {
+    const Vec2d u = direction(angle);
+    double psi = std::atan2(cross(c, u), dot(c, u));
+    psi = std::clamp(psi, -farthest, farthest);
+    const double s = std::sin(psi), x = std::clamp(d * s, -std::sqrt(rho2), std::sqrt(rho2));
+    const double chord = std::sqrt(std::max(rho2 - x * x, 0.0));
+    return kernel.plane_disk_window_integral(d2, rho2, d, std::cos(psi), s, psi, chord, std::atan2(x, chord)).v;
+  };
+  return antiderivative(end) - antiderivative(begin);
+}
+
+void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, EmissionParts parts, PlaneLight& sum) {
+  const Curve& curve = *v.curve;
+  const bool plain = emission.profile == PlaneProfile::uniform && !emission.gradient;
+  const bool in_range = !(emission.range < 1e300);
+  if (plain && in_range) {
+    const double s0 = std::sin(v.begin), s1 = std::sin(v.end), c0 = std::cos(v.begin), c1 = std::cos(v.end);
+    add(sum, emission.radiance, v.end - v.begin, {s1 - s0, c0 - c1});
+  } else if (curve.kind == Curve::Kind::segment) {
+    SegmentIntegral(curve, emission, from).add(v.begin, v.end, sum);
+  } else {
+    PlaneLight part;
+    const bool closed = plain && !v.back && is_circle(curve.ellipse);
+    if (!closed || parts == EmissionParts::radiance_and_moments)
+      ArcQuadrature(curve, emission, from).add(v.begin, v.end, v.back, part);
+    if (closed)
+      part.radiance = emission.radiance * circle_window(curve, emission.range, from, v.begin, v.end);
+    sum.radiance += part.radiance;
+    sum.moment_x += part.moment_x;
+    sum.moment_y += part.moment_y;
+  }
+}
+
+}  // namespace
+
+bool within_spot(const PlaneEmission& emission, Vec2d u) {
+  if (!is_spot(emission)) return true;
+  const Vec2d axis = -emission.spot_axis;
+  return std::fabs(std::atan2(cross(axis, u), dot(axis, u))) <= emission.spot_half_angle;
+}
+
+void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d from, EmissionParts parts,
+                  PlaneLight& sum) {
+  if (!is_spot(emission)) {
+    add_clipped(piece, emission, from, parts, sum);
+    return;
+  }
+  // The spot's directions, seen from the point, about the reversed axis; once and a turn to either side.
+  const double middle = angle_of(-emission.spot_axis), half = emission.spot_half_angle;
+  for (double turn : {-2 * pi, 0.0, 2 * pi}) {
+    Visible clipped = piece;
+    clipped.begin = std::max(piece.begin, middle - half + turn);
+    clipped.end = std::min(piece.end, middle + half + turn);
+    if (clipped.end > clipped.begin) add_clipped(clipped, emission, from, parts, sum);
+  }
+}
+
+void add_interior(const Visible& v, const PlaneEmission& emission, Vec2d from, PlaneLight& sum) {
+  add(sum, radiance_at(emission, from), v.end - v.begin,
+      {std::sin(v.end) - std::sin(v.begin), std::cos(v.begin) - std::cos(v.end)});
+}
+
+Vec3d radiance_along(const Curve& curve, const PlaneEmission& emission, Vec2d from, Vec2d u, double r) {
+  if (!within_spot(emission, u)) return {};
+  const Vec2d hit = from + u * r;
+  return radiance_on(curve, emission, hit) * (window(r, emission.range) * profile_at(emission, curve, hit, u, r));
+}
+
+}  // namespace steradian::plane

@@ -1,0 +1,31 @@
+// The lower envelope of curves seen from a point: in every direction, the curve that is hit first.
+#pragma once
+
+#include <vector>
+
+#include "plane/exact/outline.h"
+
+namespace steradian::plane {
+
+// A part of a curve over the directions from angle begin to angle end, -pi <= begin < end <= pi.
+struct Visible {
+  double begin, end;
+  const Curve* curve;
+  bool back;  // seen on its inner face
+};
+
+struct EnvelopeRules {
+  // Inner faces of this body are seen (the point is inside it); -1 for none.
+  int inside = -1;
+};
+
+// All of the envelope, by rising angle; gaps where no curve is. `shines` says by body index who wins coincident edges.
+// O(n log n) by divide and conquer; crossings are found geometrically, so that curves may overlap in any way.
+std::vector<Visible> lower_envelope(const std::vector<const Curve*>& curves, Vec2d from,
+                                    const std::vector<PlaneBody>& bodies, const EnvelopeRules& rules);
+
+// Distance to the curve in direction u (unit), on the near or the far branch of an arc. For a direction in which the
+// curve is seen.
+double distance_along(const Curve& curve, bool back, Vec2d from, Vec2d u);
+
+}  // namespace steradian::plane

@@ -1,0 +1,32 @@
+// The ten families of random scenes on which methods of the plane are judged, and how far a method is off on each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "steradian/plane.h"
+
+namespace steradian::plane {
+
+inline constexpr int kPlaneFamilies = 10;
+const char* plane_family_name(int family);  // 1 to 10
+
+// One scene in the unit square. The same numbers give the same scene on every machine.
+PlaneScene make_plane_family(int family, std::uint64_t seed);
+
+// Points outside all bodies, uniform in the unit square.
+std::vector<Vec2d> points_outside(const PlaneWorld& world, int count, std::uint64_t seed);
+
+struct FamilyError {
+  double mean_percent = 0;       // mean absolute error, percent of the mean radiance; of the largest radiance, where the truth is 0
+  double off_percent = 0;        // share of points more than 1 % off
+  int points = 0;
+};
+
+// `method` against `exact`.
+FamilyError measure_family(int family, PlaneMethod method, int scenes, int points_per_scene, const PlaneSampling& sampling = {});
+
+// The table of docs/plane.md, as Markdown.
+std::string plane_error_table(int scenes, int points_per_scene);
+
+}  // namespace steradian::plane

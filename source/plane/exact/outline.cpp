@@ -1,0 +1,286 @@
+#include "plane/exact/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "steradian/error.h"
+
+namespace steradian::plane {
+namespace {
+
+using std::numbers::pi;
+
+// Where the gradient stands at p: 0 at `from`, 1 at `to`.
+double gradient_offset(const PlaneGradient& g, Vec2d p) {
+  const Vec2d axis = g.to - g.from;
+  const double length2 = dot(axis, axis);
+  return length2 > 0 ? dot(p - g.from, axis) / length2 : 0;
+}
+
+bool crosses_properly(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
+  const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
+  const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
+  return c_side * d_side < 0 && a_side * b_side < 0;
+}
+
+// Beyond this many edges an outline is not searched for crossings; its edges are taken as seen from both sides, which
+// costs time and changes no value.
+constexpr std::size_t kMostEdgesOriented = 4000;
+
+bool has_crossings(const std::vector<Curve>& edges) {
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = i + 1; j < edges.size(); ++j)
+      if (crosses_properly(edges[i].a, edges[i].b, edges[j].a, edges[j].b)) return true;
+  return false;
+}
+
+// Turns every edge so that the body lies to its left.
+void orient(const PlaneBody& body, std::vector<Curve>& edges) {
+  if (edges.size() > kMostEdgesOriented || has_crossings(edges)) {
+    for (Curve& e : edges) e.two_sided = true;
+    return;
+  }
+  const Box box = bounds_of(body);
+  const double step = 1e-7 * length(box.high - box.low);
+  for (Curve& e : edges) {
+    const Vec2d along = (e.b - e.a) / length(e.b - e.a);
+    const Vec2d left{-along.y * step, along.x * step}, middle = (e.a + e.b) * 0.5;
+    const bool in_left = contains(body, middle + left), in_right = contains(body, middle - left);
+    if (in_left == in_right) e.two_sided = true;
+    if (in_right && !in_left) std::swap(e.a, e.b);
+  }
+}
+
+void append_edges(const std::vector<Vec2d>& contour, bool closed, int index, std::vector<Curve>& out) {
+  const std::size_t n = contour.size();
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+    const Vec2d a = contour[i], b = contour[(i + 1) % n];
+    if (a == b) continue;
+    Curve c;
+    c.body = index;
+    c.a = a;
+    c.b = b;
+    c.two_sided = !closed;
+    out.push_back(c);
+  }
+}
+
+Curve arc(const Ellipse& ellipse, double tau0, double span, int index) {
+  Curve c;
+  c.kind = Curve::Kind::arc;
+  c.body = index;
+  c.ellipse = ellipse;
+  if (cross(ellipse.x, ellipse.y) < 0) c.ellipse.y = -c.ellipse.y;
+  c.tau0 = tau0;
+  c.tau_span = span;
+  c.a = c.ellipse.at(tau0);
+  c.b = c.ellipse.at(tau0 + span);
+  return c;
+}
+
+// Where on the curve, from 0 at its start to 1 at its end, the gradient has a stop.
+std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& c) {
+  std::vector<double> cuts{0};
+  const auto cut = [&](double t) {
+    if (t > 1e-9 && t < 1 - 1e-9) cuts.push_back(t);
+  };
+  for (const PlaneStop& stop : gradient.stops) {
+    if (c.kind == Curve::Kind::segment) {
+      const double from = gradient_offset(gradient, c.a), to = gradient_offset(gradient, c.b);
+      cut((stop.offset - from) / (to - from));
+      continue;
+    }
+    // On an ellipse the offset is a constant plus a cosine of tau.
+    const double middle = gradient_offset(gradient, c.ellipse.center);
+    const double x = gradient_offset(gradient, c.ellipse.center + c.ellipse.x) - middle;
+    const double y = gradient_offset(gradient, c.ellipse.center + c.ellipse.y) - middle;
+    const double cosine = (stop.offset - middle) / std::hypot(x, y);
+    if (!(std::fabs(cosine) < 1)) continue;
+    for (double sign : {-1.0, 1.0}) {
+      double along = std::atan2(y, x) + sign * std::acos(cosine) - c.tau0;
+      along -= 2 * pi * std::floor(along / (2 * pi));
+      cut(along / c.tau_span);
+    }
+  }
+  cuts.push_back(1);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+Curve part_of(const Curve& c, double from, double to) {
+  Curve piece = c;
+  if (c.kind == Curve::Kind::segment) {
+    piece.a = c.a + (c.b - c.a) * from;
+    piece.b = c.a + (c.b - c.a) * to;
+  } else {
+    piece.tau0 = c.tau0 + c.tau_span * from;
+    piece.tau_span = c.tau_span * (to - from);
+    piece.a = c.ellipse.at(piece.tau0);
+    piece.b = c.ellipse.at(piece.tau0 + piece.tau_span);
+  }
+  return piece;
+}
+
+// Cuts the curves where the gradient has a stop, so that radiance is linear on each.
+std::vector<Curve> with_radiance(const PlaneEmission& emission, const std::vector<Curve>& curves) {
+  std::vector<Curve> result;
+  for (const Curve& c : curves) {
+    const std::vector<double> cuts = emission.gradient ? gradient_cuts(*emission.gradient, c) : std::vector<double>{0, 1};
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      Curve piece = cuts.size() > 2 ? part_of(c, cuts[i], cuts[i + 1]) : c;
+      // Values just inside the piece: two stops may share an offset.
+      const Vec2d inside = (piece.b - piece.a) * 1e-9;
+      piece.radiance_a = radiance_at(emission, piece.a + inside);
+      piece.radiance_b = radiance_at(emission, piece.b - inside);
+      result.push_back(piece);
+    }
+  }
+  return result;
+}
+
+void check(const PlaneBody& body, int index) {
+  const std::string place = body.name.empty() ? "body " + std::to_string(index) : "body '" + body.name + "'";
+  const auto finite = [&](Vec2d p) {
+    // Squares and products of larger coordinates leave no digits for a pixel.
+    if (!is_finite(p) || std::fabs(p.x) > 1e9 || std::fabs(p.y) > 1e9)
+      throw Error(place, "a coordinate is not finite or beyond 1e9");
+  };
+  for (const auto& contour : body.contours)
+    for (Vec2d p : contour) finite(p);
+  finite(body.center);
+  finite(body.x_axis);
+  finite(body.y_axis);
+  if (!(body.radius >= 0) || body.radius > 1e9) throw Error(place, "the radius is not a number from 0 to 1e9");
+  if (body.light) {
+    const PlaneEmission& e = *body.light;
+    if (!is_finite(e.radiance)) throw Error(place, "the radiance is not finite");
+    if (!(e.range > 0)) throw Error(place, "the range must be positive");
+    if (e.gradient && e.gradient->stops.empty()) throw Error(place, "the gradient has no stops");
+    if (!(e.spot_half_angle >= 0 && e.spot_half_angle <= pi + 1e-9))
+      throw Error(place, "the spot's half angle must be within 0 and pi");
+  }
+}
+
+}  // namespace
+
+Vec3d radiance_at(const PlaneEmission& emission, Vec2d p) {
+  if (!emission.gradient) return emission.radiance;
+  const std::vector<PlaneStop>& stops = emission.gradient->stops;
+  const double t = gradient_offset(*emission.gradient, p);
+  if (t <= stops.front().offset) return stops.front().radiance;
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    if (t > stops[i].offset) continue;
+    const double width = stops[i].offset - stops[i - 1].offset;
+    const double s = width > 0 ? (t - stops[i - 1].offset) / width : 1;
+    return stops[i - 1].radiance * (1 - s) + stops[i].radiance * s;
+  }
+  return stops.back().radiance;
+}
+
+std::vector<Curve> outline_of(const PlaneBody& body, int index) {
+  check(body, index);
+  std::vector<Curve> curves;
+  switch (body.shape) {
+    case PlaneBody::Shape::polygon:
+      for (const auto& contour : body.contours) append_edges(contour, true, index, curves);
+      orient(body, curves);
+      break;
+    case PlaneBody::Shape::polyline:
+      for (const auto& contour : body.contours) append_edges(contour, false, index, curves);
+      break;
+    case PlaneBody::Shape::ellipse:
+      // Thinner than rounding: nothing to hit.
+      if (std::fabs(cross(body.x_axis, body.y_axis)) > 1e-18)
+        curves.push_back(arc({body.center, body.x_axis, body.y_axis}, 0, 2 * pi, index));
+      break;
+    case PlaneBody::Shape::capsule: {
+      if (!(body.radius > 0)) break;
+      const Vec2d p = body.contours.at(0).at(0), q = body.contours.at(0).at(1);
+      const double length_pq = length(q - p), r = body.radius;
+      const Vec2d along = length_pq > 0 ? (q - p) / length_pq : Vec2d{1, 0}, left{-along.y, along.x};
+      if (length_pq > 0) {
+        append_edges({p - left * r, q - left * r}, false, index, curves);
+        append_edges({q + left * r, p + left * r}, false, index, curves);
+        for (Curve& c : curves) c.two_sided = false;
+      }
+      curves.push_back(arc({q, along * r, left * r}, -pi / 2, pi, index));
+      curves.push_back(arc({p, along * r, left * r}, pi / 2, pi, index));
+      break;
+    }
+  }
+  return body.light ? with_radiance(*body.light, curves) : curves;
+}
+
+bool contains(const PlaneBody& body, Vec2d p) {
+  switch (body.shape) {
+    case PlaneBody::Shape::polyline: return false;
+    case PlaneBody::Shape::ellipse: {
+      if (std::fabs(cross(body.x_axis, body.y_axis)) <= 1e-18) return false;
+      const Vec2d u = Ellipse{body.center, body.x_axis, body.y_axis}.to_unit(p);
+      return dot(u, u) <= 1;
+    }
+    case PlaneBody::Shape::capsule: {
+      const Vec2d a = body.contours[0][0], ab = body.contours[0][1] - a;
+      const double t = dot(ab, ab) > 0 ? std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0) : 0;
+      const Vec2d away = p - a - ab * t;
+      return body.radius > 0 && dot(away, away) <= body.radius * body.radius;
+    }
+    case PlaneBody::Shape::polygon: break;
+  }
+  int winding = 0, crossings = 0;
+  for (const auto& contour : body.contours) {
+    const std::size_t n = contour.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2d a = contour[i] - p, b = contour[(i + 1) % n] - p;
+      const double side = cross(a, b);
+      if (side == 0 && dot(a, b) <= 0) return true;  // on the edge
+      if ((a.y <= 0) == (b.y <= 0)) continue;
+      if ((b.y > a.y) == (side > 0)) {
+        winding += b.y > a.y ? 1 : -1;
+        ++crossings;
+      }
+    }
+  }
+  return body.even_odd ? crossings % 2 != 0 : winding != 0;
+}
+
+Box bounds_of(const PlaneBody& body) {
+  Box box;
+  switch (body.shape) {
+    case PlaneBody::Shape::ellipse: {
+      const Vec2d half{std::hypot(body.x_axis.x, body.y_axis.x), std::hypot(body.x_axis.y, body.y_axis.y)};
+      box.add(body.center - half);
+      box.add(body.center + half);
+      break;
+    }
+    default:
+      for (const auto& contour : body.contours)
+        for (Vec2d p : contour) {
+          box.add(p - Vec2d{body.radius, body.radius});
+          box.add(p + Vec2d{body.radius, body.radius});
+        }
+  }
+  return box;
+}
+
+}  // namespace steradian::plane
+
+namespace steradian {
+
+PlaneBody plane_polygon(std::vector<Vec2d> vertices) {
+  PlaneBody body;
+  body.contours.push_back(std::move(vertices));
+  return body;
+}
+
+PlaneBody plane_circle(Vec2d center, double radius) {
+  PlaneBody body;
+  body.shape = PlaneBody::Shape::ellipse;
+  body.center = center;
+  body.x_axis = {radius, 0};
+  body.y_axis = {0, radius};
+  return body;
+}
+
+}  // namespace steradian

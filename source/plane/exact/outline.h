@@ -1,0 +1,52 @@
+// Outlines: bodies taken apart into the segments and arcs that rays can hit.
+#pragma once
+
+#include <vector>
+
+#include "steradian/plane.h"
+
+namespace steradian::plane {
+
+// An ellipse as the image of the unit circle: center + x cos(tau) + y sin(tau).
+struct Ellipse {
+  Vec2d center, x, y;
+  // Into the space where it is the unit circle about the origin.
+  Vec2d to_unit(Vec2d p) const {
+    const double det = cross(x, y);
+    const Vec2d v = p - center;
+    return {cross(v, y) / det, cross(x, v) / det};
+  }
+  Vec2d at(double tau) const { return center + x * std::cos(tau) + y * std::sin(tau); }
+};
+
+struct Curve {
+  enum class Kind { segment, arc };
+  Kind kind = Kind::segment;
+  bool two_sided = false;  // both faces block and shine; else only the outer one is seen from outside
+  int body = 0;
+  Vec2d a, b;              // segment, the body to the left of a -> b; arc: its ends
+  Ellipse ellipse;         // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
+  double tau0 = 0, tau_span = 0;
+  Vec3d radiance_a, radiance_b;  // at a segment's ends, linear between; zero for occluders
+};
+
+// Curves of a body, gradients cut where their stops are. Throws Error for what is not finite or empty.
+std::vector<Curve> outline_of(const PlaneBody& body, int index);
+
+// Is p in the body or on its edge? Always false for polylines.
+bool contains(const PlaneBody& body, Vec2d p);
+
+// The gradient's radiance at a point.
+Vec3d radiance_at(const PlaneEmission& emission, Vec2d p);
+
+struct Box {
+  Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
+  void add(Vec2d p) {
+    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y)};
+    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y)};
+  }
+  bool holds(Vec2d p) const { return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y; }
+};
+Box bounds_of(const PlaneBody& body);
+
+}  // namespace steradian::plane

@@ -1,0 +1,111 @@
+// Rays: stratified ones against the curves themselves, and ones that march along the signed distance.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "plane/exact/emission.h"
+#include "plane/exact/world.h"
+
+namespace steradian::plane {
+namespace {
+
+using std::numbers::pi;
+
+// splitmix64 (Steele, Lea, Flood 2014).
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15u;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+
+double uniform(std::uint64_t x) { return static_cast<double>(mix(x) >> 11) * 0x1p-53; }
+
+std::uint64_t seed_of(Vec2d p, std::uint64_t seed) {
+  return mix(std::bit_cast<std::uint64_t>(p.x) ^ mix(std::bit_cast<std::uint64_t>(p.y) ^ mix(seed)));
+}
+
+// Mean of f over stratified directions, one random direction in each of spp equal sectors.
+template <class F>
+PlaneLight mean_over_directions(Vec2d from, const PlaneSampling& sampling, F f) {
+  PlaneLight sum;
+  const std::uint64_t seed = seed_of(from, sampling.seed);
+  for (int i = 0; i < sampling.spp; ++i) {
+    const double angle = 2 * pi * (i + uniform(seed + static_cast<std::uint64_t>(i))) / sampling.spp;
+    const Vec2d u{std::cos(angle), std::sin(angle)};
+    const Vec3d radiance = f(u);
+    sum.radiance += radiance;
+    sum.moment_x += radiance * u.x;
+    sum.moment_y += radiance * u.y;
+  }
+  const double scale = 1.0 / std::max(sampling.spp, 1);
+  return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
+}
+
+const PlaneBody& body_of(const World& world, const Curve& c) {
+  return world.scene.bodies[static_cast<std::size_t>(c.body)];
+}
+
+double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
+  const Vec2d ab = b - a;
+  const double t = std::clamp(dot(p - a, ab) / std::max(dot(ab, ab), 1e-300), 0.0, 1.0);
+  return length(p - a - ab * t);
+}
+
+// Never more than the distance: exact for segments and circles, for ellipses scaled by the smaller half axis.
+double distance_bound(const Curve& c, Vec2d p) {
+  if (c.kind == Curve::Kind::segment) return distance_to_segment(p, c.a, c.b);
+  const double xx = dot(c.ellipse.x, c.ellipse.x), yy = dot(c.ellipse.y, c.ellipse.y), xy = dot(c.ellipse.x, c.ellipse.y);
+  // Smaller singular value of [x y].
+  const double half = 0.5 * (xx + yy), small2 = half - std::sqrt(std::max(half * half - (xx * yy - xy * xy), 0.0));
+  return std::fabs(length(c.ellipse.to_unit(p)) - 1) * std::sqrt(std::max(small2, 0.0));
+}
+
+}  // namespace
+
+PlaneLight sampled_light(const World& world, Vec2d from, const PlaneSampling& sampling) {
+  const int inside = world.inside(from).body;
+  return mean_over_directions(from, sampling, [&](Vec2d u) -> Vec3d {
+    const RayHit hit = world.grid.first_hit(from, u, inside);
+    if (hit.curve == nullptr || !body_of(world, *hit.curve).light) return {};
+    const PlaneEmission& light = *body_of(world, *hit.curve).light;
+    if (hit.curve->body == inside) return radiance_at(light, from);
+    return radiance_along(*hit.curve, light, from, u, hit.distance);
+  });
+}
+
+// Hart, "Sphere tracing", 1996: step by the distance to the nearest surface until it is within a hundredth of a unit.
+PlaneLight marched_light(const World& world, Vec2d from, const PlaneSampling& sampling) {
+  constexpr double kHit = 0.01;
+  constexpr int kMostSteps = 256;
+  const int inside = world.inside(from).body;
+  if (inside >= 0) return sampled_light(world, from, sampling);
+  Box all;
+  for (const Box& box : world.boxes) {
+    all.add(box.low);
+    all.add(box.high);
+  }
+  const double reach = length({std::max(from.x - all.low.x, all.high.x - from.x), std::max(from.y - all.low.y, all.high.y - from.y)});
+  return mean_over_directions(from, sampling, [&](Vec2d u) -> Vec3d {
+    double r = 0;
+    for (int step = 0; step < kMostSteps && r <= reach; ++step) {
+      const Vec2d p = from + u * r;
+      double nearest = 1e300;
+      const Curve* curve = nullptr;
+      for (const Curve& c : world.curves) {
+        const double d = distance_bound(c, p);
+        if (d < nearest || (d == nearest && body_of(world, c).light)) nearest = d, curve = &c;
+      }
+      if (curve == nullptr) return {};
+      if (nearest < kHit) {
+        const auto& light = body_of(world, *curve).light;
+        return light ? radiance_along(*curve, *light, from, u, std::max(r, kHit)) : Vec3d{};
+      }
+      r += nearest;
+    }
+    return {};
+  });
+}
+
+}  // namespace steradian::plane

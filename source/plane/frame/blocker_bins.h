@@ -1,0 +1,52 @@
+// Blockers by where they are: a grid of 33 x 33 bins.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "plane/frame/scene.h"
+
+namespace steradian::plane {
+
+class BlockerBins {
+ public:
+  BlockerBins() = default;
+  explicit BlockerBins(const std::vector<Blocker>& blockers) {
+    Box box;
+    for (const Blocker& b : blockers) box.add(b.center), largest_ = std::max(largest_, b.bound);
+    if (blockers.empty()) box.add({0, 0});
+    low_ = box.low;
+    high_ = box.high;
+    cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
+    bins_.resize(33 * 33);
+    for (std::size_t i = 0; i < blockers.size(); ++i) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
+  }
+
+  Vec2d low() const { return low_; }
+  Vec2d high() const { return high_; }
+
+  // Calls f with the index of every blocker within `reach` of p.
+  template <class F>
+  void for_each_within(const std::vector<Blocker>& blockers, Vec2d p, double reach, F f) const {
+    const double r = std::min(reach + largest_, 1e9);
+    for (int y = cell(std::max(p.y - r - low_.y, 0.0)); y <= cell(std::clamp(p.y + r - low_.y, 0.0, 64 * cell_)); ++y)
+      for (int x = cell(std::max(p.x - r - low_.x, 0.0)); x <= cell(std::clamp(p.x + r - low_.x, 0.0, 64 * cell_)); ++x)
+        for (int i : bins_[static_cast<std::size_t>(y * 33 + x)]) {
+          const Blocker& b = blockers[static_cast<std::size_t>(i)];
+          const Vec2d away = b.center - p;
+          const double limit = reach + b.bound;
+          if (dot(away, away) < limit * limit) f(i);
+        }
+  }
+
+ private:
+  int cell(double offset) const { return std::clamp(static_cast<int>(offset / cell_), 0, 32); }
+  std::size_t bin(Vec2d p) const { return static_cast<std::size_t>(cell(p.y - low_.y) * 33 + cell(p.x - low_.x)); }
+
+  std::vector<std::vector<int>> bins_;
+  Vec2d low_, high_;  // of all centres
+  double cell_ = 1, largest_ = 0;
+};
+
+}  // namespace steradian::plane

@@ -1,0 +1,58 @@
+// Which blockers touch the hull of a tile and a light: most of a frame's list work, done on packs.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/simd.h"
+
+namespace steradian::plane {
+
+// Bounding circles of blockers, column by column, one entry's after another's. Packs read and write up to kRoom floats
+// past an entry's end.
+class BlockerList {
+ public:
+  static constexpr std::size_t kRoom = 16;
+
+  std::vector<float> x, y, radius;
+  std::vector<float> core;  // the radius of what may hide a light on its own; -1: never
+  std::vector<int> index;   // into FrameScene::blockers
+  std::size_t size = 0;
+
+  void clear() { size = 0; }
+  // Makes room for `count` more.
+  void reserve_more(std::size_t count) {
+    const std::size_t needed = size + count + kRoom;
+    if (needed <= index.size()) return;
+    for (std::vector<float>* column : {&x, &y, &radius, &core}) column->resize(2 * needed);
+    index.resize(2 * needed);
+  }
+  void add(float cx, float cy, float r, float core_radius, int blocker) {
+    reserve_more(1);
+    x[size] = cx;
+    y[size] = cy;
+    radius[size] = r;
+    core[size] = core_radius;
+    index[size++] = blocker;
+  }
+};
+
+// The hull of two circles, about a tile and about a light. At the share t of the way from one to the other a circle of
+// radius r touches it if it is within (base + t growth + r) widen of the axis.
+struct HullOfCircles {
+  float x, y;            // the tile's centre
+  float axis_x, axis_y;  // from there to the light's
+  float inverse_length2; // of the axis
+  float base, growth, widen;
+};
+
+struct CullTable {
+  // Appends to `to` those of from[begin, end) that touch the hull, and to `hiders` (room for all) those of them whose
+  // core is wide enough to be worth a look. Returns the number of hiders. `to` has room for end - begin more.
+  std::size_t (*cull)(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end,
+                      BlockerList& to, int* hiders);
+};
+
+STERADIAN_DECLARE_PACK_TABLE(CullTable, cull_table)
+
+}  // namespace steradian::plane

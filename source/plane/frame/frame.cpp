@@ -1,0 +1,112 @@
+// Frames of the plane: by tiles where that is possible, pixel by pixel otherwise.
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+#include "plane/frame/tiles.h"
+#include "steradian/error.h"
+
+namespace steradian::plane {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+PixelGrid grid_of(const PlaneScene& scene, int width, int height) {
+  const Vec2d step{scene.width / width, scene.height / height};
+  return {scene.origin, step, width, height};
+}
+
+Picture averaged(const Picture& fine, int n) {
+  Picture result(fine.width / n, fine.height / n);
+  const auto average = [&](const std::vector<Vec3f>& from, std::vector<Vec3f>& to) {
+    for (int y = 0; y < result.height; ++y)
+      for (int x = 0; x < result.width; ++x) {
+        Vec3f sum;
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) sum += from[static_cast<std::size_t>(y * n + j) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x * n + i)];
+        to[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) + static_cast<std::size_t>(x)] = sum / static_cast<float>(n * n);
+      }
+  };
+  average(fine.pixels, result.pixels);
+  for (const auto& [name, layer] : fine.layers) {
+    result.layers[name].resize(result.pixels.size());
+    average(layer, result.layers[name]);
+  }
+  return result;
+}
+
+// Every method but the exact one without moments: pixel by pixel.
+void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture) {
+  if (options.moments)
+    for (const char* name : {"moment_x", "moment_y"}) picture.layers[name].resize(picture.pixels.size());
+  std::atomic<std::uint64_t> done{0};
+  tbb::parallel_for(0, grid.height, [&](int y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const PlaneLight light = world.query(grid.at(x, y), options.method, options.sampling);
+      picture.at(x, y) = static_cast<Vec3f>(light.radiance);
+      if (!options.moments) continue;
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+      picture.layers["moment_x"][i] = static_cast<Vec3f>(light.moment_x);
+      picture.layers["moment_y"][i] = static_cast<Vec3f>(light.moment_y);
+    }
+    if (options.progress) options.progress(++done, static_cast<std::uint64_t>(grid.height));
+  });
+}
+
+}  // namespace
+
+}  // namespace steradian::plane
+
+namespace steradian {
+
+using plane::Clock;
+using plane::ms_since;
+
+Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  Picture picture;
+  render_plane_into(picture, world, options, stats);
+  return picture;
+}
+
+void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  const PlaneScene& scene = world.scene();
+  const int n = static_cast<int>(std::ceil(std::sqrt(std::max(options.aa, 1)) - 1e-9));
+  const int width = options.width > 0 ? options.width : std::max(static_cast<int>(std::lround(scene.width)), 1);
+  const int height = options.height > 0 ? options.height : std::max(static_cast<int>(std::lround(scene.height)), 1);
+  if (static_cast<double>(width) * n > 65536 || static_cast<double>(height) * n > 65536)
+    throw Error("size", "the picture would have more than 65536 pixels a side", "set a smaller size");
+  const plane::PixelGrid grid = plane::grid_of(scene, width * n, height * n);
+  Picture fine;
+  Picture& picture = n > 1 ? fine : result;
+  picture.layers.clear();
+  picture.width = grid.width;
+  picture.height = grid.height;
+  picture.pixels.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  PlaneFrameStats own;
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  own.threads = arena.max_concurrency();
+  for (const PlaneBody& body : scene.bodies) ++(body.light ? own.lights : own.occluders);
+  arena.execute([&] {
+    const auto start = Clock::now();
+    if (options.method != PlaneMethod::exact || options.moments) {
+      plane::by_query(world, options, grid, picture);
+      own.frame_ms = ms_since(start);
+      return;
+    }
+    const plane::FrameScene frame = plane::prepare_frame(world.impl());
+    own.prepare_ms = ms_since(start);
+    const auto tiles = Clock::now();
+    plane::render_tiles(frame, options, grid, picture, own);
+    own.frame_ms = ms_since(tiles);
+  });
+  if (stats != nullptr) *stats = own;
+  if (n > 1) result = plane::averaged(picture, n);
+}
+
+}  // namespace steradian

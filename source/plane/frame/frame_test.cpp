@@ -1,0 +1,151 @@
+// The frame, on packs and tiles, against the query in double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/simd.h"
+#include "paths.h"
+#include "plane/exact/families.h"
+#include "plane/exact/random.h"
+#include "plane/exact/world.h"
+#include "plane/frame/light_field.h"
+
+namespace steradian::plane {
+namespace {
+
+double largest_radiance(const PlaneScene& scene) {
+  double largest = 0;
+  for (const PlaneBody& b : scene.bodies)
+    if (b.light) largest = std::max({largest, b.light->radiance.x, b.light->radiance.y, b.light->radiance.z});
+  return largest;
+}
+
+// Every `stride`-th pixel of the frame against the query. The bound is the interface's: 1e-5 of the emission.
+void expect_query(const PlaneScene& scene, int width, int height, int stride, const std::string& what, double bound = 1e-5) {
+  const PlaneWorld world(scene);
+  PlaneFrameOptions options;
+  options.width = width;
+  options.height = height;
+  const Picture picture = render_plane(world, options);
+  double worst = 0, squares = 0;
+  int count = 0, wrong = 0;
+  for (int i = 0; i < width * height; i += stride) {
+    const int x = i % width, y = i / width;
+    const Vec2d p{scene.origin.x + (x + 0.5) * scene.width / width, scene.origin.y + (y + 0.5) * scene.height / height};
+    const Vec3d exact = world.query(p).radiance;
+    const Vec3f pixel = picture.at(x, y);
+    const double error = std::max({std::fabs(exact.x - static_cast<double>(pixel.x)), std::fabs(exact.y - static_cast<double>(pixel.y)), std::fabs(exact.z - static_cast<double>(pixel.z))}) / largest_radiance(scene);
+    worst = std::max(worst, error);
+    squares += error * error;
+    ++count;
+    if (!(error <= bound) && ++wrong <= 3) {
+      ADD_FAILURE() << what << ": pixel (" << x << ", " << y << ") = " << pixel.x << ", query (" << p.x << ", " << p.y << ") = " << exact.x << ", error " << error;
+    }
+  }
+  EXPECT_EQ(wrong, 0) << what << ", of " << count << " pixels";
+  std::printf("%-50s rms %.1e, largest %.1e of %d pixels\n", what.c_str(), std::sqrt(squares / count), worst, count);
+}
+
+}  // namespace
+
+TEST(PlaneFrame, EqualsTheQueryOnAllFamilies) {
+  for (int family = 1; family <= kPlaneFamilies; ++family)
+    expect_query(make_plane_family(family, 7), 200, 150, 7, plane_family_name(family));
+}
+
+TEST(PlaneFrame, EqualsTheQueryInEveryInstructionSet) {
+  for (Simd simd : available_simd()) {
+    setenv("STERADIAN_SIMD", name_of(simd), 1);
+    expect_query(make_plane_family(8, 2), 160, 120, 5, name_of(simd));
+    unsetenv("STERADIAN_SIMD");
+  }
+}
+
+TEST(PlaneFrame, EqualsTheQueryInLightFieldsOfTheBench) {
+  for (LightField field : kLightFields) {
+    // The bench's scenes on a quarter of their area, as dense.
+    field.lights /= 16;
+    field.boxes /= 16;
+    field.lights = std::max(field.lights, 4);
+    field.width /= 4;
+    field.height /= 4;
+    expect_query(make_light_field(field, 3), field.width, field.height, 13, "light field " + std::to_string(field.lights) + "x" + std::to_string(field.boxes));
+  }
+}
+
+TEST(PlaneFrame, EqualsTheQueryWithOverlappingShapesOfEveryKind) {
+  SceneRandom random(11);
+  for (int s = 0; s < 12; ++s) {
+    PlaneScene scene;
+    scene.width = 200;
+    scene.height = 150;
+    for (int i = 0; i < 14; ++i) {
+      const Vec2d c{random.uniform(10, 190), random.uniform(10, 140)};
+      const auto v = [&](double r) { return Vec2d{random.uniform(-r, r), random.uniform(-r, r)}; };
+      PlaneBody body;
+      switch (i % 5) {
+        case 0: body = plane_circle(c, random.uniform(3, 15)); break;
+        case 1:
+          body = plane_circle(c, 1);
+          body.x_axis = v(15);
+          body.y_axis = v(15);
+          break;
+        case 2:
+          body.shape = PlaneBody::Shape::capsule;
+          body.contours = {{c, c + v(25)}};
+          body.radius = random.uniform(1, 8);
+          break;
+        case 3: body = plane_polygon({c, c + v(20), c + v(20), c + v(20), c + v(20)}); break;
+        default:
+          body.shape = PlaneBody::Shape::polyline;
+          body.contours = {{c, c + v(30), c + v(30)}};
+      }
+      if (i % 4 == s % 4) {
+        body.light.emplace();
+        body.light->radiance = {1, 0.5, 0.05 * i};
+        if (s % 3 == 1) body.light->range = 90;
+        if (s % 6 == 2) body.light->profile = PlaneProfile::lambert;
+        if (s % 6 == 5) body.light->gradient = PlaneGradient{c, c + v(20), {{0, {1, 0, 0}}, {1, {0, 1, 1}}}};
+      }
+      scene.bodies.push_back(body);
+    }
+    expect_query(scene, 200, 150, 29, "shapes " + std::to_string(s));
+  }
+}
+
+TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
+  for (const char* name : {"lamps", "room", "city", "logo"}) {
+    const PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/" + name + ".svg").scene;
+    // A size that puts no pixel's centre on a line of no thickness, where either side may be meant.
+    expect_query(scene, 97, 61, 7, name);
+  }
+}
+
+TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
+  const PlaneWorld world(make_plane_family(8, 2));
+  PlaneFrameOptions options;
+  options.width = 600;
+  options.height = 300;
+  options.threads = 1;
+  const Picture one = render_plane(world, options);
+  options.threads = 0;
+  const Picture all = render_plane(world, options);
+  for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], all.pixels[i]) << i;
+}
+
+TEST(PlaneFrame, MomentsPointTowardsTheLight) {
+  PlaneScene scene;
+  scene.width = scene.height = 40;
+  scene.bodies.push_back(plane_circle({20, 20}, 3));
+  scene.bodies.back().light.emplace();
+  PlaneFrameOptions options;
+  options.moments = true;
+  const Picture picture = render_plane(PlaneWorld(scene), options);
+  EXPECT_GT(picture.layers.at("moment_x")[40 * 20 + 2].x, 0);
+  EXPECT_LT(picture.layers.at("moment_x")[40 * 20 + 37].x, 0);
+  EXPECT_GT(picture.layers.at("moment_y")[40 * 2 + 20].x, 0);
+}
+
+}  // namespace steradian::plane

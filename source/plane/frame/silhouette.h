@@ -1,0 +1,65 @@
+// Convex blockers as one tile sees them, and where their vertices stand to a light. On packs of doubles: one vertex a lane.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/simd.h"
+#include "steradian/plane.h"
+
+namespace steradian::plane {
+
+struct TileArea {
+  Vec2d center, half;  // a rectangle that holds the tile's pixel centres
+  double radius;       // half its diagonal
+};
+
+// A convex polygon or a segment, counter-clockwise, the first vertex again and again beyond the last.
+struct PaddedOutline {
+  static constexpr int kMost = 8;
+  double x[kMost + 1], y[kMost + 1];
+  int count;
+};
+
+// The same for all lights. Places are relative to the tile's centre; sets of vertices are bits.
+struct Silhouette {
+  static constexpr int kMost = PaddedOutline::kMost;
+  enum class Kind : std::uint8_t { polygon, segment, disk };
+  alignas(64) double x[kMost], y[kMost];  // as in the outline
+  Vec2d center;                           // of a bounding circle, a disk's own; its vertices are a diameter's ends
+  double radius;
+  std::uint8_t count;
+  std::uint8_t begins, ends;              // those that some pixel may see it begin and end in, counter-clockwise
+  Kind kind;
+  Vec2d at(int k) const { return {x[k], y[k]}; }
+};
+
+// A line past a light and its tile, and on it the place beside the light: what is beyond the line and before the place
+// is seen, from all of the tile, beside the light.
+struct HullSide {
+  Vec2d normal, forward;
+  double offset = 0, limit = 0;
+};
+
+struct SeenLight {
+  bool edge = false;
+  Vec2d normal;      // edge: to the lit side
+  Vec2d at;          // disk: centre
+  double margin = 0; // the tile's reach along the normal; its radius for a disk
+  HullSide low, high;  // low: the clockwise side
+};
+
+// Sets of vertices: past the lines, beside the light, and in front of every pixel's axis.
+struct VertexMarks {
+  std::uint8_t past_low, past_high, beside_low, beside_high, ahead;
+};
+
+struct SilhouetteTable {
+  // Vertices, count, begins and ends.
+  void (*outline)(const PaddedOutline& from, const TileArea& tile, Silhouette& s);
+  VertexMarks (*mark)(const Silhouette& s, const SeenLight& light);
+};
+
+STERADIAN_DECLARE_PACK_TABLE(SilhouetteTable, silhouette_table)
+
+}  // namespace steradian::plane

@@ -1,0 +1,104 @@
+// One tile of a frame and one emitter: what the packs integrate. Coordinates are floats relative to the tile's centre.
+#pragma once
+
+#include <cstddef>
+
+#include "core/simd.h"
+
+namespace steradian::plane {
+
+inline constexpr int kTileSide = 16, kTilePixels = kTileSide * kTileSide;
+
+struct TileItem {
+  float px, py, qx, qy;            // chord, in any order
+  float depth_x, depth_y, depth_c; // the blocker is nearer where depth . (x, y, 1) > 0; only in deep items
+};
+
+// A blocker that reaches past the light on one side for all of the tile ends in a vertex.
+struct TileVertex {
+  float x, y;
+};
+
+// A convex blocker in front of the light and of every pixel's axis: it is seen from the least of its first vertices to
+// the greatest of its others.
+struct TileSpan {
+  int first, begins, ends;         // its vertices: where in TileLight::span_vertices, how many may begin and end it
+};
+
+// A convex blocker anywhere.
+struct TileBody {
+  TileSpan vertices;
+  bool deep;                       // nearer than the light only beyond its depth line
+  float depth_x, depth_y, depth_c;
+};
+
+// A round blocker in front of the light and of every pixel's axis, or one that also reaches past the light on one side.
+struct TileDisk {
+  float x, y, radius;
+};
+
+struct TileRound {
+  float cx, cy;                    // ellipse: centre,
+  float xx, xy, yx, yy;            // half axes x and y,
+  float ux, uy, vx, vy;            // rows of the map to the unit circle
+  float depth_x, depth_y, depth_c;
+};
+
+struct TileLens {
+  TileRound round;
+  float x[2], y[2];                // crossings, their outward normals on the light and on the blocker
+  float lx[2], ly[2], bx[2], by[2];
+};
+
+struct TileLight {
+  // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along.
+  float x, y, radius;
+  float nx, ny, begin, end;
+  float inverse_range;             // 0: no range
+  float red, green, blue;          // at the disk, or at `begin` ...
+  float red_slope, green_slope, blue_slope;  // ... and their change per distance along the edge
+  int profile;                     // PlaneProfile as int
+  bool linear, edge;
+
+  const TileVertex* lows;          // ends of blockers that begin before the light
+  int low_count;
+  const TileVertex* highs;         // begins of blockers that end behind it
+  int high_count;
+  const TileDisk* low_disks;       // the same with disks
+  int low_disk_count;
+  const TileDisk* high_disks;
+  int high_disk_count;
+  const TileDisk* disks;
+  int disk_count;
+  const TileSpan* spans;
+  int span_count;
+  const TileBody* bodies;
+  int body_count;
+  const TileVertex* span_vertices; // of spans and bodies
+  const TileItem* chords;          // any chord in front of the light
+  int chord_count;
+  const TileItem* deep;            // any chord, with a depth line
+  int deep_count;
+  const TileRound* rounds;
+  int round_count;
+  const TileLens* lenses;
+  int lens_count;
+  float* scratch;                  // 32 floats for each item, 64 for each lens
+};
+
+// The accumulators of a tile's pixels.
+struct TileBuffer {
+  static int slot(int x, int y) { return (y / 4 * 4 + x / 4) * 16 + (y % 4) * 4 + x % 4; }
+  alignas(64) float x[kTilePixels], y[kTilePixels];  // pixel centres, in blocks of 4 x 4
+  alignas(64) float red[kTilePixels], green[kTilePixels], blue[kTilePixels];
+};
+
+struct TileTable {
+  void (*add_light)(const TileLight& light, TileBuffer& tile);
+  // The buffer's first columns and rows as pixels of red, green and blue; `stride` floats from row to row.
+  void (*write)(const TileBuffer& tile, int width, int height, float* out, std::size_t stride);
+};
+
+STERADIAN_DECLARE_PACK_TABLE(TileTable, tile_table)
+
+}  // namespace steradian::plane

@@ -1,0 +1,264 @@
+// What the blockers of a tile leave of a light, as many pixels at once as a register holds. For *_pack.cpp only.
+//
+// Every direction is a slope: the tangent of its angle from an axis, the direction of a disk's centre or an edge's
+// normal. Blockers cut [-limit, limit] of the light's slopes down from both ends; the few that lie strictly within are
+// kept, sorted.
+#pragma once
+
+#include "core/pack.h"
+#include "plane/frame/tile.h"
+
+namespace steradian::plane::STERADIAN_ISA {
+namespace {
+
+using PackMask = Mask<Pack>;
+constexpr double kBeyond = 1e9;
+
+// The light's slopes that are still visible.
+struct Cut {
+  PackReal low, high;
+  float* kept;  // begin and end of each interval; room for all the tile's items
+  int count = 0;
+
+  STERADIAN_INLINE float* begin_of(int k) const { return kept + static_cast<std::size_t>(2 * k) * kLanes; }
+  STERADIAN_INLINE float* end_of(int k) const { return begin_of(k) + kLanes; }
+
+  STERADIAN_INLINE bool dark() const { return all_lanes(low >= high); }
+
+  // Takes [from, to] away where `valid`.
+  STERADIAN_INLINE void take(PackReal from, PackReal to, PackMask valid) {
+    from = select(valid, from, PackReal(kBeyond));  // an interval at the far end takes nothing
+    to = select(valid, to, PackReal(kBeyond));
+    from = max(from, low);
+    const PackMask left = from <= low;
+    const PackReal new_low = select(left, max(low, to), low);
+    const PackMask right = to >= high;
+    const PackReal new_high = select(right, min(high, from), high);
+    const PackMask within = !(left || right);
+    low = new_low;
+    high = new_high;
+    if (any_lane(within && to > low && from < high && from < to)) insert(select(within, from, PackReal(kBeyond)), select(within, to, PackReal(kBeyond)));
+  }
+
+  // Sorted by begin, lane by lane.
+  STERADIAN_INLINE void insert(PackReal from, PackReal to) {
+    for (int k = 0; k < count; ++k) {
+      const PackReal b = load(begin_of(k)), e = load(end_of(k));
+      const PackMask swap = from < b;
+      store(begin_of(k), select(swap, from, b));
+      store(end_of(k), select(swap, to, e));
+      from = select(swap, b, from);
+      to = select(swap, e, to);
+    }
+    store(begin_of(count), from);
+    store(end_of(count), to);
+    ++count;
+  }
+
+  // What is taken from within [low, high], without overlaps.
+  template <class F>
+  STERADIAN_INLINE void for_each_taken(F f) const {
+    PackReal at = low;
+    for (int k = 0; k < count; ++k) {
+      const PackReal from = max(at, min(load(begin_of(k)), high)), to = max(from, min(load(end_of(k)), high));
+      if (any_lane(to > from)) f(from, to);
+      at = to;
+    }
+  }
+
+  template <class F>
+  STERADIAN_INLINE void for_each_gap(F f) const {
+    PackReal at = low;
+    for (int k = 0; k < count; ++k) {
+      const PackReal gap_end = min(load(begin_of(k)), high);
+      if (any_lane(gap_end > at)) f(at, max(gap_end, at));
+      at = max(at, min(load(end_of(k)), high));
+    }
+    if (any_lane(high > at)) f(at, max(high, at));
+  }
+};
+
+// a / b to 2 or 3 ulp; b > 0 and in the range of its estimate.
+STERADIAN_INLINE PackReal quotient(PackReal a, PackReal b) {
+#if defined(__AVX512F__)
+  const PackReal y = PackReal::of(Pack(_mm512_rcp14_ps(b.v)));
+  return a * (y * (PackReal(2.0) - b * y));
+#elif defined(__AVX2__)
+  const PackReal y = PackReal::of(Pack(_mm256_rcp_ps(b.v)));
+  return a * (y * (PackReal(2.0) - b * y));
+#else
+  return a / b;
+#endif
+}
+
+// The slope of a direction (w along the axis, t across it), `beyond` where it is not in front.
+STERADIAN_INLINE PackReal slope(PackReal w, PackReal t, PackReal beyond) {
+  const PackReal q = quotient(t, max(w, PackReal(1e-12)));
+  return select(w > PackReal(1e-12), clamp(q, PackReal(-kBeyond), PackReal(kBeyond)), beyond);
+}
+
+struct Axis {
+  PackReal x, y;        // axis: w along it, t across
+  PackReal px, py;      // the pixels
+  STERADIAN_INLINE PackReal w(PackReal vx, PackReal vy) const { return vx * x + vy * y; }
+  STERADIAN_INLINE PackReal t(PackReal vx, PackReal vy) const { return x * vy - y * vx; }
+};
+
+STERADIAN_INLINE PackReal slope_to(const TileVertex& v, const Axis& axis) {
+  const PackReal x = broadcast(v.x) - axis.px, y = broadcast(v.y) - axis.py;
+  return quotient(axis.t(x, y), axis.w(x, y));
+}
+
+STERADIAN_INLINE void take_blocker(const TileSpan& span, const TileVertex* vertices, const Axis& axis, Cut& cut) {
+  const TileVertex* v = vertices + span.first;
+  PackReal from = slope_to(v[0], axis), to = slope_to(v[span.begins], axis);
+  for (int i = 1; i < span.begins; ++i) from = min(from, slope_to(v[i], axis));
+  for (int i = 1; i < span.ends; ++i) to = max(to, slope_to(v[span.begins + i], axis));
+  cut.take(from, to, from < to);
+}
+
+// Two directions that span less than half a turn, in any order, also behind the pixel.
+STERADIAN_INLINE void take_span(PackReal pw, PackReal pt, PackReal qw, PackReal qt, PackMask valid, Cut& cut) {
+  const PackMask swap = pw * qt - pt * qw < PackReal(0.0);
+  const PackReal aw = select(swap, qw, pw), at = select(swap, qt, pt), bw = select(swap, pw, qw), bt = select(swap, pt, qt);
+  const PackReal from = slope(aw, at, PackReal(-kBeyond)), to = slope(bw, bt, PackReal(kBeyond));
+  cut.take(from, to, valid && (aw > PackReal(1e-12) || bw > PackReal(1e-12)) && from < to);
+}
+
+STERADIAN_INLINE void take_chord(const TileItem& item, const Axis& axis, PackMask valid, Cut& cut) {
+  const PackReal px = broadcast(item.px) - axis.px, py = broadcast(item.py) - axis.py;
+  const PackReal qx = broadcast(item.qx) - axis.px, qy = broadcast(item.qy) - axis.py;
+  take_span(axis.w(px, py), axis.t(px, py), axis.w(qx, qy), axis.t(qx, qy), valid, cut);
+}
+
+template <class Item>
+STERADIAN_INLINE PackMask nearer(const Item& item, const Axis& axis) {
+  return broadcast(item.depth_x) * axis.px + broadcast(item.depth_y) * axis.py + broadcast(item.depth_c) > PackReal(0.0);
+}
+
+// The blocker's tangents: its most clockwise and counter-clockwise vertices.
+STERADIAN_INLINE void take_body(const TileBody& body, const TileVertex* vertices, const Axis& axis, Cut& cut) {
+  const TileVertex* v = vertices + body.vertices.first;
+  const auto outermost = [&](const TileVertex* candidates, int count, PackReal sign, PackReal& w, PackReal& t) {
+    PackReal x = broadcast(candidates[0].x) - axis.px, y = broadcast(candidates[0].y) - axis.py;
+    for (int i = 1; i < count; ++i) {
+      const PackReal cx = broadcast(candidates[i].x) - axis.px, cy = broadcast(candidates[i].y) - axis.py;
+      const PackMask further = (x * cy - y * cx) * sign > PackReal(0.0);
+      x = select(further, cx, x);
+      y = select(further, cy, y);
+    }
+    w = axis.w(x, y);
+    t = axis.t(x, y);
+  };
+  PackReal pw, pt, qw, qt;
+  outermost(v, body.vertices.begins, PackReal(-1.0), pw, pt);
+  outermost(v + body.vertices.begins, body.vertices.ends, PackReal(1.0), qw, qt);
+  const PackReal from = slope(pw, pt, PackReal(-kBeyond)), to = slope(qw, qt, PackReal(kBeyond));
+  PackMask valid = (pw > PackReal(1e-12) || qw > PackReal(1e-12)) && from < to;
+  if (body.deep) valid = valid && nearer(body, axis);
+  cut.take(from, to, valid);
+}
+
+// Tangent directions of an ellipse, in the axis' components.
+struct Tangents {
+  PackReal pw, pt, qw, qt;
+  PackMask outside;
+};
+STERADIAN_INLINE Tangents tangents(const TileRound& r, const Axis& axis) {
+  const PackReal cx = broadcast(r.cx) - axis.px, cy = broadcast(r.cy) - axis.py;
+  const PackReal u = cx * broadcast(r.ux) + cy * broadcast(r.uy), v = cx * broadcast(r.vx) + cy * broadcast(r.vy);
+  const PackReal d2 = u * u + v * v - PackReal(1.0);
+  Tangents result;
+  result.outside = d2 > PackReal(0.0);
+  const PackReal tangent = sqrt(max(d2, PackReal(0.0)));
+  // The centre's direction turned by the angle whose sine is 1 / d, to both sides, and back out of the unit space.
+  const PackReal pu = u * tangent + v, pv = v * tangent - u, qu = u * tangent - v, qv = v * tangent + u;
+  const PackReal px = pu * broadcast(r.xx) + pv * broadcast(r.yx), py = pu * broadcast(r.xy) + pv * broadcast(r.yy);
+  const PackReal qx = qu * broadcast(r.xx) + qv * broadcast(r.yx), qy = qu * broadcast(r.xy) + qv * broadcast(r.yy);
+  result.pw = axis.w(px, py);
+  result.pt = axis.t(px, py);
+  result.qw = axis.w(qx, qy);
+  result.qt = axis.t(qx, qy);
+  return result;
+}
+
+// Slopes of a disk's tangents, the disk in front of the axis: its clockwise one and the other.
+struct DiskTangents {
+  PackReal x, y, root, radius;  // the centre from the pixel, the length of a tangent
+  STERADIAN_INLINE DiskTangents(const TileDisk& disk, const Axis& axis) {
+    x = broadcast(disk.x) - axis.px;
+    y = broadcast(disk.y) - axis.py;
+    radius = broadcast(disk.radius);
+    root = PackKernels().plane_root(max(x * x + y * y - radius * radius, PackReal(0.0)));
+  }
+  STERADIAN_INLINE PackReal begin(const Axis& axis) const { return along(axis, x * root + y * radius, y * root - x * radius); }
+  STERADIAN_INLINE PackReal end(const Axis& axis) const { return along(axis, x * root - y * radius, y * root + x * radius); }
+  STERADIAN_INLINE static PackReal along(const Axis& axis, PackReal dx, PackReal dy) { return quotient(axis.t(dx, dy), axis.w(dx, dy)); }
+};
+
+// Two disks that overlap: which is nearer changes only at a crossing of their outlines that is seen on both.
+STERADIAN_INLINE void take_lens(const TileLens& lens, const Axis& axis, Cut& cut) {
+  const Tangents t = tangents(lens.round, axis);
+  const PackReal p = slope(t.pw, t.pt, PackReal(-kBeyond)), q = slope(t.qw, t.qt, PackReal(kBeyond));
+  PackMask on_light[2], on_blocker[2];
+  PackReal crossing[2];
+  for (int i = 0; i < 2; ++i) {
+    const PackReal x = broadcast(lens.x[i]) - axis.px, y = broadcast(lens.y[i]) - axis.py;
+    on_light[i] = x * broadcast(lens.lx[i]) + y * broadcast(lens.ly[i]) < PackReal(0.0);
+    on_blocker[i] = x * broadcast(lens.bx[i]) + y * broadcast(lens.by[i]) < PackReal(0.0);
+    crossing[i] = slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
+  }
+  const PackMask seen0 = on_light[0] && on_blocker[0], seen1 = on_light[1] && on_blocker[1];
+  // None seen: the order is the same everywhere. A crossing on the light's near side but the blocker's far side has
+  // the blocker in front; seen on neither, the side of the common chord decides.
+  const PackMask front = (on_light[0] && !on_blocker[0]) || (on_light[1] && !on_blocker[1]);
+  const PackMask behind = (on_blocker[0] && !on_light[0]) || (on_blocker[1] && !on_light[1]);
+  const PackMask none = !(seen0 || seen1) && (front || (!behind && nearer(lens.round, axis)));
+  const PackMask both = seen0 && seen1;
+  const PackMask middle = both && crossing[0] < crossing[1];
+  const PackMask valid = t.outside && (t.pw > PackReal(1e-12) || t.qw > PackReal(1e-12));
+  const PackReal from = select(seen0, crossing[0], p), to = select(seen1, crossing[1], q);
+  const PackMask split = both && !middle;
+  cut.take(from, to, valid && (none || middle || (!both && (seen0 || seen1))) && from < to);
+  if (any_lane(split)) {
+    cut.take(p, crossing[1], valid && split);
+    cut.take(crossing[0], q, valid && split);
+  }
+}
+
+// False where nothing is left on any lane.
+STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut& cut) {
+  for (int i = 0; i < light.low_count; ++i) cut.low = max(cut.low, slope_to(light.lows[i], axis));
+  for (int i = 0; i < light.high_count; ++i) cut.high = min(cut.high, slope_to(light.highs[i], axis));
+  for (int i = 0; i < light.low_disk_count; ++i) cut.low = max(cut.low, DiskTangents(light.low_disks[i], axis).end(axis));
+  for (int i = 0; i < light.high_disk_count; ++i) cut.high = min(cut.high, DiskTangents(light.high_disks[i], axis).begin(axis));
+  if (cut.dark()) return false;
+  for (int i = 0; i < light.span_count; ++i) {
+    take_blocker(light.spans[i], light.span_vertices, axis, cut);
+    if (cut.dark()) return false;
+  }
+  for (int i = 0; i < light.disk_count; ++i) {
+    const DiskTangents tangents(light.disks[i], axis);
+    const PackReal from = tangents.begin(axis), to = tangents.end(axis);
+    cut.take(from, to, from < to);
+    if (cut.dark()) return false;
+  }
+  for (int i = 0; i < light.body_count; ++i) {
+    take_body(light.bodies[i], light.span_vertices, axis, cut);
+    if (cut.dark()) return false;
+  }
+  for (int i = 0; i < light.chord_count; ++i) {
+    take_chord(light.chords[i], axis, PackMask(Pack(0.0f) == Pack(0.0f)), cut);
+    if (cut.dark()) return false;
+  }
+  for (int i = 0; i < light.deep_count; ++i) take_chord(light.deep[i], axis, nearer(light.deep[i], axis), cut);
+  for (int i = 0; i < light.round_count; ++i) {
+    const Tangents t = tangents(light.rounds[i], axis);
+    take_span(t.pw, t.pt, t.qw, t.qt, t.outside && nearer(light.rounds[i], axis), cut);
+  }
+  for (int i = 0; i < light.lens_count; ++i) take_lens(light.lenses[i], axis, cut);
+  return !cut.dark();
+}
+
+}  // namespace
+}  // namespace steradian::plane::STERADIAN_ISA

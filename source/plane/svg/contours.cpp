@@ -1,0 +1,107 @@
+#include "plane/svg/contours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace steradian::plane::svg {
+namespace {
+
+using std::numbers::pi;
+
+// One curve of a broken file may ask for billions.
+constexpr double kMostPieces = 10'000;
+
+// At least one piece, also where the estimate is not a number.
+int pieces(double wanted) { return wanted > 1 ? static_cast<int>(std::ceil(std::min(wanted, kMostPieces))) : 1; }
+
+}  // namespace
+
+void Pen::move(Vec2d to) {
+  end_contour(false);
+  at_ = start_ = to;
+  begun_ = true;
+  points_.push_back(transform_.apply(at_));
+}
+
+void Pen::begin() {
+  if (points_.empty()) points_.push_back(transform_.apply(at_));  // after a close the pen goes on from its start
+}
+
+void Pen::line(Vec2d to) {
+  begin();
+  points_.push_back(transform_.apply(to));
+  at_ = to;
+}
+
+// A parabola through n pieces is off by |second difference| / (8 n^2) at most; the cubic's bound takes the larger of
+// its two second differences (Wang, "Some subdivision techniques", 1984).
+void Pen::cubic(Vec2d first_control, Vec2d second_control, Vec2d to) {
+  begin();
+  const Vec2d a = transform_.apply(at_), b = transform_.apply(first_control), c = transform_.apply(second_control), d = transform_.apply(to);
+  const double bend = 6 * std::max(length(a - b * 2 + c), length(b - c * 2 + d));
+  const int n = pieces(std::sqrt(bend / (8 * tolerance_)));
+  for (int i = 1; i <= n; ++i) {
+    const double t = static_cast<double>(i) / n, s = 1 - t;
+    points_.push_back(a * (s * s * s) + b * (3 * s * s * t) + c * (3 * s * t * t) + d * (t * t * t));
+  }
+  at_ = to;
+}
+
+// SVG 1.1, appendix F.6, in the space where the ellipse is the unit circle: its squares neither overflow nor vanish there.
+void Pen::arc(double rx, double ry, double turn, bool large, bool sweep, Vec2d to) {
+  const Vec2d from = at_;
+  if (from == to) return;
+  const double c = std::cos(turn), s = std::sin(turn);
+  const Vec2d half = (from - to) * 0.5;
+  double u = (c * half.x + s * half.y) / rx, v = (c * half.y - s * half.x) / ry, n2 = u * u + v * v;
+  if (!(n2 > 0 && n2 < 1e300)) return line(to);  // one radius is nothing, or both are endless
+  if (n2 > 1) {
+    // Too small to reach: grown until it does.
+    const double grow = std::sqrt(n2);
+    rx *= grow;
+    ry *= grow;
+    u /= grow;
+    v /= grow;
+    n2 = 1;
+  }
+  const double k = (large == sweep ? -1 : 1) * std::sqrt((1 - n2) / n2);
+  const Vec2d q{k * v * rx, -k * u * ry}, middle = (from + to) * 0.5;
+  const Vec2d center{c * q.x - s * q.y + middle.x, s * q.x + c * q.y + middle.y};
+  const double begin_angle = std::atan2(v + k * u, u - k * v);
+  double span = std::atan2(k * u - v, -u - k * v) - begin_angle;
+  if (sweep && span < 0) span += 2 * pi;
+  if (!sweep && span > 0) span -= 2 * pi;
+  begin();
+  // The sagitta of a piece is r (1 - cos(step / 2)) on the longest axis, which is below 1.5 times the longer column.
+  const double r = 1.5 * std::max(rx, ry) * std::max(std::hypot(transform_.a, transform_.b), std::hypot(transform_.c, transform_.d));
+  const double step = 4 * std::asin(std::sqrt(0.5 * std::min(tolerance_ / r, 1.0)));
+  const int n = pieces(std::fabs(span) / step);
+  for (int i = 1; i < n; ++i) {
+    const double t = begin_angle + span * i / n;
+    const Vec2d e{rx * std::cos(t), ry * std::sin(t)};
+    points_.push_back(transform_.apply({center.x + c * e.x - s * e.y, center.y + s * e.x + c * e.y}));
+  }
+  line(to);
+}
+
+void Pen::close() {
+  end_contour(true);
+  at_ = start_;
+}
+
+void Pen::end_contour(bool closed) {
+  if (points_.size() > 1) {
+    result_.points.push_back(points_);
+    result_.closed.push_back(closed);
+  }
+  points_.clear();
+}
+
+Contours Pen::finish() {
+  end_contour(false);
+  return std::move(result_);
+}
+
+}  // namespace steradian::plane::svg

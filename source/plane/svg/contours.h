@@ -1,0 +1,44 @@
+// Contours: outlines made of points, as lines, Bezier curves and arcs leave them behind.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "plane/svg/text.h"
+
+namespace steradian::plane::svg {
+
+struct Contours {
+  std::vector<std::vector<Vec2d>> points;
+  std::vector<bool> closed;
+};
+
+// A pen that draws in the coordinates of an element. The polylines that it leaves behind are in the scene's, after the
+// transform, and no further than `tolerance` from the curves there.
+class Pen {
+ public:
+  Pen(const Transform& transform, double tolerance) : transform_(transform), tolerance_(tolerance) {}
+
+  Vec2d at() const { return at_; }
+  bool has_begun() const { return begun_; }
+  void move(Vec2d to);
+  void line(Vec2d to);
+  void cubic(Vec2d first_control, Vec2d second_control, Vec2d to);
+  // An arc of an ellipse with half axes rx and ry, the first turned by `turn` radians; `large` and `sweep` as in SVG.
+  void arc(double rx, double ry, double turn, bool large, bool sweep, Vec2d to);
+  void close();
+  Contours finish();
+
+ private:
+  void begin();
+  void end_contour(bool closed);
+
+  Transform transform_;
+  double tolerance_;
+  Contours result_;
+  std::vector<Vec2d> points_;
+  Vec2d at_, start_;
+  bool begun_ = false;
+};
+
+}  // namespace steradian::plane::svg

@@ -1,0 +1,97 @@
+#include "plane/svg/document.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "plane/svg/text.h"
+#include "steradian/error.h"
+
+namespace steradian::plane::svg {
+
+Document::Document(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+  const auto parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_auto);
+  if (!parsed)
+    throw Error(place(parsed.offset), std::string("not well-formed XML: ") + parsed.description(),
+                "check the tags and quotes on this line");
+  if (std::string_view(root().name()) != "svg")
+    throw Error(place(root()), "the root element is <" + std::string(root().name()) + ">, not <svg>", "give an SVG file");
+  std::vector<pugi::xml_node> open{root()};
+  while (!open.empty()) {
+    const pugi::xml_node n = open.back();
+    open.pop_back();
+    if (n.attribute("id")) ids_.insert({n.attribute("id").value(), n});
+    for (pugi::xml_node child : n.children()) open.push_back(child);
+  }
+}
+
+std::string Document::place(std::ptrdiff_t offset) const {
+  const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
+  return name_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n'));
+}
+std::string Document::place(pugi::xml_node n) const {
+  std::string where = place(n.offset_debug());
+  if (*n.name() != '\0') where += std::string(": <") + n.name() + ">";
+  if (n.attribute("id")) where += std::string(" '") + n.attribute("id").value() + "'";
+  return where;
+}
+void Document::fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const {
+  throw Error(place(n), problem, hint);
+}
+
+pugi::xml_node Document::by_id(const std::string& id) const {
+  const auto found = ids_.find(id);
+  return found == ids_.end() ? pugi::xml_node() : found->second;
+}
+
+pugi::xml_node Document::referred(pugi::xml_node n) const {
+  const std::string_view target = n.attribute("href") ? n.attribute("href").value() : n.attribute("xlink:href").value();
+  return target.starts_with('#') ? by_id(std::string(target.substr(1))) : pugi::xml_node();
+}
+
+std::optional<double> Document::length_of(std::string_view text, double whole) {
+  Scanner scan(text);
+  const auto value = scan.number();
+  if (!value) return {};
+  std::string unit;
+  while (!scan.at_end()) unit += scan.next();
+  unit = std::string(trimmed(unit));
+  static constexpr std::pair<const char*, double> kUnits[] = {
+      {"", 1}, {"px", 1}, {"pt", 96.0 / 72}, {"pc", 16}, {"in", 96}, {"cm", 96 / 2.54}, {"mm", 9.6 / 2.54}};
+  for (const auto& [known, scale] : kUnits)
+    if (unit == known) return *value * scale;
+  if (unit == "%") return *value / 100 * whole;
+  return {};
+}
+double Document::length_attribute(pugi::xml_node n, const char* attribute, double whole, double otherwise) const {
+  if (!n.attribute(attribute)) return otherwise;
+  const auto v = length_of(n.attribute(attribute).value(), whole);
+  if (!v)
+    fail(n, std::string(attribute) + "=\"" + n.attribute(attribute).value() + "\" is not a length",
+         "write a number, with px, pt, mm, cm, in or %");
+  return *v;
+}
+
+std::optional<std::string> Document::property(pugi::xml_node n, const char* key) {
+  std::string_view style = n.attribute("style").value();
+  while (!style.empty()) {
+    const std::size_t end = std::min(style.find(';'), style.size());
+    const std::string_view declaration = style.substr(0, end);
+    const std::size_t colon = declaration.find(':');
+    if (colon != std::string_view::npos && trimmed(declaration.substr(0, colon)) == key)
+      return std::string(trimmed(declaration.substr(colon + 1)));
+    style.remove_prefix(std::min(end + 1, style.size()));
+  }
+  if (n.attribute(key)) return std::string(trimmed(n.attribute(key).value()));
+  return {};
+}
+
+double Document::number_attribute(pugi::xml_node n, const char* key, double low, const char* hint) const {
+  Scanner scan(n.attribute(key).value());
+  const auto v = scan.number();
+  scan.skip_separators();
+  if (!v || !scan.at_end() || *v < low) fail(n, std::string(key) + "=\"" + n.attribute(key).value() + "\" does not do", hint);
+  return *v;
+}
+
+}  // namespace steradian::plane::svg

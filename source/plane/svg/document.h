@@ -1,0 +1,45 @@
+// An SVG file as a tree: where its elements are, what they refer to, and how attributes are read.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <pugixml.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "steradian/vector.h"
+
+namespace steradian::plane::svg {
+
+class Document {
+ public:
+  // Throws Error where the text is not XML or not SVG.
+  Document(std::string text, std::string name);
+
+  pugi::xml_node root() const { return document_.document_element(); }
+  [[noreturn]] void fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const;
+
+  // What href names; nothing where it is not in this file.
+  pugi::xml_node referred(pugi::xml_node n) const;
+  pugi::xml_node by_id(const std::string& id) const;
+
+  // An attribute, or the same property in style="...".
+  static std::optional<std::string> property(pugi::xml_node n, const char* key);
+  // A length: user units, px, or an absolute unit at 96 to the inch; a percentage of `whole`.
+  static std::optional<double> length_of(std::string_view text, double whole);
+  double length_attribute(pugi::xml_node n, const char* attribute, double whole, double otherwise = 0) const;
+  double number_attribute(pugi::xml_node n, const char* key, double low, const char* hint) const;
+
+  std::set<std::string> ignored;  // what is not supported
+
+ private:
+  std::string place(std::ptrdiff_t offset) const;
+  std::string place(pugi::xml_node n) const;
+
+  std::string text_, name_;
+  pugi::xml_document document_;
+  std::map<std::string, pugi::xml_node> ids_;
+};
+
+}  // namespace steradian::plane::svg

@@ -1,0 +1,140 @@
+#include "plane/svg/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace steradian::plane::svg {
+namespace {
+
+class Paint {
+ public:
+  Paint(Document& document, Vec2d size) : document_(document), size_(size) {}
+
+  PlaneEmission emission(pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled) {
+    PlaneEmission e;
+    e.profile = style.profile;
+    e.range = style.range;
+    e.spot_axis = style.spot_axis;
+    e.spot_half_angle = style.spot_half_angle;
+    std::string paint = filled || style.stroke == "none" ? style.fill : style.stroke;
+    if (paint == "none") paint = style.stroke;
+    if (paint == "none") document_.fail(n, "a light without a colour", "give it a fill");
+    if (paint.starts_with("url(")) {
+      const std::size_t hash = paint.find('#'), close = paint.find_first_of(")\"'", hash);
+      const pugi::xml_node found = hash == std::string::npos ? pugi::xml_node() : document_.by_id(paint.substr(hash + 1, close - hash - 1));
+      if (!found) document_.fail(n, "fill=\"" + paint + "\" refers to nothing in this file", "define the gradient in <defs>");
+      gradient(n, found, body, style, e);
+    } else {
+      e.radiance = color(n, paint, style) * style.intensity;
+    }
+    return e;
+  }
+
+ private:
+  Vec3d color(pugi::xml_node n, std::string_view text, const Style& style) const {
+    if (text == "currentColor") text = style.color;
+    const auto c = parse_color(text);
+    if (!c) document_.fail(n, "'" + std::string(text) + "' is not a colour", "write #rrggbb, rgb(r,g,b) or a colour's name");
+    return *c;
+  }
+
+  void gradient(pugi::xml_node user, pugi::xml_node node, const PlaneBody& body, const Style& style, PlaneEmission& e) {
+    const bool is_linear = std::string_view(node.name()) == "linearGradient";
+    if (!is_linear) document_.ignored.insert("<" + std::string(node.name()) + "> (its mean colour shines)");
+    // Attributes and stops may come from gradients this one refers to.
+    std::vector<pugi::xml_node> chain;
+    for (pugi::xml_node g = node; g && chain.size() < 16; g = document_.referred(g)) chain.push_back(g);
+    const auto attribute = [&](const char* key) {
+      for (pugi::xml_node g : chain)
+        if (g.attribute(key)) return g.attribute(key);
+      return pugi::xml_attribute();
+    };
+    std::vector<PlaneStop> stops;
+    for (pugi::xml_node g : chain) {
+      for (pugi::xml_node s : g.children("stop")) {
+        const double offset = std::clamp(document_.length_attribute(s, "offset", 1), stops.empty() ? 0.0 : stops.back().offset, 1.0);
+        const std::string text = document_.property(s, "stop-color").value_or("black");
+        stops.push_back({offset, color(s, text, style) * style.intensity});
+      }
+      if (!stops.empty()) break;
+    }
+    if (stops.empty()) document_.fail(node, "the gradient has no stops", "add <stop> elements");
+    if (!is_linear) {
+      e.radiance = {};
+      for (const PlaneStop& s : stops) e.radiance += s.radiance / static_cast<double>(stops.size());
+      return;
+    }
+    if (const auto spread = attribute("spreadMethod"); spread && std::string_view(spread.value()) != "pad")
+      document_.ignored.insert("spreadMethod");
+    const bool in_user_space = std::string_view(attribute("gradientUnits").value()) == "userSpaceOnUse";
+    const auto coordinate = [&](const char* key, double whole, double otherwise) {
+      const auto a = attribute(key);
+      if (!a) return otherwise;
+      const auto v = document_.length_of(a.value(), whole);
+      if (!v) document_.fail(node, std::string(key) + " is not a length", "write a number or a percentage");
+      return *v;
+    };
+    const double w = in_user_space ? size_.x : 1, h = in_user_space ? size_.y : 1;
+    Transform t = in_user_space ? style.transform : box_transform(user, body, style);
+    if (attribute("gradientTransform")) {
+      const auto own = parse_transform(attribute("gradientTransform").value());
+      if (!own) document_.fail(node, "cannot read gradientTransform", "use matrix, translate, scale, rotate, skewX and skewY");
+      t = t * *own;
+    }
+    const Vec2d from{coordinate("x1", w, 0), coordinate("y1", h, 0)}, to{coordinate("x2", w, w), coordinate("y2", h, 0)};
+    const Vec2d axis = to - from;
+    const double det = t.determinant();
+    if (dot(axis, axis) == 0 || det == 0) {
+      e.radiance = stops.back().radiance;
+      return;
+    }
+    // Lines of one colour stay lines under the transform, but not at right angles to the mapped axis: map the
+    // offset's derivative, a covector, and lay a new axis along it.
+    const Vec2d g = axis / dot(axis, axis);
+    const Vec2d mapped{(g.x * t.d - g.y * t.b) / det, (g.y * t.a - g.x * t.c) / det};
+    PlaneGradient result;
+    result.from = t.apply(from);
+    result.to = result.from + mapped / dot(mapped, mapped);
+    result.stops = std::move(stops);
+    e.gradient = std::move(result);
+  }
+
+  // From the unit square to the shape's bounding box in its own coordinates, then to the scene.
+  Transform box_transform(pugi::xml_node n, const PlaneBody& body, const Style& style) const {
+    const Transform& t = style.transform;
+    const double det = t.determinant();
+    if (det == 0) return t;
+    const Transform inverse{t.d / det, -t.b / det, -t.c / det, t.a / det, (t.c * t.f - t.d * t.e) / det,
+                            (t.b * t.e - t.a * t.f) / det};
+    Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
+    const auto grow = [&](Vec2d p) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    };
+    for (const auto& c : body.contours)
+      for (Vec2d p : c) grow(inverse.apply(p));
+    if (body.contours.empty()) {
+      const Vec2d c = inverse.apply(body.center), x = inverse.apply_vector(body.x_axis), y = inverse.apply_vector(body.y_axis);
+      const Vec2d half{std::hypot(x.x, y.x), std::hypot(x.y, y.y)};
+      grow(c - half);
+      grow(c + half);
+    }
+    const Vec2d size = high - low;
+    if (!(size.x > 0 && size.y > 0))
+      document_.fail(n, "a gradient across a shape without width or height", "use gradientUnits=\"userSpaceOnUse\"");
+    return t * Transform{size.x, 0, 0, size.y, low.x, low.y};
+  }
+
+  Document& document_;
+  Vec2d size_;
+};
+
+}  // namespace
+
+PlaneEmission emission_of(Document& document, pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled, Vec2d size) {
+  return Paint(document, size).emission(n, body, style, filled);
+}
+
+}  // namespace steradian::plane::svg

@@ -1,0 +1,308 @@
+// SVG to bodies: the tree, what is inherited down it, and the shapes.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "plane/svg/light.h"
+#include "plane/svg/path.h"
+#include "steradian/error.h"
+#include "steradian/plane.h"
+
+namespace steradian::plane::svg {
+namespace {
+
+// How far a flattened curve may be from its own, as a share of the picture's larger side: 0.01 of a pixel in a picture of
+// 1000 pixels, whatever a user unit is.
+constexpr double kFlatness = 1e-5;
+constexpr int kDeepest = 64;           // nested groups and uses: deeper is a cycle or an attack
+constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000;
+
+std::vector<std::string> words(std::string_view text) {
+  std::vector<std::string> result;
+  std::istringstream in{std::string(text)};
+  for (std::string w; in >> w;) result.push_back(w);
+  return result;
+}
+
+class Reader {
+ public:
+  Reader(std::string text, std::string name) : document_(std::move(text), std::move(name)) {}
+
+  PlaneSvg read() {
+    const pugi::xml_node root = document_.root();
+    read_frame(root);
+    children(root, inherit(root, {}), 0);
+    result_.ignored.assign(document_.ignored.begin(), document_.ignored.end());
+    return std::move(result_);
+  }
+
+ private:
+  void read_frame(pugi::xml_node root) {
+    PlaneScene& scene = result_.scene;
+    if (root.attribute("viewBox")) {
+      Scanner scan(root.attribute("viewBox").value());
+      double v[4];
+      for (double& x : v) {
+        const auto number = scan.number();
+        if (!number) document_.fail(root, "viewBox needs four numbers", "write viewBox=\"0 0 WIDTH HEIGHT\"");
+        x = *number;
+        scan.skip_separators();
+      }
+      scene.origin = {v[0], v[1]};
+      scene.width = v[2];
+      scene.height = v[3];
+    } else {
+      scene.width = document_.length_attribute(root, "width", 512, 512);
+      scene.height = document_.length_attribute(root, "height", 512, 512);
+    }
+    if (!(scene.width > 0 && scene.height > 0 && scene.width < 1e6 && scene.height < 1e6))
+      document_.fail(root, "the picture's width and height must be positive and below a million", "set the viewBox");
+  }
+
+  Style inherit(pugi::xml_node n, Style style) {
+    const std::pair<const char*, std::string*> inherited[] = {{"fill", &style.fill},
+                                                              {"stroke", &style.stroke},
+                                                              {"color", &style.color},
+                                                              {"stroke-linecap", &style.cap},
+                                                              {"fill-rule", &style.rule}};
+    for (const auto& [key, value] : inherited) {
+      const auto p = document_.property(n, key);
+      if (p && *p != "inherit") *value = *p;
+    }
+    if (const auto width = document_.property(n, "stroke-width")) {
+      const auto v = document_.length_of(*width, diagonal());
+      if (!v || *v < 0) document_.fail(n, "stroke-width=\"" + *width + "\" is not a length", "write a number");
+      style.stroke_width = *v;
+    }
+    if (const auto display = document_.property(n, "display"); display && *display == "none") style.role = Role::ignore;
+    read_role(n, style);
+    if (n.attribute("data-intensity")) style.intensity = document_.number_attribute(n, "data-intensity", 0, "give a number of at least 0");
+    if (n.attribute("data-range")) {
+      style.range = document_.number_attribute(n, "data-range", 0, "give a positive distance in user units");
+      if (style.range == 0) document_.fail(n, "data-range must be positive", "leave it out for light without a limit");
+    }
+    read_profile(n, style);
+    if (n.attribute("transform")) {
+      const auto t = parse_transform(n.attribute("transform").value());
+      if (!t) document_.fail(n, std::string("cannot read transform=\"") + n.attribute("transform").value() + "\"",
+                   "use matrix, translate, scale, rotate, skewX and skewY");
+      style.transform = style.transform * *t;
+    }
+    return style;
+  }
+
+  void read_role(pugi::xml_node n, Style& style) const {
+    if (style.role == Role::ignore) return;
+    static constexpr std::pair<const char*, Role> kRoles[] = {
+        {"light", Role::light}, {"occluder", Role::occluder}, {"ignore", Role::ignore}};
+    for (const std::string& word : words(n.attribute("class").value()))
+      for (const auto& [key, role] : kRoles)
+        if (word == key) style.role = role;
+    if (!n.attribute("data-steradian")) return;
+    for (const auto& [key, role] : kRoles)
+      if (trimmed(n.attribute("data-steradian").value()) == key) {
+        style.role = role;
+        return;
+      }
+    document_.fail(n, std::string("data-steradian=\"") + n.attribute("data-steradian").value() + "\" is unknown",
+         "use light, occluder or ignore");
+  }
+
+  void read_profile(pugi::xml_node n, Style& style) const {
+    if (n.attribute("data-profile")) {
+      const std::string_view v = trimmed(n.attribute("data-profile").value());
+      if (v == "uniform") style.profile = PlaneProfile::uniform;
+      else if (v == "lambert") style.profile = PlaneProfile::lambert;
+      else if (v == "inverse") style.profile = PlaneProfile::inverse;
+      else document_.fail(n, "data-profile=\"" + std::string(v) + "\" is unknown", "use uniform, lambert or inverse");
+    }
+    if (!n.attribute("data-spot")) return;
+    Scanner scan(n.attribute("data-spot").value());
+    const auto axis = scan.number();
+    scan.skip_separators();
+    const auto half = scan.number();
+    if (!axis || !half || !(*half >= 0 && *half <= 180))
+      document_.fail(n, "data-spot needs two angles in degrees", "write data-spot=\"DIRECTION HALF-ANGLE\", the half angle up to 180");
+    const double degree = std::numbers::pi / 180;
+    style.spot_axis = {std::cos(*axis * degree), std::sin(*axis * degree)};
+    style.spot_half_angle = *half * degree;
+  }
+
+  double diagonal() const { return std::hypot(result_.scene.width, result_.scene.height) / std::sqrt(2.0); }
+
+  double flatness() const { return kFlatness * std::max(result_.scene.width, result_.scene.height); }
+
+  void children(pugi::xml_node n, const Style& style, int depth) {
+    if (depth > kDeepest) document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
+    for (pugi::xml_node child : n.children()) {
+      if (child.type() != pugi::node_element) continue;
+      element(child, style, depth);
+    }
+  }
+
+  void element(pugi::xml_node n, const Style& outer, int depth) {
+    const std::string_view name = n.name();
+    static const std::set<std::string_view> kSilent = {"title", "desc", "metadata", "defs", "linearGradient", "symbol"};
+    if (kSilent.count(name) != 0 || name.find(':') != std::string_view::npos) return;
+    static const std::set<std::string_view> kKnown = {"g",    "a",       "svg",     "use",  "rect", "circle", "ellipse",
+                                                      "line", "polygon", "polyline", "path"};
+    if (kKnown.count(name) == 0) {
+      document_.ignored.insert("<" + std::string(name) + ">");
+      return;
+    }
+    const Style style = inherit(n, outer);
+    if (style.role == Role::ignore) return;
+    for (const char* unsupported : {"clip-path", "mask", "filter"})
+      if (const auto p = document_.property(n, unsupported); p && *p != "none") document_.ignored.insert(unsupported);
+    if (name == "g" || name == "a" || name == "svg") return children(n, style, depth + 1);
+    if (name == "use") return use(n, style, depth);
+    shape(n, name, style);
+  }
+
+  void use(pugi::xml_node n, Style style, int depth) {
+    if (depth > kDeepest) document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
+    const pugi::xml_node target = document_.referred(n);
+    if (!target) document_.fail(n, "refers to nothing in this file", "give href=\"#ID\" of an element of this file");
+    Transform move;
+    move.e = document_.length_attribute(n, "x", result_.scene.width);
+    move.f = document_.length_attribute(n, "y", result_.scene.height);
+    style.transform = style.transform * move;
+    if (++uses_ > kMostUses) document_.fail(n, "the file expands to more than 100000 uses", "look for nested <use>");
+    if (std::string_view(target.name()) == "symbol") return children(target, inherit(target, style), depth + 1);
+    element(target, style, depth + 1);
+  }
+
+  void shape(pugi::xml_node n, std::string_view name, const Style& style) {
+    const double w = result_.scene.width, h = result_.scene.height;
+    const bool filled = style.fill != "none" && name != "line";
+    PlaneBody body;
+    if (name == "circle" || name == "ellipse") {
+      const bool round = name == "circle";
+      const double rx = round ? document_.length_attribute(n, "r", diagonal()) : document_.length_attribute(n, "rx", w);
+      const double ry = round ? rx : document_.length_attribute(n, "ry", h);
+      if (rx < 0 || ry < 0) document_.fail(n, "a radius is negative", "give a radius above 0");
+      if (rx == 0 || ry == 0) return;
+      body.shape = PlaneBody::Shape::ellipse;
+      body.center = style.transform.apply({document_.length_attribute(n, "cx", w), document_.length_attribute(n, "cy", h)});
+      body.x_axis = style.transform.apply_vector({rx, 0});
+      body.y_axis = style.transform.apply_vector({0, ry});
+      if (!filled) {
+        if (style.stroke == "none" && style.role == Role::by_shape) return;
+        // Seen from both sides: a closed polyline.
+        Pen pen({body.x_axis.x, body.x_axis.y, body.y_axis.x, body.y_axis.y, body.center.x, body.center.y}, flatness());
+        pen.move({1, 0});
+        for (double x : {-1.0, 1.0}) pen.arc(1, 1, 0, false, true, {x, 0});
+        body.shape = PlaneBody::Shape::polyline;
+        body.contours = pen.finish().points;
+      }
+      return add(n, std::move(body), style, filled);
+    }
+    Pen pen(style.transform, flatness());
+    draw(n, name, pen);
+    Contours contours = pen.finish();
+    if (filled) {
+      for (auto& c : contours.points)
+        if (c.size() > 2) body.contours.push_back(std::move(c));
+      body.even_odd = style.rule == "evenodd";
+      if (body.contours.empty()) return;
+      return add(n, std::move(body), style, true);
+    }
+    if (style.stroke == "none" && style.role == Role::by_shape) return;
+    for (std::size_t i = 0; i < contours.points.size(); ++i)
+      if (contours.closed[i]) contours.points[i].push_back(contours.points[i].front());
+    const double radius = 0.5 * style.stroke_width * std::sqrt(std::fabs(style.transform.determinant()));
+    if (style.cap == "round" && radius > 0) {
+      for (const auto& c : contours.points)
+        for (std::size_t i = 0; i + 1 < c.size(); ++i) {
+          PlaneBody capsule;
+          capsule.shape = PlaneBody::Shape::capsule;
+          capsule.contours = {{c[i], c[i + 1]}};
+          capsule.radius = radius;
+          add(n, std::move(capsule), style, false);
+        }
+      return;
+    }
+    if (contours.points.empty()) return;
+    body.shape = PlaneBody::Shape::polyline;
+    body.contours = std::move(contours.points);
+    add(n, std::move(body), style, false);
+  }
+
+  void draw(pugi::xml_node n, std::string_view name, Pen& pen) const {
+    const auto x_of = [&](const char* key) { return document_.length_attribute(n, key, result_.scene.width); };
+    const auto y_of = [&](const char* key) { return document_.length_attribute(n, key, result_.scene.height); };
+    if (name == "line") {
+      pen.move({x_of("x1"), y_of("y1")});
+      pen.line({x_of("x2"), y_of("y2")});
+      return;
+    }
+    if (name == "rect") return draw_rect(n, {x_of("x"), y_of("y")}, {x_of("width"), y_of("height")}, pen);
+    try {
+      if (name == "path") return draw_path(n.attribute("d").value(), pen);
+      draw_points(n.attribute("points").value(), pen);
+      if (name == "polygon") pen.close();
+    } catch (const std::string& problem) {
+      document_.fail(n, problem, "compare it with the SVG path grammar");
+    }
+  }
+
+  void draw_rect(pugi::xml_node n, Vec2d corner, Vec2d size, Pen& pen) const {
+    if (size.x < 0 || size.y < 0) document_.fail(n, "width and height must not be negative", "move x or y instead");
+    if (size.x == 0 || size.y == 0) return;
+    double rx = document_.length_attribute(n, "rx", result_.scene.width, -1), ry = document_.length_attribute(n, "ry", result_.scene.height, -1);
+    if (rx < 0) rx = ry;
+    if (ry < 0) ry = rx;
+    rx = std::clamp(rx, 0.0, size.x / 2);
+    ry = std::clamp(ry, 0.0, size.y / 2);
+    const bool round = rx > 0 && ry > 0;
+    if (!round) rx = ry = 0;
+    const Vec2d far = corner + size;
+    const auto turn = [&](Vec2d to) {
+      if (round) pen.arc(rx, ry, 0, false, true, to);
+    };
+    pen.move({corner.x + rx, corner.y});
+    pen.line({far.x - rx, corner.y});
+    turn({far.x, corner.y + ry});
+    pen.line({far.x, far.y - ry});
+    turn({far.x - rx, far.y});
+    pen.line({corner.x + rx, far.y});
+    turn({corner.x, far.y - ry});
+    pen.line({corner.x, corner.y + ry});
+    turn({corner.x + rx, corner.y});
+    pen.close();
+  }
+
+  void add(pugi::xml_node n, PlaneBody body, const Style& style, bool filled) {
+    if (result_.scene.bodies.size() >= kMostBodies) document_.fail(n, "more than a million shapes", "split the scene");
+    body.name = n.attribute("id").value();
+    if (style.role == Role::light) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    result_.scene.bodies.push_back(std::move(body));
+  }
+
+  Document document_;
+  std::size_t uses_ = 0;
+  PlaneSvg result_;
+};
+
+}  // namespace
+
+}  // namespace steradian::plane::svg
+
+namespace steradian {
+
+PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name) { return plane::svg::Reader(svg, name).read(); }
+
+PlaneSvg load_plane_scene(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path, "cannot be opened", "check the path");
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file && !file.eof()) throw Error(path, "cannot be read", "check that it is a file");
+  return load_plane_scene_from_text(text.str(), path);
+}
+
+}  // namespace steradian
