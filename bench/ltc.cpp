@@ -53,7 +53,7 @@ Bench make(const std::string& name, Simd simd, Run LtcPackTable::*run, const Ltc
   const Run work = ltc_pack_table_for(simd).*run;
   return {name, floor->x.size(), name_of(simd), [floor, work] {
             GlossyFloor& f = *floor;
-            work(&f.light, 1, f.points(), f.tables, {f.irradiance.data(), f.specular.data(), f.grazing.data()});
+            work(f.light, f.points(), f.tables, {f.irradiance.data(), f.specular.data(), f.grazing.data()});
             keep(f.specular.front());
           }};
 }

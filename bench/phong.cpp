@@ -12,6 +12,7 @@ namespace {
 struct Scene {
   moment::PhongPlane plane = moment::make_phong_plane(160, 144);
   PreparedPolygon light = moment::comparison_lights()[0].light;
+  PackLight pack_light = prepare_light(light);
   std::vector<float> result;
 };
 
@@ -21,7 +22,7 @@ Bench packs(const std::string& name, PhongOptions options, double n, Simd simd) 
   const auto radiance = phong_table_for(simd).radiance;
   return {name, scene->result.size(), name_of(simd), [=] {
             const FlushDenormals flush;
-            radiance(scene->light, scene->plane.points(), n, options, scene->result.data());
+            radiance(scene->pack_light, scene->plane.points(), n, options, scene->result.data());
             keep(scene->result.front());
           }};
 }

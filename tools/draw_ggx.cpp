@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ggx/clipped_walk.h"
+#include "integrals/edge_sum.h"
 #include "ggx/random_rectangles.h"
 #include "steradian/closed_form.h"
 #include "steradian/ltc.h"
@@ -61,9 +61,11 @@ void draw_warp(const std::string& name) {
   const auto view = k.ggx_view({-std::sin(theta), 0.0, std::cos(theta)}, 0.3, 0.3);
   std::vector<K::ConicArc> arcs;
   K::vec3 e(0.0, 0.0, 0.0);
-  walk_clipped_edges<double>(light, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, [&](const auto& a, const auto& b) {
+  const Frame world{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  integrals::sum_over_edges<double>(integrals::contours_in<double>(light, world, {}), [&](const auto& a, const auto& b) {
     arcs.push_back(k.ggx_edge(view, a, b));
     e = e + k.conic_vector(arcs.back());
+    return Real<double>(0.0);
   });
   if (e.z.v < 0) e = -e;
   const auto centre = unit(e);

@@ -187,9 +187,9 @@ TEST(LtcPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
     for (LtcMethod method : {LtcMethod::classic, LtcMethod::compact}) {
       const LtcPackTable& table = ltc_pack_table_for(simd);
       if (method == LtcMethod::classic)
-        table.classic(&pack_light, 1, points, ltc_classic_pack_tables(), sums);
+        table.classic(pack_light, points, ltc_classic_pack_tables(), sums);
       else
-        table.compact(&pack_light, 1, points, ltc_compact_pack_tables(), sums);
+        table.compact(pack_light, points, ltc_compact_pack_tables(), sums);
       for (std::size_t i = 0; i < kCount; ++i) {
         const Vec3d p = {a[0][i], a[1][i], a[2][i]}, n = {a[3][i], a[4][i], a[5][i]}, v = {a[6][i], a[7][i], a[8][i]};
         Material m = ggx(a[9][i]);

@@ -5,32 +5,14 @@
 
 #include "ltc/clipped_sphere.h"
 #include "ltc/half.h"
+#include "ltc/table_lookup.h"
 
 namespace steradian {
 namespace {
 
-// Four nodes and their bilinear weights.
-struct Stencil {
-  std::size_t index[4];
-  double weight[4];
-};
-
-Stencil stencil(double u, double v, int n) {
-  const double x = std::clamp(u, 0.0, 1.0) * (n - 1), y = std::clamp(v, 0.0, 1.0) * (n - 1);
-  const int i = std::min(static_cast<int>(x), n - 2), j = std::min(static_cast<int>(y), n - 2);
-  const double fx = x - i, fy = y - j;
-  const auto base = static_cast<std::size_t>(j * n + i), row = static_cast<std::size_t>(n);
-  return {{base, base + 1, base + row, base + row + 1}, {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
-}
-
-double view_coordinate(double cos_theta) { return std::sqrt(std::clamp(1 - cos_theta, 0.0, 1.0)); }
-
-template <std::size_t N>
-std::array<double, N> interpolate(const std::vector<std::array<float, N>>& table, const Stencil& s) {
-  std::array<double, N> sum{};
-  for (int k = 0; k < 4; ++k)
-    for (std::size_t c = 0; c < N; ++c) sum[c] += s.weight[k] * static_cast<double>(table[s.index[k]][c]);
-  return sum;
+Stencil<double> stencil_at(double roughness, double cos_theta, int n) {
+  const auto at = Kernels<double>().ltc_coordinates(roughness, cos_theta);
+  return stencil<double>(at.x, at.y, n);
 }
 
 // Values on a coarse grid whose bilinear interpolation is nearest to the fine values, in the sense of weighted least
@@ -42,11 +24,11 @@ std::vector<double> fit_coarse(const std::vector<double>& fine, const std::vecto
   const auto at = [&](std::size_t row, std::size_t column) -> double& { return matrix[row * count + column]; };
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      const Stencil s = stencil(static_cast<double>(i) / (n - 1), static_cast<double>(j) / (n - 1), coarse);
+      const auto s = stencil<double>(static_cast<double>(i) / (n - 1), static_cast<double>(j) / (n - 1), coarse);
       const auto k = static_cast<std::size_t>(j * n + i);
-      for (int a = 0; a < 4; ++a) {
-        x[s.index[a]] += importance[k] * s.weight[a] * fine[k];
-        for (int b = 0; b < 4; ++b) at(s.index[a], s.index[b]) += importance[k] * s.weight[a] * s.weight[b];
+      for (std::size_t a = 0; a < 4; ++a) {
+        x[s.index[a]] += importance[k] * s.weight[a].v * fine[k];
+        for (std::size_t b = 0; b < 4; ++b) at(s.index[a], s.index[b]) += importance[k] * s.weight[a].v * s.weight[b].v;
       }
     }
   for (std::size_t i = 0; i < count; ++i)
@@ -69,11 +51,10 @@ std::vector<double> fit_coarse(const std::vector<double>& fine, const std::vecto
 }  // namespace
 
 LtcValue ClassicTable::look_up(double roughness, double cos_theta) const {
-  const Stencil s = stencil(roughness, view_coordinate(cos_theta), size);
-  const auto m = interpolate(matrix, s);
-  const auto f = interpolate(magnitude, s);
-  if (normalisation == ClassicNormalisation::last) return {{m[0], m[2], m[3], m[1], 1.0}, f[0], f[1]};
-  return {{m[0], m[2], 1.0, m[1], m[3]}, f[0], f[1]};
+  const auto s = stencil_at(roughness, cos_theta, size);
+  const auto m = interpolate<double>(matrix, s), f = interpolate<double>(magnitude, s);
+  if (normalisation == ClassicNormalisation::last) return {{m.x.v, m.z.v, m.w.v, m.y.v, 1.0}, f.x.v, f.y.v};
+  return {{m.x.v, m.z.v, 1.0, m.y.v, m.w.v}, f.x.v, f.y.v};
 }
 
 ClassicTable classic_table(const LtcTable& fit, ClassicNormalisation normalisation) {
@@ -95,10 +76,9 @@ ClassicTable classic_table(const LtcTable& fit, ClassicNormalisation normalisati
 }
 
 CompactTable::Entry CompactTable::entry(double roughness, double cos_theta) const {
-  const double v = view_coordinate(cos_theta);
-  const auto e = interpolate(shapes, stencil(roughness, v, shape_size));
-  const auto f = interpolate(magnitudes, stencil(roughness, v, magnitude_size));
-  return {{e[0], e[1], e[2], e[3]}, f[0], f[1]};
+  const auto e = interpolate<double>(shapes, stencil_at(roughness, cos_theta, shape_size));
+  const auto f = interpolate<double>(magnitudes, stencil_at(roughness, cos_theta, magnitude_size));
+  return {{e.x.v, e.y.v, e.z.v, e.w.v}, f.x.v, f.y.v};
 }
 
 LtcValue CompactTable::look_up(double roughness, double cos_theta) const {
@@ -145,17 +125,18 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
 }
 
 LtcValue look_up_shapes(const LtcTable& fit, double roughness, double cos_theta) {
-  const Stencil s = stencil(roughness, view_coordinate(cos_theta), fit.size);
+  const auto s = stencil_at(roughness, cos_theta, fit.size);
   LtcShape e{0, 0, 0, 0};
   LtcValue value;
-  for (int k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < 4; ++k) {
     const LtcCell& cell = fit.cells[s.index[k]];
-    e.e00 += s.weight[k] * cell.shape.e00;
-    e.e11 += s.weight[k] * cell.shape.e11;
-    e.e02 += s.weight[k] * cell.shape.e02;
-    e.e20 += s.weight[k] * cell.shape.e20;
-    value.n_a += s.weight[k] * cell.n_a();
-    value.f_a += s.weight[k] * cell.f_a();
+    const double weight = s.weight[k].v;
+    e.e00 += weight * cell.shape.e00;
+    e.e11 += weight * cell.shape.e11;
+    e.e02 += weight * cell.shape.e02;
+    e.e20 += weight * cell.shape.e20;
+    value.n_a += weight * cell.n_a();
+    value.f_a += weight * cell.f_a();
   }
   value.inverse = ltc_inverse(e, fit.family.frame, alpha_from_roughness(roughness), view_from_cosine(cos_theta));
   return value;

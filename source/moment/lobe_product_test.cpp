@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "integrals/edge_sum.h"
+#include "integrals/phong.h"
 #include "moment/adversarial_quads.h"
-#include "moment/clipped_edges.h"
 #include "moment/exact_moment.h"
-#include "moment/phong_lobe.h"
 #include "steradian/phong.h"
 
 namespace steradian {
@@ -143,10 +143,10 @@ TEST(DoubleAxis, KernelsInConstantTimeAreClose) {
     const double exact = double_axis_moment(light, c.at.position, c.at.normal, axis, c.at.normal, n);
     const auto r = to_kernel(frame.to_local(axis));
     const K::vec3 up(0.0, 0.0, 1.0);
-    const PhongLobe<double> lobe(n - 1, 0);
+    const integrals::PhongLobe<double> lobe(n - 1, 0);
     const int low = n < 8;
-    const double sum = sum_over_clipped_edges<double>(
-                           light, [&](Vec3d v) { return k.polygon_direction(to_kernel(frame.to_local(v - c.at.position))); },
+    const double sum = integrals::sum_over_edges<double>(
+                           integrals::contours_in<double>(light, frame, c.at.position),
                            [&](const K::vec3& a, const K::vec3& b) {
                              const auto edge = k.moment_edge(a, b, r);
                              const auto cosines = k.moment_cosine_front(edge, n, low);

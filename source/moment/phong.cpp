@@ -5,9 +5,10 @@
 #include <numbers>
 #include <string>
 
-#include "moment/clipped_edges.h"
+#include "integrals/edge_sum.h"
+#include "integrals/phong.h"
 #include "moment/exact_moment.h"
-#include "moment/phong_lobe.h"
+#include "shapes/polygon.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -30,77 +31,29 @@ void check(const Material& material, const PhongOptions& options) {
                 "use exact or series for others");
 }
 
-// A light seen from one point: the frame, and which side faces it.
-struct View {
-  Vec3d position;
-  Frame frame;
-  int side;  // 0: nothing arrives
+using integrals::to_kernel;
 
-  View(const PreparedPolygon& light, Vec3d position_, Vec3d normal)
-      : position(position_), frame(Frame::from_normal(normal)), side(light.side_of(position_)) {
-    if (side < 0 && !light.two_sided) side = 0;
-  }
-
-  template <class S>
-  auto directions() const {
-    return [this](const Vec3d& vertex) {
-      const Vec3d l = frame.to_local(vertex - position);
-      return Kernels<S>().polygon_direction({l.x, l.y, l.z});
-    };
-  }
-};
-
-template <class S>
-typename Kernels<S>::vec3 to_kernel(Vec3d v) {
-  return {v.x, v.y, v.z};
-}
-
-template <class S, PhongMethod method, PhongQuality quality = PhongQuality::normal>
-Real<S> sum_of_shares(const PreparedPolygon& light, const View& view, typename Kernels<S>::vec3 r, double n,
-                      double precision) {
-  const PhongLobe<S> lobe(n, precision);
-  return sum_over_clipped_edges<S>(light, view.directions<S>(), [&](const auto& a, const auto& b) {
-    return lobe.template share<method, quality>(a, b, r);
-  });
-}
-
-double exact_sum(const PreparedPolygon& light, const View& view, Kernels<double>::vec3 r, double n) {
+// The edge's share by quadrature in double that subdivides until it has converged.
+double exact_share(const auto& a, const auto& b, const auto& axis, double n) {
   Kernels<double> k;
-  return sum_over_clipped_edges<double>(light, view.directions<double>(), [&](const auto& a, const auto& b) {
-           const auto edge = k.moment_edge(a, b, r);
-           return k.moment_edge_share(edge, integrate_front(edge, n).moment);
-         }).v;
+  const auto edge = k.moment_edge(a, b, axis);
+  return k.moment_edge_share(edge, integrate_front(edge, n).moment).v;
 }
 
 // Radiance of albedo 1 under radiance 1.
 template <class S>
 S radiance(const PreparedPolygon& light, const ShadingPoint& at, double n, const PhongOptions& options) {
-  const View view(light, at.position, at.normal);
-  const Vec3d v = view.frame.to_local(at.view);
-  if (view.side == 0 || !(v.z > 0)) return S(0);
-  Kernels<S> k;
-  const auto r = k.phong_mirror(to_kernel<S>(v));
-  const double precision = options.relative_precision;
-  Real<S> sum(0.0);
-  switch (options.method) {
-    case PhongMethod::exact:
-      if constexpr (std::is_same_v<S, double>)
-        sum = exact_sum(light, view, r, n);
-      else
-        sum = sum_of_shares<S, PhongMethod::exact>(light, view, r, n, precision);
-      break;
-    case PhongMethod::arvo: sum = sum_of_shares<S, PhongMethod::arvo>(light, view, r, n, precision); break;
-    case PhongMethod::lorentzian: sum = sum_of_shares<S, PhongMethod::lorentzian>(light, view, r, n, precision); break;
-    case PhongMethod::pearson: sum = sum_of_shares<S, PhongMethod::pearson>(light, view, r, n, precision); break;
-    case PhongMethod::ellipsoid: sum = sum_of_shares<S, PhongMethod::ellipsoid>(light, view, r, n, precision); break;
-    case PhongMethod::series:
-      if (options.quality == PhongQuality::high)
-        sum = sum_of_shares<S, PhongMethod::series, PhongQuality::high>(light, view, r, n, precision);
-      else
-        sum = sum_of_shares<S, PhongMethod::series>(light, view, r, n, precision);
-      break;
-  }
-  return k.moment_phong_radiance(sum, Mask<S>(view.side < 0)).v;
+  const Frame frame = Frame::from_normal(at.normal);
+  const auto shading = integrals::shading_from<S>(shapes::lit_side(light, at.position), to_kernel<S>(frame.to_local(at.view)));
+  const auto by = [&](auto share) {
+    integrals::Phong<S, decltype(share)> integral(share);
+    return integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral).x.v;
+  };
+  if constexpr (std::is_same_v<S, double>)
+    if (options.method == PhongMethod::exact)
+      return by([n](const auto& a, const auto& b, const auto& axis) { return exact_share(a, b, axis, n); });
+  const integrals::PhongLobe<S> lobe(n, options.relative_precision);
+  return integrals::with_phong_share<S>(lobe, options, by);
 }
 
 }  // namespace
@@ -131,26 +84,28 @@ Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at,
 }
 
 double axial_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, double n) {
-  const View view(light, position, normal);
-  if (view.side == 0) return 0;
-  const double sum = exact_sum(light, view, to_kernel<double>(view.frame.to_local(axis)), n);
-  return std::clamp(view.side * sum, 0.0, 2 * std::numbers::pi) / (n + 1);
+  const int side = shapes::lit_side(light, position);
+  if (side == 0) return 0;
+  const Frame frame = Frame::from_normal(normal);
+  const auto r = to_kernel<double>(frame.to_local(axis));
+  const double sum = integrals::sum_over_edges<double>(integrals::contours_in<double>(light, frame, position),
+                                                       [&](const auto& a, const auto& b) { return exact_share(a, b, r, n); }).v;
+  return std::clamp(side * sum, 0.0, 2 * std::numbers::pi) / (n + 1);
 }
 
 double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other,
                           double n) {
-  const View view(light, position, normal);
-  if (view.side == 0) return 0;
+  const int side = shapes::lit_side(light, position);
+  if (side == 0) return 0;
+  const Frame frame = Frame::from_normal(normal);
+  const auto r = to_kernel<double>(frame.to_local(axis)), v = to_kernel<double>(frame.to_local(other));
   Kernels<double> k;
-  const auto r = to_kernel<double>(view.frame.to_local(axis));
-  const auto v = to_kernel<double>(view.frame.to_local(other));
-  const double sum =
-      sum_over_clipped_edges<double>(light, view.directions<double>(), [&](const auto& a, const auto& b) {
-        const auto edge = k.moment_edge(a, b, r);
-        const auto front = integrate_front(edge, n - 1);
-        return k.moment_double_axis_share(a, b, r, v, k.moment_edge_share(edge, front.moment), front.power);
-      }).v;
-  return view.side * sum / (n + 2);
+  const auto share = [&](const auto& a, const auto& b) {
+    const auto edge = k.moment_edge(a, b, r);
+    const auto front = integrate_front(edge, n - 1);
+    return k.moment_double_axis_share(a, b, r, v, k.moment_edge_share(edge, front.moment), front.power);
+  };
+  return side * integrals::sum_over_edges<double>(integrals::contours_in<double>(light, frame, position), share).v / (n + 2);
 }
 
 }  // namespace steradian

@@ -5,7 +5,7 @@
 
 #include "core/float_mode.h"
 #include "moment/adversarial_quads.h"
-#include "moment/phong_lobe.h"
+#include "integrals/phong.h"
 #include "moment/table2.h"
 #include "render/cpu/phong.h"
 #include "steradian/phong.h"
@@ -44,7 +44,7 @@ void walk_odd_outlines(int count) {
   for (int i = 0; i < count; ++i) {
     static constexpr double kExponents[] = {0, 1, 2, 3, 7, 8, 64, 100, 1001, 10000};
     const double n = method == PhongMethod::arvo || i % 2 ? kExponents[random.bits() % 10] : random.uniform(0, 50);
-    const PhongLobe<S> lobe(n, i % 3 == 0 ? 1e-4 : 0);
+    const integrals::PhongLobe<S> lobe(n, i % 3 == 0 ? 1e-4 : 0);
     auto r = odd_direction<S>(random);
     r.z = abs(r.z);
     Real<S> sum(0.0);
@@ -111,7 +111,7 @@ TEST(PhongPacks, AgreeWithScalarFloatForEveryMethodAndInstructionSet) {
     for (const auto& method : moment::compared_methods()) {
       if (method.options.method == PhongMethod::arvo && n != std::floor(n)) continue;
       for (const Simd simd : available_simd()) {
-        phong_table_for(simd).radiance(light, points, n, method.options, result.data());
+        phong_table_for(simd).radiance(prepare_light(light), points, n, method.options, result.data());
         for (std::size_t j = 0; j < 16; ++j) {
           const double scalar = static_cast<double>(phong_radiance_float(light, at[j], phong(n), method.options).x);
           // Both round directions to float, 1.2e-7, under a lobe whose slope is at most sqrt(n): n <= 100 here. The

@@ -37,7 +37,7 @@ std::vector<float> picture_by(const PhongPlane& plane, const PreparedPolygon& li
                               Simd simd) {
   const FlushDenormals flush;
   std::vector<float> picture(plane.x.size());
-  phong_table_for(simd).radiance(light, plane.points(), n, options, picture.data());
+  phong_table_for(simd).radiance(prepare_light(light), plane.points(), n, options, picture.data());
   return picture;
 }
 
@@ -48,9 +48,10 @@ double packs_ns(const PhongPlane& plane, const NamedLight& light, int n, const P
   bench.min_runs = 5;
   std::vector<float> picture(plane.x.size());
   const auto radiance = phong_table_for(options.simd).radiance;
+  const PackLight pack_light = prepare_light(light.light);
   const Bench body{"packs", picture.size() * light.edges, name_of(options.simd), [&] {
                      const FlushDenormals flush;
-                     radiance(light.light, plane.points(), n, method, picture.data());
+                     radiance(pack_light, plane.points(), n, method, picture.data());
                      keep(picture.front());
                    }};
   return run_bench(body, bench).ns_per_item;

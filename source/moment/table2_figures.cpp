@@ -6,7 +6,7 @@
 #include "core/atomic_file.h"
 #include "core/float_mode.h"
 #include "moment/line_plot.h"
-#include "moment/phong_lobe.h"
+#include "integrals/phong.h"
 #include "moment/phong_plane.h"
 #include "moment/table2.h"
 #include "steradian/picture.h"
@@ -100,7 +100,7 @@ LinePlot half_width_plot() {
 LinePlot fits_plot() {
   K k;
   constexpr double c = 0.99, n = 100, phi_high = kQuarterTurn;
-  const PhongLobe<double> lobe(n, 0);
+  const integrals::PhongLobe<double> lobe(n, 0);
   LinePlot plot{"Errors of the methods' integrands over the peak, n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, -0.03, 0.03, {}};
   const auto add = [&](const char* name, int colour, auto front) {
     plot.curves.push_back(error_of(name, c, n, phi_high, colour, front));
@@ -137,7 +137,7 @@ Picture error_picture(Simd simd, int n, double enlarged) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const FlushDenormals flush;
       std::vector<float> result(plane.x.size());
-      phong_table_for(simd).radiance(lights[l].light, plane.points(), n, {methods[m]}, result.data());
+      phong_table_for(simd).radiance(prepare_light(lights[l].light), plane.points(), n, {methods[m]}, result.data());
       for (std::size_t i = 0; i < plane.count; ++i)
         put(m + 1, i, enlarged * std::fabs(static_cast<double>(result[i]) - exact[i]) / brightest);
     }

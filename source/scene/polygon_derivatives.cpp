@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <numbers>
 
-#include "scene/polygon_radiance.h"
+#include "integrals/ggx.h"
+#include "integrals/irradiance.h"
+#include "integrals/phong.h"
+#include "ltc/shipped_lobe.h"
+#include "shapes/polygon.h"
 #include "steradian/dual.h"
 #include "steradian/albedo.h"
 #include "steradian/error.h"
@@ -39,9 +43,10 @@ std::size_t stored_count(const PolygonLight& light) {
 }
 
 // By the vertices in walk order, relative to the point.
+using integrals::to_kernel;
 using VertexDerivatives = std::vector<Vec3d>;
 
-// Of an integral's two parts, see polygon_radiance.h.
+// Of an integral's two parts (integrals::Part).
 struct PartDerivatives {
   VertexDerivatives plain, fresnel;
 };
@@ -61,30 +66,32 @@ VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d pos
     return r;
   };
   VertexDerivatives result(light.vertices.size());
-  for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
-    std::size_t a = light.contours[c + 1] - 1;
-    for (std::size_t b = light.contours[c]; b < light.contours[c + 1]; a = b++) {
-      const auto from = k.polygon_direction(seeded(frame.to_local(light.vertices[a] - position), 0));
-      const auto to = k.polygon_direction(seeded(frame.to_local(light.vertices[b] - position), 3));
-      const auto walk = k.polygon_add_edge(k.polygon_begin(), from, to);
-      R term = walk.edges.z;
-      if (walk.horizon.x.v.v < 1.0) term += 0.5 * k.trig_atan2(walk.horizon.y, walk.horizon.x);
-      const auto& d = term.v.d;
-      result[a] += frame.to_world({d[0], d[1], d[2]});
-      result[b] += frame.to_world({d[3], d[4], d[5]});
-    }
-  }
+  const Vec3d* vertices = light.vertices.data();
+  integrals::walk_contours(
+      vertices, light.contours.data(), light.contours.size() - 1, [](const Vec3d& v) { return &v; },
+      [&](const Vec3d* a, const Vec3d* b) {
+        const auto from = k.polygon_direction(seeded(frame.to_local(*a - position), 0));
+        const auto to = k.polygon_direction(seeded(frame.to_local(*b - position), 3));
+        const auto walk = k.polygon_add_edge(k.polygon_begin(), from, to);
+        R term = walk.edges.z;
+        if (walk.horizon.x.v.v < 1.0) term += 0.5 * k.trig_atan2(walk.horizon.y, walk.horizon.x);
+        const auto& d = term.v.d;
+        result[static_cast<std::size_t>(a - vertices)] += frame.to_world({d[0], d[1], d[2]});
+        result[static_cast<std::size_t>(b - vertices)] += frame.to_world({d[3], d[4], d[5]});
+      });
   return result;
 }
 
 // Of any integral over the whole outline, in walk order, in the frame's coordinates turned back to the world's. Six directions
 // are followed at a time.
 //
-//   integral  as in polygon_radiance.h; direction(v) tells the light's own vertex v by its address
+//   side      on which the light is seen
+//   integral  integral.template operator()<S>(outline, shading): an integrals::Part<S>
 template <class Integral>
-PartDerivatives by_vertices(const PreparedPolygon& light, const ShadingPoint& at, const Frame& frame, const Integral& integral) {
+PartDerivatives by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
+                            const Integral& integral) {
   using S = Dual<6>;
-  const auto view = to_kernel<S>(frame.to_local(normalized(at.view)));
+  const auto shading = integrals::shading_from<S>(side, to_kernel<S>(frame.to_local(normalized(at.view))));
   std::vector<Vec3d> local;
   for (const Vec3d& v : light.vertices) local.push_back(frame.to_local(v - at.position));
   PartDerivatives result;
@@ -98,7 +105,7 @@ PartDerivatives by_vertices(const PreparedPolygon& light, const ShadingPoint& at
       }
       return Kernels<S>().polygon_direction(r);
     };
-    const auto value = integral.template operator()<S>(direction, view);
+    const auto value = integral.template operator()<S>(integrals::contours_of(light, direction), shading);
     for (std::size_t i = first; i < std::min(first + 2, local.size()); ++i) {
       const auto of_vertex = [&](const auto& d) {
         const std::size_t k = 3 * (i - first);
@@ -111,36 +118,26 @@ PartDerivatives by_vertices(const PreparedPolygon& light, const ShadingPoint& at
   return result;
 }
 
-VertexDerivatives solid_angle_by_vertices(const PreparedPolygon& light, Vec3d position, bool reversed) {
-  const auto solid_angle = [&]<class S>(const auto& direction, const auto&) {
-    Kernels<S> k;
-    const Vec3d* v = light.vertices.data();
-    auto walk = k.solid_angle_begin(direction(v[0]));
-    for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
-      std::size_t a = light.contours[c + 1] - 1;
-      for (std::size_t b = light.contours[c]; b < light.contours[c + 1]; a = b++)
-        walk = k.solid_angle_add_edge(walk, direction(v[a]), direction(v[b]));
-    }
-    return typename Kernels<S>::vec2(k.solid_angle_finish(walk, Mask<S>(reversed)), Real<S>(0.0));
+VertexDerivatives solid_angle_by_vertices(const PreparedPolygon& light, Vec3d position, int side) {
+  const auto solid_angle = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    integrals::SolidAngle<S> integral(outline.direction(light.vertices.front()));
+    return integrate(outline, shading, integral);
   };
-  return by_vertices(light, {position, {0, 0, 1}, {0, 0, 1}}, Frame::from_normal({0, 0, 1}), solid_angle).plain;
+  return by_vertices(light, side, {position, {0, 0, 1}, {0, 0, 1}}, Frame::from_normal({0, 0, 1}), solid_angle).plain;
 }
 
 // By the normal, of the function of n/|n|, the light, the point and the view held: one evaluation, in which the frame turns.
 //
 //   toward   what the frame's x axis follows: the tangent, or the view
 template <class Integral>
-PartByNormal by_normal(const ShadingPoint& at, Vec3d toward, const Integral& integral) {
+PartByNormal by_normal(const PreparedPolygon& light, int side, const ShadingPoint& at, Vec3d toward, const Integral& integral) {
   using S = Dual<3>;
   Kernels<S> k;
   auto normal = to_kernel<S>(at.normal);
   normal.x.v.d[0] = normal.y.v.d[1] = normal.z.v.d[2] = 1.0;
   const auto frame = k.frame_from_normal_and_view(k.polygon_direction(normal), to_kernel<S>(toward));
-  const auto direction = [&](const Vec3d& v) {
-    return k.polygon_direction(transform_transposed(frame, to_kernel<S>(v - at.position)));
-  };
-  const auto view = transform_transposed(frame, to_kernel<S>(normalized(at.view)));
-  const auto value = integral.template operator()<S>(direction, view);
+  const auto shading = integrals::shading_from<S>(side, transform_transposed(frame, to_kernel<S>(normalized(at.view))));
+  const auto value = integral.template operator()<S>(integrals::contours_in<S>(light, frame, at.position), shading);
   const auto& plain = value.x.v.d;
   const auto& fresnel = value.y.v.d;
   return {{plain[0], plain[1], plain[2]}, {fresnel[0], fresnel[1], fresnel[2]}};
@@ -165,12 +162,6 @@ LightDerivatives gather(const PolygonLight& stored, const PreparedPolygon& light
   return result;
 }
 
-// +1 or -1 as the light is seen from the front or the back, 0 where it gives no light.
-int lit_side(const PreparedPolygon& light, Vec3d position) {
-  const int side = light.side_of(position);
-  return side < 0 && !light.two_sided ? 0 : side;
-}
-
 LightDerivatives no_light(const PolygonLight& light) {
   LightDerivatives result;
   result.vertices.resize(stored_count(light));
@@ -181,7 +172,7 @@ LightDerivatives no_light(const PolygonLight& light) {
 
 LightDerivatives polygon_irradiance_derivatives(const PolygonLight& stored, Vec3d position, Vec3d normal) {
   const PreparedPolygon light = prepare_polygon(stored);
-  const int side = lit_side(light, position);
+  const int side = shapes::lit_side(light, position);
   if (side == 0) return no_light(stored);
   return gather(stored, light, position, normal, polygon_irradiance(light, position, normal),
                 irradiance_by_vertices(light, position, Frame::from_normal(normal)), side);
@@ -189,10 +180,10 @@ LightDerivatives polygon_irradiance_derivatives(const PolygonLight& stored, Vec3
 
 LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec3d position) {
   const PreparedPolygon light = prepare_polygon(stored);
-  const int side = lit_side(light, position);
+  const int side = shapes::lit_side(light, position);
   if (side == 0) return no_light(stored);
   return gather(stored, light, position, {}, polygon_solid_angle(light, position),
-                solid_angle_by_vertices(light, position, side < 0), 1);
+                solid_angle_by_vertices(light, position, side), 1);
 }
 
 namespace {
@@ -221,18 +212,32 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
   const PreparedPolygon light = prepare_polygon(stored);
-  const int side = lit_side(light, at.position);
+  const int side = shapes::lit_side(light, at.position);
   if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
   if (m.brdf == Brdf::ggx) {
-    const GgxClosedForm integral = {light, side, m, quality};
+    const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+      integrals::Ggx<S> ggx;
+      ggx.alpha_x = m.alpha_x;
+      ggx.alpha_y = m.alpha_y;
+      ggx.smith = m.shadowing ? 1.0 : 0.0;
+      ggx.quality = quality;
+      return integrate(outline, shading, ggx);
+    };
     const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
-    return of_channels(stored, light, by_vertices(light, at, frame, integral), by_normal(at, frame.x, integral),
+    return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
                        light.radiance * m.f0, light.radiance * (m.f90 - m.f0));
   }
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
-    const PhongSeries integral = {light, side, m.exponent, quality == Quality::high ? PhongQuality::high : PhongQuality::normal};
-    return of_channels(stored, light, by_vertices(light, at, frame, integral), by_normal(at, frame.x, integral),
+    const PhongOptions series = {PhongMethod::series, quality == Quality::high ? PhongQuality::high : PhongQuality::normal};
+    const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+      const integrals::PhongLobe<S> lobe(m.exponent, 0.0);
+      return integrals::with_phong_share<S>(lobe, series, [&](auto share) {
+        integrals::Phong<S, decltype(share)> phong(share);
+        return integrate(outline, shading, phong);
+      });
+    };
+    return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
                        light.radiance * m.albedo, {});
   }
   const VertexDerivatives by_vertex = irradiance_by_vertices(light, at.position, frame);
@@ -251,13 +256,19 @@ RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLigh
     throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing",
                 "use the method closed-form");
   const PreparedPolygon light = prepare_polygon(stored);
-  const int side = lit_side(light, at.position);
+  const int side = shapes::lit_side(light, at.position);
   if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
   const Vec3d view = normalized(at.view);
-  const TransformedCosine integral = {light, side, method, m.alpha_x};
+  const double alpha = std::max(m.alpha_x, 1e-4);
+  // The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
+  const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    integrals::Ltc<S> ltc(method == LtcMethod::classic ? classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z)
+                                                       : compact_lobe<S>(ggx_compact_table(), alpha, shading.view.z, shading.view));
+    return integrate(outline, shading, ltc);
+  };
   const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
-  return of_channels(stored, light, by_vertices(light, at, frame, integral), by_normal(at, view, integral), light.radiance * m.f0,
-                     light.radiance * (m.f90 - m.f0));
+  return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, view, integral),
+                     light.radiance * m.f0, light.radiance * (m.f90 - m.f0));
 }
 
 std::array<Vec3d, 3> by_position(const RadianceDerivatives& by_vertices) {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "integrals/irradiance.h"
+#include "shapes/polygon.h"
 #include "steradian/error.h"
-#include "steradian/kernels.h"
 
 namespace steradian {
 namespace {
@@ -48,33 +49,10 @@ void check_plane(const Contour& contour, const std::string& name, Vec3d origin, 
 }
 
 template <class S>
-typename Kernels<S>::vec3 to_kernel(Vec3d v) {
-  return {v.x, v.y, v.z};
-}
-
-template <class S, class AddEdge>
-void walk_edges(const PreparedPolygon& light, const Frame& frame, Vec3d position, AddEdge add_edge) {
-  Kernels<S> k;
-  for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
-    const std::size_t begin = light.contours[c], end = light.contours[c + 1];
-    auto previous = k.polygon_direction(to_kernel<S>(frame.to_local(light.vertices[end - 1] - position)));
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto direction = k.polygon_direction(to_kernel<S>(frame.to_local(light.vertices[i] - position)));
-      add_edge(previous, direction);
-      previous = direction;
-    }
-  }
-}
-
-template <class S>
 S irradiance(const PreparedPolygon& light, Vec3d position, Vec3d normal) {
-  const int side = light.side_of(position);
-  if (side == 0 || (side < 0 && !light.two_sided)) return S(0);
-  Kernels<S> k;
-  auto walk = k.polygon_begin();
-  walk_edges<S>(light, Frame::from_normal(normal), position,
-                [&](const auto& a, const auto& b) { walk = k.polygon_add_edge(walk, a, b); });
-  return k.polygon_irradiance(walk, Mask<S>(side < 0)).v;
+  const auto shading = integrals::shading_from<S>(shapes::lit_side(light, position), {0.0, 0.0, 1.0});
+  integrals::Irradiance<S> integral;
+  return integrate(integrals::contours_in<S>(light, Frame::from_normal(normal), position), shading, integral).z.v;
 }
 
 }  // namespace
@@ -135,14 +113,11 @@ float polygon_irradiance_float(const PreparedPolygon& light, Vec3d position, Vec
 }
 
 double polygon_solid_angle(const PreparedPolygon& light, Vec3d position) {
-  const int side = light.side_of(position);
-  if (side == 0 || (side < 0 && !light.two_sided)) return 0.0;
-  Kernels<double> k;
-  const Vec3d first = light.vertices.front() - position;
-  auto walk = k.solid_angle_begin(k.polygon_direction(to_kernel<double>(first)));
-  walk_edges<double>(light, Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, position,
-                     [&](const auto& a, const auto& b) { walk = k.solid_angle_add_edge(walk, a, b); });
-  return k.solid_angle_finish(walk, Mask<double>(side < 0)).v;
+  const int side = shapes::lit_side(light, position);
+  if (side == 0) return 0.0;
+  const auto outline = integrals::contours_in<double>(light, Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, position);
+  integrals::SolidAngle<double> integral(outline.direction(light.vertices.front()));
+  return integrate(outline, integrals::shading_from<double>(side, {0.0, 0.0, 1.0}), integral).x.v;
 }
 
 }  // namespace steradian

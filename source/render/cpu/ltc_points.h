@@ -32,22 +32,18 @@ struct SeenPoints {
   const float* roughness;  // perceptual
 };
 
-// What light of radiance 1 does to every point; sums over the lights.
+// What light of radiance 1 does to every point.
 struct LtcSums {
-  float* irradiance;  // in [0, pi] for one light; null: not wanted
+  float* irradiance;  // in [0, pi]; null: not wanted
   float* specular;    // for F0 = 1 and F90 = 1: n_A times the lobe's integral
   float* grazing;     // f_A times the same: what F90 - F0 multiplies
 };
 
 struct LtcPackTable {
-  // Overwrites the sums with those of the lights, all of kind polygon. The table is read once for all lights.
-  void (*classic)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
-                  const LtcPackTables& tables, const LtcSums& sums);
-  void (*compact)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
-                  const LtcPackTables& tables, const LtcSums& sums);
+  void (*classic)(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums);
+  void (*compact)(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums);
   // Charlie's lobe of colour 1: its specular; it has no grazing.
-  void (*sheen)(const PackLight* lights, std::size_t light_count, const SeenPoints& points,
-                const LtcPackTables& tables, const LtcSums& sums);
+  void (*sheen)(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(LtcPackTable, ltc_pack_table)

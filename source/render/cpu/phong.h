@@ -15,9 +15,9 @@ struct ViewedPoints {
 };
 
 struct PhongTable {
-  // Radiance of albedo 1 under radiance 1 in [0, 1] at every point. Options as in steradian/phong.h, unchecked;
+  // Radiance of albedo 1 under radiance 1 in [0, 1] at every point, of a polygon. Options as in steradian/phong.h, unchecked;
   // exact is the quadrature with 14 nodes. Arvo's recurrence wants denormals flushed (core/float_mode.h).
-  void (*radiance)(const PreparedPolygon& light, const ViewedPoints& points, double exponent,
+  void (*radiance)(const PackLight& light, const ViewedPoints& points, double exponent,
                    const PhongOptions& options, float* result);
 };
 

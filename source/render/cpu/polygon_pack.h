@@ -1,26 +1,19 @@
-// Walks lights on packs: the loop that every pack of area lights shares.
+// Area lights as packs of points see them: lit or not, and their outlines.
 #pragma once
 
 #include "core/pack.h"
+#include "integrals/irradiance.h"
 #include "render/cpu/capsule_pack.h"
 #include "render/cpu/light_list.h"
 
 STERADIAN_BEGIN_ISA
 
-// Calls start(last vertex) and then edge(vertex) for each vertex of each contour, with unit directions in the frame
-// `frame` at the points p. An edge runs from the vertex before.
-template <class Start, class Edge>
-STERADIAN_INLINE void walk_contours(const Vec3f* vertices, const std::size_t* contours, std::size_t contour_count,
-                                    const PackKernels::mat3& frame, const PackVec3& p, Start start, Edge edge) {
-  PackKernels k;
-  const auto direction = [&](const Vec3f& v) {
-    return k.polygon_direction(transform_transposed(frame, broadcast(v) - p));
+// The contours of a polygon from the points p.
+STERADIAN_INLINE auto contours_in(const PackLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
+  const auto direction = [&frame, &p](const Vec3f& v) {
+    return PackKernels{}.polygon_direction(transform_transposed(frame, broadcast(v) - p));
   };
-  for (std::size_t c = 0; c < contour_count; ++c) {
-    const std::size_t begin = contours[c], end = contours[c + 1];
-    start(direction(vertices[end - 1]));
-    for (std::size_t i = begin; i < end; ++i) edge(direction(vertices[i]));
-  }
+  return integrals::Contours<Vec3f, decltype(direction)>{light.vertices.data(), light.contours.data(), light.contours.size() - 1, direction};
 }
 
 // An outline in the shading frame, in units of its distance: squares of squares stay in the range of float.
@@ -33,19 +26,6 @@ STERADIAN_INLINE PackKernels::Ellipse outline_in_frame(const PackKernels::Ellips
   return k.ellipse_prepare(transform_transposed(frame, outline.center) * unit,
                            transform_transposed(frame, outline.axis_a) * unit,
                            transform_transposed(frame, outline.axis_b) * unit);
-}
-
-// The outline as a polygon of its area whose corners gather where the lobe is sharp, in walk order.
-//
-//   axis, width  of the lobe, in the frame: see kernels/outline/ellipse.glsl, ellipse_fan_concentrated
-template <class Start, class Edge>
-STERADIAN_INLINE void walk_outline_about(const PackKernels::EllipsoidOutline& outline, int corners,
-                                         const PackKernels::mat3& frame, const PackVec3& axis, const PackReal& width,
-                                         Start start, Edge edge) {
-  PackKernels k;
-  const auto fan = k.ellipse_fan_concentrated(outline_in_frame(outline, frame), axis, width);
-  start(k.polygon_direction(k.ellipse_fan_corner(fan, corners - 1, corners)));
-  for (int i = 0; i < corners; ++i) edge(k.polygon_direction(k.ellipse_fan_corner(fan, i, corners)));
 }
 
 // A lobe as the polygons of round lights need it: its axis in the shading frame, and its width [rad].
@@ -90,26 +70,53 @@ struct SeenLight {
     }
   }
 
-  // Contours of a polygon; of a round light, the polygon that stands in for it under the lobe.
-  template <class Start, class Edge>
-  STERADIAN_INLINE void walk(const PackKernels::mat3& frame, const PackVec3& p, const PackLobe& lobe, Start start,
-                             Edge edge) const {
-    if (light.is_round())
-      walk_round(frame, p, lobe, start, edge);
-    else
-      walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, frame, p, start, edge);
+  STERADIAN_INLINE integrals::Shading<Pack> shading(const PackVec3& view) const { return {view, lit, behind}; }
+};
+
+// The polygon that stands in for a round light under the lobe: of its outline's area, its corners gathered where the lobe is
+// sharp (kernels/outline/ellipse.glsl, ellipse_fan_concentrated; kernels/outline/capsule.glsl, capsule_fan).
+struct RoundOutline {
+  static constexpr bool kInOrder = true;
+  const SeenLight& seen;
+  const PackKernels::mat3& frame;
+  const PackVec3& p;
+  const PackLobe& lobe;
+
+  template <class End, class Add>
+  STERADIAN_INLINE void walk(End end, Add add) const {
+    if (seen.light.kind == PackLight::Kind::capsule) {
+      CapsuleCorners corners;
+      capsule_corners(seen.light, lobe.corners, frame, p, lobe.axis, lobe.width, corners);
+      return walk_corners([&](int i) { return corners[static_cast<std::size_t>(i)]; }, end, add);
+    }
+    PackKernels k;
+    const auto fan = k.ellipse_fan_concentrated(outline_in_frame(seen.outline, frame), lobe.axis, lobe.width);
+    walk_corners([&](int i) { return k.polygon_direction(k.ellipse_fan_corner(fan, i, lobe.corners)); }, end, add);
   }
 
-  // The polygon that stands in for a round light under the lobe.
-  template <class Start, class Edge>
-  STERADIAN_INLINE void walk_round(const PackKernels::mat3& frame, const PackVec3& p, const PackLobe& lobe, Start start,
-                                   Edge edge) const {
-    if (light.kind != PackLight::Kind::capsule)
-      return walk_outline_about(outline, lobe.corners, frame, lobe.axis, lobe.width, start, edge);
-    CapsuleCorners corners;
-    capsule_corners(light, lobe.corners, frame, p, lobe.axis, lobe.width, corners);
-    start(corners[static_cast<std::size_t>(lobe.corners - 1)]);
-    for (int i = 0; i < lobe.corners; ++i) edge(corners[static_cast<std::size_t>(i)]);
+ private:
+  template <class Corner, class End, class Add>
+  STERADIAN_INLINE void walk_corners(Corner corner, End end, Add add) const {
+    auto previous = end(corner(lobe.corners - 1));
+    for (int i = 0; i < lobe.corners; ++i) {
+      const auto next = end(corner(i));
+      add(previous, next);
+      previous = next;
+    }
+  }
+};
+
+// Either of the two, where one place in the code must serve both.
+struct AnyOutline {
+  static constexpr bool kInOrder = true;
+  RoundOutline round;
+
+  template <class End, class Add>
+  STERADIAN_INLINE void walk(End end, Add add) const {
+    if (round.seen.light.is_round())
+      round.walk(end, add);
+    else
+      contours_in(round.seen.light, round.frame, round.p).walk(end, add);
   }
 };
 
@@ -126,18 +133,8 @@ __attribute__((flatten, noinline)) inline PackReal round_light_irradiance(const 
 __attribute__((flatten, noinline)) inline PackReal area_light_irradiance(const SeenLight& seen, const PackKernels::mat3& frame,
                                                 const PackVec3& p) {
   if (seen.light.is_round()) return round_light_irradiance(seen, frame, p);
-  PackKernels k;
-  auto walk = k.polygon_begin();
-  PackVec3 previous;
-  const PackLight& light = seen.light;
-  walk_contours(
-      light.vertices.data(), light.contours.data(), light.contours.size() - 1, frame, p,
-      [&](const PackVec3& v) { previous = v; },
-      [&](const PackVec3& v) {
-        walk = k.polygon_add_edge(walk, previous, v);
-        previous = v;
-      });
-  return select(seen.lit, k.polygon_irradiance(walk, seen.behind), PackReal(0.0));
+  integrals::Irradiance<Pack> integral;
+  return integrate(contours_in(seen.light, frame, p), seen.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
 }
 
 STERADIAN_END_ISA

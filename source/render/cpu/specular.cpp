@@ -193,7 +193,7 @@ bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, cons
   for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(lobe.alpha_x[i]);
   const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
   const LtcPackTable& table = ltc_pack_table_for(active_simd());
-  (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(&light, 1, seen, tables_, sums);
+  (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(light, seen, tables_, sums);
   return true;
 }
 
@@ -242,7 +242,7 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
   const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
   for (const PackLight* light : lights) {
     if (light->is_area()) {
-      ltc_pack_table_for(active_simd()).sheen(light, 1, seen, sheen_tables_, {nullptr, plain.data(), grazing.data()});
+      ltc_pack_table_for(active_simd()).sheen(*light, seen, sheen_tables_, {nullptr, plain.data(), grazing.data()});
       for (std::size_t i = 0; i < kTilePixels; ++i) add_to(tile.radiance, i, get(tile.sheen, i) * light->radiance * plain[i]);
       continue;
     }
@@ -267,7 +267,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
           const ViewedPoints points = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data()};
           const PhongQuality quality = method_.quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
           phong_table_for(active_simd())
-              .radiance(light->polygon, points, material.exponent, {phong_method(method_.phong), quality}, result.data());
+              .radiance(*light, points, material.exponent, {phong_method(method_.phong), quality}, result.data());
           const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
           for (std::size_t i = 0; i < kTilePixels; ++i)
             if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);

@@ -1,13 +1,15 @@
-// A Phong lobe prepared for a number type: what does not depend on the light.
+// The Phong lobe's integral, by every method that is a sum over edges: the axial moment of the clipped outline.
 #pragma once
 
 #include <cmath>
 
-#include "steradian/kernels.h"
+#include "integrals/integrate.h"
 #include "steradian/phong.h"
 
 STERADIAN_BEGIN_ISA
+namespace integrals {
 
+// What does not depend on light and point.
 template <class S>
 struct PhongLobe {
   using K = Kernels<S>;
@@ -65,4 +67,46 @@ struct PhongLobe {
   }
 };
 
+// x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's share of (n + 1) times the moment.
+template <class S, class Share>
+class Phong {
+ public:
+  static constexpr Clip kClip = Clip::horizon;
+  using vec3 = typename Kernels<S>::vec3;
+
+  STERADIAN_INLINE explicit Phong(Share share) : share_(share) {}
+  STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
+    axis_ = Kernels<S>().phong_mirror(shading.view);
+    sum_ = 0.0;
+    return shading.lit && shading.view.z > Real<S>(0.0);
+  }
+  STERADIAN_INLINE vec3 end(const vec3& u) const { return u; }
+  STERADIAN_INLINE void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
+  STERADIAN_INLINE Part<S> finish(Mask<S> reversed) { return {Kernels<S>().moment_phong_radiance(sum_, reversed), Real<S>(0.0)}; }
+
+ private:
+  Share share_;
+  vec3 axis_;
+  Real<S> sum_{0.0};
+};
+
+// Calls use(share) with the share of the method: a type for each, so that a walk holds one method.
+template <class S, class Use>
+STERADIAN_INLINE auto with_phong_share(const PhongLobe<S>& lobe, const PhongOptions& options, Use use) {
+  const auto by = [&]<PhongMethod method, PhongQuality quality = PhongQuality::normal>() {
+    return use([&lobe](const auto& a, const auto& b, const auto& axis) { return lobe.template share<method, quality>(a, b, axis); });
+  };
+  switch (options.method) {
+    case PhongMethod::exact: return by.template operator()<PhongMethod::exact>();
+    case PhongMethod::arvo: return by.template operator()<PhongMethod::arvo>();
+    case PhongMethod::lorentzian: return by.template operator()<PhongMethod::lorentzian>();
+    case PhongMethod::pearson: return by.template operator()<PhongMethod::pearson>();
+    case PhongMethod::ellipsoid: return by.template operator()<PhongMethod::ellipsoid>();
+    case PhongMethod::series: break;
+  }
+  if (options.quality == PhongQuality::high) return by.template operator()<PhongMethod::series, PhongQuality::high>();
+  return by.template operator()<PhongMethod::series>();
+}
+
+}  // namespace integrals
 STERADIAN_END_ISA

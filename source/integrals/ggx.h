@@ -1,0 +1,85 @@
+// GGX in closed form: the exact integral of its distribution, times a cubature's average of shadowing and Fresnel.
+#pragma once
+
+#include <vector>
+
+#include "integrals/integrate.h"
+#include "steradian/closed_form.h"  // Quality
+
+STERADIAN_BEGIN_ISA
+namespace integrals {
+
+// The clipped outline, kept as arcs in stretched half-vector space. One object serves a thread for all its lights.
+template <class S>
+class GgxArcs {
+ public:
+  static constexpr Clip kClip = Clip::horizon;
+  using K = Kernels<S>;
+  using vec3 = typename K::vec3;
+
+  Real<S> alpha_x{1.0}, alpha_y{1.0};  // the lobe's widths, x along the shading frame's
+
+  STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
+    lit_ = shading.lit && shading.view.z > Real<S>(0.0);
+    view_ = K().ggx_view(shading.view, alpha_x, alpha_y);
+    edges_.clear();
+    return lit_;
+  }
+  // Lanes without light walk edges of no length, so that they never keep the others waiting.
+  STERADIAN_INLINE vec3 end(const vec3& u) const { return select(lit_, u, vec3(0.0, 0.0, 0.0)); }
+  STERADIAN_INLINE void add(const vec3& a, const vec3& b) { edges_.push_back({a, b}); }
+
+ protected:
+  // Turns the edges into arcs; the sum of their vectors.
+  STERADIAN_INLINE vec3 prepare() {
+    vec3 e(0.0, 0.0, 0.0);
+    arcs_.clear();
+    for (const Edge& edge : edges_) {
+      const auto arc = K().ggx_edge(view_, edge.a, edge.b);
+      if (!any_lane(arc.end > arc.begin)) continue;
+      e = e + K().conic_vector(arc);
+      arcs_.push_back(arc);
+    }
+    return e;
+  }
+  STERADIAN_INLINE static Real<S> facing(Mask<S> reversed) { return select(reversed, Real<S>(-1.0), Real<S>(1.0)); }
+
+  struct Edge {
+    vec3 a, b;
+  };
+  typename K::GgxView view_;
+  Mask<S> lit_;
+  std::vector<Edge> edges_;
+  std::vector<typename K::ConicArc> arcs_;
+};
+
+template <class S>
+class Ggx : public GgxArcs<S> {
+ public:
+  using K = Kernels<S>;
+  Real<S> smith{1.0};  // 1 with shadowing, 0 without
+  Quality quality = Quality::normal;
+
+  STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
+    const auto e = this->prepare();
+    const Real<S> facing = this->facing(reversed);
+    if (quality == Quality::draft) return K().ggx_draft(this->view_, e, smith, facing);
+    auto c = K().ggx_cubature_begin(this->view_, e, smith, facing);
+    const int extra_nodes = quality == Quality::high ? 2 : 0;
+    for (const auto& arc : this->arcs_) c = K().ggx_cubature_edge(c, arc, extra_nodes);
+    return K().ggx_cubature_finish(c);
+  }
+};
+
+// Without shadowing and with F = 1, exactly: x.
+template <class S>
+class UnshadowedGgx : public GgxArcs<S> {
+ public:
+  STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
+    const auto e = this->prepare();
+    return {Kernels<S>().ggx_unshadowed(this->view_, e * this->facing(reversed)), Real<S>(0.0)};
+  }
+};
+
+}  // namespace integrals
+STERADIAN_END_ISA

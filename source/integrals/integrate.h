@@ -1,0 +1,126 @@
+// integrate: the one way of an integral over a light's outline, for every kind of number.
+//
+// An integral is a type with
+//
+//   static constexpr Clip kClip;
+//   Mask<S> begin(const Shading<S>&);   // forgets the last light; where this light can send anything
+//   end(u)                              // what it keeps of a corner, the unit direction u in the shading frame: mostly u itself
+//   void add(a, b);                     // one edge, of what `end` gave
+//   finish(Mask<S> reversed);           // the integral: Part<S> of a lobe
+//
+// Each stands in a file of its own beside this one. Memory that it keeps from light to light is its own matter.
+#pragma once
+
+#include "integrals/outline.h"
+
+STERADIAN_BEGIN_ISA
+namespace integrals {
+
+// Radiance towards the view under a light of radiance 1: x with F = 1, y with F = (1 - v.h)^5. A channel of a lobe with
+// Schlick's Fresnel is f0 (x - y) + f90 y (ggx_radiance); an integral without Fresnel leaves y at 0.
+template <class S>
+using Part = typename Kernels<S>::vec2;
+
+template <class S>
+Vec3d radiance_of(const Part<S>& part, Vec3d f0, Vec3d f90, Vec3d light) {
+  const auto channel = [&](double at_normal, double at_grazing, double radiance) {
+    return radiance * static_cast<double>(Kernels<S>().ggx_radiance(part, at_normal, at_grazing).v);
+  };
+  return {channel(f0.x, f90.x, light.x), channel(f0.y, f90.y, light.y), channel(f0.z, f90.z, light.z)};
+}
+
+// How a light is seen from a point.
+template <class S>
+struct Shading {
+  typename Kernels<S>::vec3 view;  // unit, in the shading frame
+  Mask<S> lit;                     // the light shines towards the point
+  Mask<S> reversed;                // it is seen from behind: its edges run the wrong way round
+};
+
+// side: of a plane light, 1 or -1 as it is seen from the front or the back, 0 where it sends nothing.
+template <class S>
+Shading<S> shading_from(int side, const typename Kernels<S>::vec3& view) {
+  return {view, Mask<S>(side != 0), Mask<S>(side < 0)};
+}
+
+enum class Clip {
+  none,     // the edges as they come: the integral has no horizon, or clips by itself
+  horizon,  // the edges' parts above z = 0, and the arcs of the horizon that close them
+};
+
+template <class R>
+STERADIAN_INLINE void set_to_zero(Vec2<R>& v) {
+  v = Vec2<R>(0.0, 0.0);
+}
+template <class R>
+STERADIAN_INLINE void set_to_zero(Vec3<R>& v) {
+  v = Vec3<R>(0.0, 0.0, 0.0);
+}
+
+// Two integrals in one walk: a corner is turned into the shading frame once for both.
+template <class First, class Second>
+struct Together {
+  First first;
+  Second second;
+
+  static constexpr Clip kClip = First::kClip;
+  static_assert(First::kClip == Second::kClip);
+  template <class A, class B>
+  struct Pair {
+    A first;
+    B second;
+    STERADIAN_INLINE friend void set_to_zero(Pair& p) {
+      set_to_zero(p.first);
+      set_to_zero(p.second);
+    }
+    template <class M>
+    STERADIAN_INLINE friend Pair select(M m, const Pair& a, const Pair& b) {
+      return {select(m, a.first, b.first), select(m, a.second, b.second)};
+    }
+  };
+
+  template <class S>
+  STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
+    return first.begin(shading) || second.begin(shading);
+  }
+  template <class V>
+  STERADIAN_INLINE auto end(const V& u) const {
+    return Pair<decltype(first.end(u)), decltype(second.end(u))>{first.end(u), second.end(u)};
+  }
+  template <class End>
+  STERADIAN_INLINE void add(const End& a, const End& b) {
+    first.add(a.first, b.first);
+    second.add(a.second, b.second);
+  }
+  template <class M>
+  STERADIAN_INLINE auto finish(M reversed) {
+    return Pair<decltype(first.finish(reversed)), decltype(second.finish(reversed))>{first.finish(reversed), second.finish(reversed)};
+  }
+};
+
+template <class S, class Outline, class Integral>
+STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shading, Integral& integral) {
+  Kernels<S> k;
+  decltype(integral.finish(shading.reversed)) nothing;
+  set_to_zero(nothing);
+  const Mask<S> lit = integral.begin(shading);
+  if (!any_lane(lit)) return nothing;
+  const auto end = [&](const auto& u) { return integral.end(u); };
+  if constexpr (Integral::kClip == Clip::horizon) {
+    static_assert(Outline::kInOrder, "the clip to the horizon joins a contour's crossings in their order");
+    auto clip = k.horizon_clip_begin();
+    outline.walk(end, [&](const auto& a, const auto& b) {
+      clip = k.horizon_clip_edge(clip, a, b);
+      integral.add(clip.start, clip.end);
+      if (any_lane(clip.closes)) integral.add(clip.arc_start, clip.arc_end);
+    });
+    clip = k.horizon_clip_finish(clip);
+    if (any_lane(clip.closes)) integral.add(clip.arc_start, clip.arc_end);
+  } else {
+    outline.walk(end, [&](const auto& a, const auto& b) { integral.add(a, b); });
+  }
+  return select(lit, integral.finish(shading.reversed), nothing);
+}
+
+}  // namespace integrals
+STERADIAN_END_ISA

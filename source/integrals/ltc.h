@@ -1,0 +1,81 @@
+// Linearly transformed cosines: the cosine's integral over the outline under a matrix (kernels/integral/ltc.glsl).
+#pragma once
+
+#include "integrals/integrate.h"
+
+STERADIAN_BEGIN_ISA
+namespace integrals {
+
+// A fitted lobe at one view.
+template <class S>
+struct LtcLobe {
+  typename Kernels<S>::LtcMatrix matrix;
+  Real<S> n_a{1.0};  // what multiplies the integral: with F = 1 ...
+  Real<S> f_a{0.0};  // ... and with F = (1 - v.h)^5
+};
+
+// Clips to the horizon by itself: a corner is brought under the matrix once for its two edges.
+template <class S>
+class Ltc {
+ public:
+  static constexpr Clip kClip = Clip::none;
+  using K = Kernels<S>;
+  using vec3 = typename K::vec3;
+  struct End {
+    vec3 u, under;
+  };
+
+  STERADIAN_INLINE explicit Ltc(const LtcLobe<S>& lobe) : lobe_(lobe) {}
+  STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
+    walk_ = K().ltc_begin();
+    above_ = shading.view.z > Real<S>(0.0);
+    return shading.lit && above_;
+  }
+  STERADIAN_INLINE End end(const vec3& u) const { return {u, K().ltc_direction(lobe_.matrix, u)}; }
+  STERADIAN_INLINE void add(const End& a, const End& b) { walk_ = K().ltc_add_edge(walk_, lobe_.matrix, a.u, b.u, a.under, b.under); }
+  STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
+    const Real<S> integral = select(above_, K().ltc_integral(walk_, reversed), Real<S>(0.0));
+    return {lobe_.n_a * integral, lobe_.f_a * integral};
+  }
+
+ protected:
+  LtcLobe<S> lobe_;
+  typename K::LtcWalk walk_;
+  Mask<S> above_;
+};
+
+// The irradiance vector under the matrix, for the look-up in a texture (kernels/integral/ltc_texture.glsl).
+template <class S>
+class LtcVector : public Ltc<S> {
+ public:
+  using Ltc<S>::Ltc;
+  typename Kernels<S>::vec3 finish(Mask<S> reversed) { return Kernels<S>().ltc_texture_irradiance_vector(this->walk_, reversed); }
+};
+
+// Without clipping: a sphere's form factor in its place.
+template <class S>
+class CliplessLtc {
+ public:
+  static constexpr Clip kClip = Clip::none;
+  using K = Kernels<S>;
+  using vec3 = typename K::vec3;
+
+  explicit CliplessLtc(const LtcLobe<S>& lobe) : lobe_(lobe) {}
+  Mask<S> begin(const Shading<S>& shading) {
+    sum_ = vec3(0.0, 0.0, 0.0);
+    return shading.lit && shading.view.z > Real<S>(0.0);
+  }
+  vec3 end(const vec3& u) const { return K().ltc_direction(lobe_.matrix, u); }
+  void add(const vec3& a, const vec3& b) { sum_ = K().ltc_clipless_add_edge(sum_, a, b); }
+  Part<S> finish(Mask<S> reversed) {
+    const Real<S> integral = K().ltc_clipless_integral(sum_, reversed);
+    return {lobe_.n_a * integral, lobe_.f_a * integral};
+  }
+
+ private:
+  LtcLobe<S> lobe_;
+  vec3 sum_;
+};
+
+}  // namespace integrals
+STERADIAN_END_ISA

@@ -1,0 +1,97 @@
+// Outlines: what a shading point sees of a light, as oriented edges between unit directions in the shading frame.
+//
+// An outline is a type with
+//
+//   static constexpr bool kInOrder;                                    // every edge but a contour's first begins where the last one ended
+//   template <class End, class Add> void walk(End end, Add add) const;
+//
+// walk calls add(end(a), end(b)) for each edge from a to b in walk order (kernels/outline/polygon.glsl). Taken together the edges are
+// closed. `end` says what an integral keeps of a corner; in order, it is asked once a corner. An integral does not know
+// whether the edges are a polygon's contours, the corners that stand for a round light, or pieces that shadows have left.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "steradian/kernels.h"
+#include "steradian/polygon_light.h"
+
+STERADIAN_BEGIN_ISA
+namespace integrals {
+
+// The loop over contours: add(end(v), end(w)) for each edge from the vertex v to the vertex w.
+//
+//   contours  where each contour begins, and the number of vertices at the end
+template <class Vertex, class End, class Add>
+STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* contours, std::size_t contour_count, End end,
+                                    Add add) {
+  for (std::size_t c = 0; c < contour_count; ++c) {
+    const std::size_t first = contours[c], last = contours[c + 1];
+    if (first == last) continue;
+    auto previous = end(vertices[last - 1]);
+    for (std::size_t i = first; i < last; ++i) {
+      const auto next = end(vertices[i]);
+      add(previous, next);
+      previous = next;
+    }
+  }
+}
+
+// The contours of a flat light. direction(vertex) is the unit direction in the shading frame.
+template <class Vertex, class Direction>
+struct Contours {
+  static constexpr bool kInOrder = true;
+  const Vertex* vertices;
+  const std::size_t* contours;
+  std::size_t contour_count;
+  Direction direction;
+
+  template <class End, class Add>
+  STERADIAN_INLINE void walk(End end, Add add) const {
+    walk_contours(vertices, contours, contour_count, [&](const Vertex& v) { return end(direction(v)); }, add);
+  }
+};
+
+template <class Direction>
+Contours<Vec3d, Direction> contours_of(const PreparedPolygon& light, Direction direction) {
+  const std::size_t count = light.contours.empty() ? 0 : light.contours.size() - 1;
+  return {light.vertices.data(), light.contours.data(), count, direction};
+}
+
+template <class S>
+typename Kernels<S>::vec3 to_kernel(Vec3d v) {
+  return {v.x, v.y, v.z};
+}
+
+// A light from a point, turned into the shading frame in double, or in S.
+template <class S>
+auto contours_in(const PreparedPolygon& light, const Frame& frame, Vec3d position) {
+  return contours_of(light, [frame, position](const Vec3d& v) {
+    return Kernels<S>().polygon_direction(to_kernel<S>(frame.to_local(v - position)));
+  });
+}
+template <class S>
+auto contours_in(const PreparedPolygon& light, const Mat3<Real<S>>& frame, Vec3d position) {
+  return contours_of(light, [frame, position](const Vec3d& v) {
+    return Kernels<S>().polygon_direction(transform_transposed(frame, to_kernel<S>(v - position)));
+  });
+}
+
+// Edges of a plane light in any order.
+template <class S>
+struct Pieces {
+  using vec3 = typename Kernels<S>::vec3;
+  struct Edge {
+    vec3 a, b;
+  };
+  static constexpr bool kInOrder = false;
+  std::span<const Edge> edges;
+
+  template <class End, class Add>
+  STERADIAN_INLINE void walk(End end, Add add) const {
+    for (const Edge& edge : edges) add(end(edge.a), end(edge.b));
+  }
+};
+
+}  // namespace integrals
+STERADIAN_END_ISA

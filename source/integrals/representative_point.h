@@ -1,0 +1,45 @@
+// GGX by the representative point (kernels/comparison/representative_point.glsl), for comparison.
+#pragma once
+
+#include "integrals/integrate.h"
+
+STERADIAN_BEGIN_ISA
+namespace integrals {
+
+template <class S>
+class RepresentativePoint {
+ public:
+  static constexpr Clip kClip = Clip::horizon;
+  using K = Kernels<S>;
+  using vec3 = typename K::vec3;
+
+  explicit RepresentativePoint(Real<S> alpha) : alpha_(alpha) {}
+  Mask<S> begin(const Shading<S>& shading) {
+    view_ = shading.view;
+    mirror_ = K().phong_mirror(view_);
+    walk_ = K().representative_begin();
+    // Any apex serves: the walk is closed by clipping.
+    solid_angle_ = K().solid_angle_begin(vec3(0.0, 0.0, 1.0));
+    return shading.lit && view_.z > Real<S>(0.0);
+  }
+  vec3 end(const vec3& u) const { return u; }
+  void add(const vec3& a, const vec3& b) {
+    walk_ = K().representative_add_edge(walk_, mirror_, a, b);
+    solid_angle_ = K().solid_angle_add_edge(solid_angle_, a, b);
+  }
+  Part<S> finish(Mask<S> reversed) {
+    const Real<S> solid_angle = K().solid_angle_finish(solid_angle_, reversed);
+    const Real<S> lobe = K().representative_radiance(walk_, view_, mirror_, solid_angle, alpha_, reversed);
+    const Real<S> v_dot_h = K().representative_v_dot_h(walk_, view_, mirror_, reversed);
+    return {lobe, lobe * K().fresnel_schlick(0.0, 1.0, v_dot_h)};
+  }
+
+ private:
+  Real<S> alpha_;
+  vec3 view_, mirror_;
+  typename K::RepresentativeWalk walk_;
+  typename K::SolidAngleWalk solid_angle_;
+};
+
+}  // namespace integrals
+STERADIAN_END_ISA
