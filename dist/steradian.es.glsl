@@ -59,27 +59,60 @@ vec2 steradian_xy(vec3 v) { return v.xy; }
 vec3 steradian_transform(mat3 m, vec3 v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
 vec3 steradian_transform_transposed(mat3 m, vec3 v) { return vec3(dot(m[0], v), dot(m[1], v), dot(m[2], v)); }
 
+// ==== constants ====
+
+// The constants that all kernels share. A constant is a function: the same in every language.
+
+// The circle's constant.
+float steradian_pi() { return 3.14159265358979324; }
+
+// 1 / pi.
+float inverse_pi() { return 0.318309886183790672; }
+
+// 1 / (2 pi).
+float inverse_two_pi() { return 0.159154943091895336; }
+
+// False in every lane.
+bool mask_none() {
+    float zero = 0.0;
+    return zero > 0.0;
+}
+
+// True in every lane.
+bool mask_all() { return !mask_none(); }
+
+// Squared lengths are kept above this before a division or an inverse root: the smallest normal float is 1.2e-38, and below it
+// GPUs and packs count every number as 0.
+float smallest_square() { return 1.0e-36; }
+
+// Lengths are kept above this before a division: the root of smallest_square.
+float smallest_length() { return 1.0e-18; }
+
+// Divisors of numbers of the order of 1 are kept above this, so that the quotient may still be multiplied by 1.0e8 within float.
+// What is smaller is rounding: a cross product of two unit vectors of float has a square of about 1.0e-14 where they are equal.
+float smallest_divisor() { return 1.0e-30; }
+
 // ==== complex ====
 
 // Complex numbers: vec2(real part, imaginary part).
 
-// a b.
+// The product a b.
 vec2 complex_product(vec2 a, vec2 b) {
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+// The quotient a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
 vec2 complex_quotient(vec2 a, vec2 b) {
-    float scale = 1.0 / max(dot(b, b), 1.0e-36);
+    float scale = 1.0 / max(dot(b, b), smallest_square());
     return vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
 }
 
-// a / |a|. Degenerate: the zero vector stays zero.
+// The unit number in the direction of a: a / |a|. Degenerate: zero stays zero.
 vec2 complex_sign(vec2 a) {
-    return a * inversesqrt(max(dot(a, a), 1.0e-36));
+    return a * inversesqrt(max(dot(a, a), smallest_square()));
 }
 
-// exp(i x) for x in [-pi, pi].
+// The unit number of angle x, exp(i x), for x in [-pi, pi].
 //
 // Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
 // 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
@@ -194,9 +227,6 @@ vec2 gauss_legendre_node(int n, int j) {
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
 
-// The one function without a topic: every kernel may use it.
-float steradian_pi() { return 3.14159265358979324; }
-
 // Degree 9, largest relative error 1.3e-08 before rounding.
 float trig_angle_over_sine_24_bits(float t) {
     float p = 0.01116282422619877;
@@ -246,7 +276,7 @@ float trig_angle_over_sine(float c, float s2) {
     float f = trig_angle_over_sine_acute(1.0 - abs(c));
     bool obtuse = c < 0.0;
     if (obtuse) {
-        f = steradian_select(obtuse, steradian_pi() * inversesqrt(max(s2, 1.0e-30)) - f, f);
+        f = steradian_select(obtuse, steradian_pi() * inversesqrt(max(s2, smallest_divisor())) - f, f);
     }
     return f;
 }
@@ -278,7 +308,7 @@ float trig_atan2_unwrapped(float y, float x) {
 
 // Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
 
-// One root of each pair, with positive imaginary part.
+// The roots of a real quartic without real roots: one of each conjugate pair, the one with positive imaginary part.
 struct QuarticPoles {
     vec2 z1;
     vec2 z2;
@@ -327,7 +357,7 @@ QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
 
     float sum = p + z;
     float root = sqrt(max(sum * sum - 4.0 * r, 0.0));
-    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, 1.0e-18), steradian_select(q < 0.0, -root, root));
+    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, smallest_length()), steradian_select(q < 0.0, -root, root));
     QuarticPoles poles;
     poles.z1 = vec2(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
     poles.z2 = vec2(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
@@ -358,7 +388,7 @@ struct PolygonWalk {
 // square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
 vec3 polygon_direction(vec3 v) {
     float d2 = dot(v, v);
-    float scale = steradian_select(d2 < 1.0e36, inversesqrt(max(d2, 1.0e-36)), 0.0);
+    float scale = steradian_select(d2 < 1.0e36, inversesqrt(max(d2, smallest_square())), 0.0);
     return v * scale;
 }
 
@@ -404,7 +434,7 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
             float wa = abs(b.z);
             float wb = abs(a.z);
             vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+            p = p * inversesqrt(max(dot(p, p), smallest_square()));
             vec3 crossing = vec3(p.x, p.y, 0.0);
             start = steradian_select(a_below, crossing, a);
             end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
@@ -448,7 +478,7 @@ struct SolidAngleWalk {
     vec2 product;
 };
 
-// Starts at a vertex.
+// A solid angle's walk before its first triangle.
 //
 //   first    unit direction of any vertex of the light
 SolidAngleWalk solid_angle_begin(vec3 first) {
@@ -466,7 +496,7 @@ SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, vec3 a, vec3 b) {
     SolidAngleWalk next = walk;
     float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
     float im = dot(walk.first, cross(a, b));
-    float scale = inversesqrt(max(re * re + im * im, 1.0e-36));
+    float scale = inversesqrt(max(re * re + im * im, smallest_square()));
     re = re * scale;
     im = im * scale;
     vec2 p = walk.product;
@@ -494,7 +524,7 @@ float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
 // a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
 
-// A prepared arc. In units of tau in which the poles' distances from 0 have the product 1.
+// A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
 //   begin, end  its ends in tau; equal where the arc has no length
 //   scale       the unit: tau as the caller counted it is scale times tau here
@@ -512,8 +542,8 @@ struct ConicArc {
     vec2 sweep;
 };
 
-// d4 (z - conj z)(z - o)(z - conj o): the derivative of the quartic at its root z, from the roots. From the coefficients
-// it would cost float 5 to 40 times the error.
+// The derivative of the quartic at its root z, formed from the roots: d4 (z - conj z)(z - o)(z - conj o). Formed from the
+// coefficients it would cost float 5 to 40 times the error.
 //
 //   z, o     a root and the root of the other pair
 vec2 conic_slope(vec2 z, vec2 o, float d4) {
@@ -537,7 +567,7 @@ vec2 conic_pole_step(ConicArc arc, vec2 z, vec2 o, float d4) {
     vec2 apart = z - o;
     float apart2 = dot(apart, apart);
     float longest = 0.5 * sqrt(apart2) + z.y;
-    step = step * min(longest * inversesqrt(max(dot(step, step), 1.0e-30)), 1.0);
+    step = step * min(longest * inversesqrt(max(dot(step, step), smallest_divisor())), 1.0);
     bool free = apart2 > 1.0e-12 * (1.0 + dot(z, z));
     vec2 next = z - steradian_select(free, step, vec2(0.0, 0.0));
     return vec2(next.x, max(abs(next.y), 1.0e-9));
@@ -582,7 +612,7 @@ float conic_sweep(vec2 z, float begin, float end) {
 // tau = 0 as it is.
 ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
     float least = 1.0e-12;
-    float d0 = max(dot(u0, u0), 1.0e-30);
+    float d0 = max(dot(u0, u0), smallest_divisor());
     float d4 = dot(u2, u2);
     float ratio = sqrt(d0 / max(d4, least * d0));
     ConicArc arc;
@@ -593,7 +623,7 @@ ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
 
-    float inverse = 1.0 / max(dot(arc.u2, arc.u2), 1.0e-30);
+    float inverse = 1.0 / max(dot(arc.u2, arc.u2), smallest_divisor());
     QuarticPoles poles = quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
@@ -635,7 +665,7 @@ ConicNode conic_node(ConicArc arc, float share) {
     bool positive = linear_term >= 0.0;
     float top = steradian_select(positive, -2.0 * constant_term, root - linear_term);
     float bottom = steradian_select(positive, linear_term + root, 2.0 * s);
-    bool usable = abs(bottom) > 1.0e-30;
+    bool usable = abs(bottom) > smallest_divisor();
     float tau = steradian_select(usable, top / steradian_select(usable, bottom, 1.0), arc.begin);
     ConicNode node;
     node.tau = clamp(tau, arc.begin, arc.end);
@@ -663,7 +693,7 @@ vec3 conic_residue(ConicArc arc, vec2 z, vec2 o, float sweep) {
     return re * factor.x - im * factor.y;
 }
 
-// The same by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
 vec3 conic_vector_approximate(ConicArc arc) {
     vec3 sum = vec3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
@@ -673,7 +703,7 @@ vec3 conic_vector_approximate(ConicArc arc) {
         ConicNode node = conic_node(arc, 0.5 * (rule.x + float(part)));
         vec3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
         vec3 du = arc.u1 + arc.u2 * (2.0 * node.tau);
-        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), 1.0e-30)));
+        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), smallest_divisor())));
     }
     return sum;
 }
@@ -737,7 +767,7 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
     float rise = sqrt(dot(up, up));
-    vec2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, 1.0e-30)), vec2(1.0, 0.0));
+    vec2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, smallest_divisor())), vec2(1.0, 0.0));
     Ellipse level;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -748,7 +778,7 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     float bottom = rise - e.center.z;
     bool shows = top > 0.0;
     bool cut = bottom > 0.0 && shows;
-    float limit = sqrt(max(top, 0.0) / max(bottom, 1.0e-30));
+    float limit = sqrt(max(top, 0.0) / max(bottom, smallest_divisor()));
     limit = steradian_select(cut, limit, steradian_select(shows, 1.0e15, 0.0));
     float upper = min(limit, 1.0);
     vec3 sum = conic_vector(ellipse_arc(level, -upper, upper));
@@ -786,7 +816,7 @@ struct EllipseFan {
     float beta;
 };
 
-// Equal steps of t.
+// The polygon whose corners stand at equal steps of t.
 EllipseFan ellipse_fan(Ellipse e) {
     EllipseFan fan;
     fan.ellipse = e;
@@ -795,7 +825,7 @@ EllipseFan ellipse_fan(Ellipse e) {
     return fan;
 }
 
-// Corners that gather where the lobe's axis meets the ellipse's rim.
+// The polygon whose corners gather where the lobe's axis meets the ellipse's rim.
 //
 //   r        unit axis of the lobe
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
@@ -805,7 +835,7 @@ EllipseFan ellipse_fan(Ellipse e) {
 // Source: this project; table of errors in docs/ggx.md.
 EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, float width) {
     vec3 normal = cross(e.axis_a, e.axis_b);
-    float n2 = max(dot(normal, normal), 1.0e-30);
+    float n2 = max(dot(normal, normal), smallest_divisor());
     float height = dot(e.center, normal);  // > 0 in walk order
     float along = dot(r, normal);
     // Where the axis meets the plane, in units of the half axes: (x, y) / along.
@@ -819,7 +849,7 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, float width) {
     vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
     vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
     float reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
-    float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), 1.0e-30));
+    float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), smallest_divisor()));
     float beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
     fan.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
     return fan;
@@ -901,24 +931,24 @@ Capsule capsule_prepare(vec3 end_a, vec3 end_b, float radius) {
     float b2 = dot(end_b, end_b);
     vec3 nearer = steradian_select(a2 < b2, end_a, end_b);
     float nearer2 = min(a2, b2);
-    vec3 along = difference * inversesqrt(max(span2, 1.0e-36));
+    vec3 along = difference * inversesqrt(max(span2, smallest_square()));
     vec3 moment = cross(nearer, along);
     float height2 = dot(moment, moment);
     float at_a = dot(end_a, along);
     float at_b = dot(end_b, along);
     float radius2 = radius * radius;
     // From within the endless cylinder, the nearer ball hides the other.
-    bool tube = height2 > radius2 && span2 > 1.0e-30;
-    bool beside = at_a < 0.0 && at_b > 0.0 && span2 > 1.0e-30;
+    bool tube = height2 > radius2 && span2 > smallest_divisor();
+    bool beside = at_a < 0.0 && at_b > 0.0 && span2 > smallest_divisor();
 
     float nearest = sqrt(nearer2);
-    vec3 direction = steradian_select(nearer2 > 1.0e-36, nearer * inversesqrt(max(nearer2, 1.0e-36)), vec3(0.0, 0.0, 1.0));
+    vec3 direction = steradian_select(nearer2 > smallest_square(), nearer * inversesqrt(max(nearer2, smallest_square())), vec3(0.0, 0.0, 1.0));
     mat3 across = frame_from_normal(direction);
     Capsule c;
     c.end_a = steradian_select(tube, end_a, nearer);
     c.end_b = steradian_select(tube, end_b, nearer);
     c.along = steradian_select(tube, along, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
-    c.toward = steradian_select(tube, cross(along, moment) * inversesqrt(max(height2, 1.0e-36)), direction);
+    c.toward = steradian_select(tube, cross(along, moment) * inversesqrt(max(height2, smallest_square())), direction);
     c.at_a = steradian_select(tube, at_a, 0.0);
     c.at_b = steradian_select(tube, at_b, 0.0);
     c.span = steradian_select(tube, sqrt(span2), 0.0);
@@ -939,7 +969,7 @@ float capsule_touch(Capsule c) {
 //   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
 //   distance  of the end's centre
 float capsule_half_angle(Capsule c, float place, float distance) {
-    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, 1.0e-18));
+    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, smallest_length()));
 }
 
 // Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
@@ -951,7 +981,7 @@ float capsule_half_angle(Capsule c, float place, float distance) {
 vec3 capsule_straight_part(vec3 along, vec3 toward, float at_a, float at_b, float span, float height, float angle, float share) {
     float h2 = height * height;
     float both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
-    float chords = share * span * height / max(both, 1.0e-36);
+    float chords = share * span * height / max(both, smallest_square());
     return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
 }
 
@@ -965,11 +995,11 @@ vec3 capsule_straight_part(vec3 along, vec3 toward, float at_a, float at_b, floa
 vec3 capsule_whole_vector(Capsule c) {
     float touch = capsule_touch(c);
     float angle = trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
-    float share = touch / max(c.height, 1.0e-18);
-    float slope = c.radius / max(c.height, 1.0e-18);
+    float share = touch / max(c.height, smallest_length());
+    float slope = c.radius / max(c.height, smallest_length());
     vec3 e = capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
-    float a2 = max(dot(c.end_a, c.end_a), 1.0e-36);
-    float b2 = max(dot(c.end_b, c.end_b), 1.0e-36);
+    float a2 = max(dot(c.end_a, c.end_a), smallest_square());
+    float b2 = max(dot(c.end_b, c.end_b), smallest_square());
     float ia = inversesqrt(a2);
     float ib = inversesqrt(b2);
     float sine_a = c.radius * ia;
@@ -988,7 +1018,7 @@ vec3 capsule_whole_vector(Capsule c) {
 // Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
 // the joints; an arc between two ends on one side crosses twice or not at all.
 PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, float radius, vec3 middle, float half_angle, vec3 start, vec3 finish) {
-    float d2 = max(dot(center, center), 1.0e-36);
+    float d2 = max(dot(center, center), smallest_square());
     float distance = sqrt(d2);
     float inverse = 1.0 / distance;
     float tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
@@ -1003,7 +1033,7 @@ PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, float radius, vec3 mi
     float seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
     // Where the cap's rim crosses: azimuths left and right of the cap's own.
-    float flat2 = max(center.x * center.x + center.y * center.y, 1.0e-36);
+    float flat2 = max(center.x * center.x + center.y * center.y, smallest_square());
     vec2 azimuth = vec2(center.x, center.y) * inversesqrt(flat2);
     vec2 tilt = complex_sign(vec2(tangent, root));
     vec2 comes = complex_product(azimuth, tilt);
@@ -1044,16 +1074,16 @@ vec3 capsule_irradiance_vector(Capsule c) {
         float b2 = dot(c.end_b, c.end_b);
         float r2 = c.radius * c.radius;
         vec3 side = cross(c.toward, c.along);
-        vec3 inward = c.toward * (r2 / max(c.height, 1.0e-18));
-        vec3 aside = side * (c.radius * capsule_touch(c) / max(c.height, 1.0e-18));
-        float ia = inversesqrt(max(a2 - r2, 1.0e-36));
-        float ib = inversesqrt(max(b2 - r2, 1.0e-36));
+        vec3 inward = c.toward * (r2 / max(c.height, smallest_length()));
+        vec3 aside = side * (c.radius * capsule_touch(c) / max(c.height, smallest_length()));
+        float ia = inversesqrt(max(a2 - r2, smallest_square()));
+        float ib = inversesqrt(max(b2 - r2, smallest_square()));
         vec3 a_left = (c.end_a - inward + aside) * ia;
         vec3 a_right = (c.end_a - inward - aside) * ia;
         vec3 b_left = (c.end_b - inward + aside) * ib;
         vec3 b_right = (c.end_b - inward - aside) * ib;
-        float da = sqrt(max(a2, 1.0e-36));
-        float db = sqrt(max(b2, 1.0e-36));
+        float da = sqrt(max(a2, smallest_square()));
+        float db = sqrt(max(b2, smallest_square()));
         vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
         vec3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
         PolygonWalk walk = polygon_begin();
@@ -1062,7 +1092,7 @@ vec3 capsule_irradiance_vector(Capsule c) {
         walk = capsule_add_arc(walk, c.end_b, c.radius, b_middle, capsule_half_angle(c, c.at_b, db), b_right, b_left);
         walk = polygon_add_edge(walk, b_left, a_left);
         bool shows = max(c.end_a.z, c.end_b.z) > -c.radius;
-        vec3 above = polygon_irradiance_vector(walk, !(c.radius <= c.radius));
+        vec3 above = polygon_irradiance_vector(walk, mask_none());
         e = steradian_select(cut, steradian_select(shows, above, vec3(0.0, 0.0, 0.0)), e);
     }
     e = vec3(e.x, e.y, clamp(e.z, 0.0, steradian_pi()));
@@ -1079,14 +1109,14 @@ vec3 capsule_irradiance_vector(Capsule c) {
 vec3 line_irradiance_vector(vec3 end_a, vec3 end_b) {
     float wa = abs(end_a.z);
     float wb = abs(end_b.z);
-    vec3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, 1.0e-36));
+    vec3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, smallest_square()));
     vec3 a = steradian_select(end_a.z < 0.0, crossing, end_a);
     vec3 b = steradian_select(end_b.z < 0.0, crossing, end_b);
     vec3 difference = b - a;
     float span2 = dot(difference, difference);
-    vec3 along = difference * inversesqrt(max(span2, 1.0e-36));
+    vec3 along = difference * inversesqrt(max(span2, smallest_square()));
     vec3 moment = cross(steradian_select(dot(a, a) < dot(b, b), a, b), along);
-    float height2 = max(dot(moment, moment), 1.0e-36);
+    float height2 = max(dot(moment, moment), smallest_square());
     float height = sqrt(height2);
     vec3 toward = cross(along, moment) * (1.0 / height);
     float span = sqrt(span2);
@@ -1129,10 +1159,10 @@ struct CapsuleFan {
 //   middle      unit, across `center`, where the arc's middle lies
 //   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
 CapsuleEnd capsule_end(vec3 center, float radius, vec3 middle, float half_angle, vec3 r, float width) {
-    float d2 = max(dot(center, center), 1.0e-36);
+    float d2 = max(dot(center, center), smallest_square());
     float inverse = inversesqrt(d2);
-    float sine = max(radius * inverse, 1.0e-18);
-    float cosine2 = max(1.0 - sine * sine, 1.0e-18);
+    float sine = max(radius * inverse, smallest_length());
+    float cosine2 = max(1.0 - sine * sine, smallest_length());
     float cosine = sqrt(cosine2);
     vec3 axis = center * inverse;
     vec3 side = cross(axis, middle);
@@ -1217,8 +1247,8 @@ vec3 capsule_end_corner(CapsuleEnd end, float j) {
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
 //   count    of all corners, 6 or more; each end has its share of the steps, at least one
 CapsuleFan capsule_fan(Capsule c, vec3 r, float width, int count) {
-    float da = sqrt(max(dot(c.end_a, c.end_a), 1.0e-36));
-    float db = sqrt(max(dot(c.end_b, c.end_b), 1.0e-36));
+    float da = sqrt(max(dot(c.end_a, c.end_a), smallest_square()));
+    float db = sqrt(max(dot(c.end_b, c.end_b), smallest_square()));
     float angle_a = capsule_half_angle(c, -c.at_a, da);
     float angle_b = capsule_half_angle(c, c.at_b, db);
     vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
@@ -1226,7 +1256,7 @@ CapsuleFan capsule_fan(Capsule c, vec3 r, float width, int count) {
     CapsuleFan fan;
     fan.a = capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
     fan.b = capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
-    float share = fan.a.step / max(fan.a.step + fan.b.step, 1.0e-18);
+    float share = fan.a.step / max(fan.a.step + fan.b.step, smallest_length());
     fan.a.corners = 1.0 + floor(0.5 + float(count - 2) * share);
     fan.b.corners = float(count) - fan.a.corners;
     fan.a.step = fan.a.step / fan.a.corners;
@@ -1279,7 +1309,7 @@ EllipsoidOutline ellipsoid_outline(vec3 to_center, mat3 s, mat3 inverse) {
     float d2 = dot(p, p);
     float safe = max(d2, 1.000001);
     float inverse_d = inversesqrt(safe);
-    vec3 k = p * inversesqrt(max(d2, 1.0e-30));
+    vec3 k = p * inversesqrt(max(d2, smallest_divisor()));
     float rho = sqrt(1.0 - 1.0 / safe);
     mat3 frame = frame_from_normal(k);
     vec3 a = steradian_transform(frame, vec3(rho, 0.0, 0.0));
@@ -1332,13 +1362,12 @@ struct HorizonClip {
 // The state before the first edge.
 HorizonClip horizon_clip_begin() {
     vec3 nowhere = vec3(0.0, 0.0, 0.0);
-    float zero = 0.0;
     HorizonClip clip;
     clip.start = nowhere;
     clip.end = nowhere;
     clip.arc_start = nowhere;
     clip.arc_end = nowhere;
-    clip.closes = zero > 0.0;
+    clip.closes = mask_none();
     clip.leave = nowhere;
     clip.entry = nowhere;
     return clip;
@@ -1352,7 +1381,7 @@ vec3 horizon_crossing(vec3 a, vec3 b) {
     float wa = abs(b.z);
     float wb = abs(a.z);
     vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+    p = p * inversesqrt(max(dot(p, p), smallest_square()));
     return vec3(p.x, p.y, 0.0);
 }
 
@@ -1366,7 +1395,7 @@ HorizonClip horizon_clip_edge(HorizonClip clip, vec3 a, vec3 b) {
     bool b_below = b.z < 0.0;
     next.start = a;
     next.end = b;
-    next.closes = a.z > 2.0;
+    next.closes = mask_none();
     if (a_below || b_below) {
         vec3 nowhere = vec3(0.0, 0.0, 0.0);
         vec3 crossing = horizon_crossing(a, b);
@@ -1404,12 +1433,12 @@ HorizonClip horizon_clip_finish(HorizonClip clip) {
 //
 //   irradiance  polygon_irradiance, in [0, pi]
 float lambert_radiance(float irradiance) {
-    return irradiance * 0.318309886183790672;
+    return irradiance * inverse_pi();
 }
 
 // The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
 float lambert_lobe(vec3 l) {
-    return max(l.z, 0.0) * 0.318309886183790672;
+    return max(l.z, 0.0) * inverse_pi();
 }
 
 // ==== lobe_product ====
@@ -1429,14 +1458,14 @@ float lambert_lobe(vec3 l) {
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
 // Source: this project (docs/moments.md).
 
-// scale (u.axis)^exponent
+// A cosine lobe: scale (u.axis)^exponent.
 struct CosineLobe {
     vec3 axis;
     float exponent;
     float scale;
 };
 
-// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
 struct StretchedLobe {
     mat3 frame;
     vec3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
@@ -1492,7 +1521,7 @@ vec3 lobe_product_newton(LobeProduct p) {
     float xx = p.total + p.curvature.x;
     float yy = p.total + p.curvature.z;
     float xy = p.curvature.y;
-    float inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    float inverse = 1.0 / max(xx * yy - xy * xy, smallest_divisor());
     vec3 step_to = vec3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
     vec3 u = steradian_transform(p.about, step_to);
     return u * inversesqrt(dot(u, u));
@@ -1520,7 +1549,7 @@ StretchedLobe lobe_product_anisotropic(LobeProduct p) {
     float xx = p.total + p.curvature.x + 3.0;
     float yy = p.total + p.curvature.z + 3.0;
     float xy = p.curvature.y;
-    float d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    float d = sqrt(max(xx * yy - xy * xy, smallest_divisor()));
     // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
     float root = inversesqrt((xx + yy) / d + 2.0);
     StretchedLobe lobe;
@@ -1531,7 +1560,7 @@ StretchedLobe lobe_product_anisotropic(LobeProduct p) {
     return lobe;
 }
 
-// A direction in the lobe's stretched frame, not unit; 0 at zero.
+// A direction in the lobe's stretched frame. It is not unit; the zero vector stays zero.
 vec3 lobe_product_stretch(StretchedLobe lobe, vec3 u) {
     vec3 l = steradian_transform_transposed(lobe.frame, u);
     return vec3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
@@ -1547,7 +1576,7 @@ vec3 lobe_product_peak_of_two(vec3 r1, float n1, vec3 r2, float n2) {
     float tangent = sqrt(sine2) / cosine;
     float sum = n1 + n2;
     float t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    vec3 u = r1 + across * (t * inversesqrt(max(sine2, 1.0e-30)));
+    vec3 u = r1 + across * (t * inversesqrt(max(sine2, smallest_divisor())));
     return u * inversesqrt(dot(u, u));
 }
 
@@ -1561,7 +1590,7 @@ vec3 lobe_product_peak_of_two(vec3 r1, float n1, vec3 r2, float n2) {
 // Half vector of light and view. Degenerate: l = -v gives the zero vector.
 vec3 microfacet_half_vector(vec3 l, vec3 v) {
     vec3 h = l + v;
-    return h * inversesqrt(max(dot(h, h), 1.0e-36));
+    return h * inversesqrt(max(dot(h, h), smallest_square()));
 }
 
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
@@ -1573,7 +1602,7 @@ float ggx_distribution(vec3 h, float ax, float ay) {
     float x = h.x / ax;
     float y = h.y / ay;
     float d = x * x + y * y + h.z * h.z;
-    return 0.318309886183790672 / (ax * ay * d * d);
+    return inverse_pi() / (ax * ay * d * d);
 }
 
 // Length of the direction w stretched by the surface: sqrt(w_z^2 + (ax w_x)^2 + (ay w_y)^2).
@@ -1591,7 +1620,7 @@ float ggx_shadowing(vec3 l, vec3 v, float ax, float ay) {
     float lz = max(l.z, 0.0);
     float vz = max(v.z, 0.0);
     float d = lz * ggx_stretched_length(v, ax, ay) + vz * ggx_stretched_length(l, ax, ay);
-    return 2.0 * lz * vz / max(d, 1.0e-36);
+    return 2.0 * lz * vz / max(d, smallest_square());
 }
 
 // Schlick's Fresnel with a free value at grazing.
@@ -1615,7 +1644,7 @@ float beckmann_distribution(vec3 h, float ax, float ay) {
     float x = h.x / (ax * hz);
     float y = h.y / (ay * hz);
     float z2 = hz * hz;
-    return 0.318309886183790672 * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
+    return inverse_pi() * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
 }
 
 // A microfacet lobe without shadowing and Fresnel: BRDF times cosine, D / (4 v_z).
@@ -1638,7 +1667,7 @@ float ggx_lobe(vec3 l, vec3 v, float ax, float ay) {
 
 // Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
 
-// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
+// The logarithm of x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
 // high exponent multiplies it.
 //
 // Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
@@ -1658,12 +1687,12 @@ float phong_log(float x) {
     return result;
 }
 
-// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
+// The power x^n, for x in [0, 1] and n >= 0, as exp(n log x).
 //
 // Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
 // Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
 float phong_power(float x, float n) {
-    return exp(n * phong_log(max(x, 1.0e-30)));
+    return exp(n * phong_log(max(x, smallest_divisor())));
 }
 
 // The view mirrored at the surface.
@@ -1680,14 +1709,14 @@ vec3 phong_mirror(vec3 v) {
 //
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
 float phong_lobe(vec3 l, vec3 r, float n) {
-    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
+    return (n + 1.0) * inverse_two_pi() * phong_power(dot(l, r), n);
 }
 
 // Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
 //
 //   h        unit half vector, shading frame
 float blinn_phong_distribution(vec3 h, float n) {
-    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+    return (n + 2.0) * inverse_two_pi() * phong_power(h.z, n);
 }
 
 // ==== ggx_closed_form ====
@@ -1745,9 +1774,9 @@ ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
     vec3 sum = a + b;
     float chord2 = dot(chord, chord);
     float sum2 = dot(sum, sum);
-    bool usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
-    vec3 middle = sum * inversesqrt(max(sum2, 1.0e-30));
-    vec3 along = chord * inversesqrt(max(chord2, 1.0e-36));
+    bool usable = chord2 > smallest_divisor() && sum2 > 1.0e-12;
+    vec3 middle = sum * inversesqrt(max(sum2, smallest_divisor()));
+    vec3 along = chord * inversesqrt(max(chord2, smallest_square()));
     float half_sine = 0.5 * sqrt(chord2);
     float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
 
@@ -1772,7 +1801,7 @@ ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
 //   e        sum over the edges of conic_vector, negated where the light is seen from behind
 //   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
 float ggx_unshadowed(GgxView view, vec3 e) {
-    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
+    return max(dot(view.w, e), 0.0) * inverse_pi() / view.v.z;
 }
 
 // ==== ggx_cubature ====
@@ -1821,11 +1850,11 @@ struct GgxCubature {
 //   returns  (0, 0) where the mirrored light is not above the surface
 vec2 ggx_shadowing_and_fresnel(GgxView view, vec3 u, float smith) {
     vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
-    h = h * inversesqrt(max(dot(h, h), 1.0e-30));
+    h = h * inversesqrt(max(dot(h, h), smallest_divisor()));
     float v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
     vec3 l = h * (2.0 * v_dot_h) - view.v;
     float lz = max(l.z, 0.0);
-    float shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), 1.0e-30);
+    float shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), smallest_divisor());
     float g = steradian_select(l.z > 0.0, 1.0 + smith * (shadowing - 1.0), 0.0);
     float x = 1.0 - v_dot_h;
     float x2 = x * x;
@@ -1841,9 +1870,9 @@ GgxCubature ggx_cubature_begin(GgxView view, vec3 e, float smith, float facing) 
     GgxCubature c;
     vec3 inward = e * facing;
     float length2 = dot(inward, inward);
-    bool usable = length2 > 1.0e-36;
+    bool usable = length2 > smallest_square();
     c.view = view;
-    c.centre = steradian_select(usable, inward * inversesqrt(max(length2, 1.0e-36)), vec3(0.0, 0.0, 1.0));
+    c.centre = steradian_select(usable, inward * inversesqrt(max(length2, smallest_square())), vec3(0.0, 0.0, 1.0));
     c.amount = steradian_select(usable, ggx_unshadowed(view, inward), 0.0);
     c.extent = sqrt(length2);
     c.smith = smith;
@@ -1903,11 +1932,11 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
             ConicNode node = conic_node(edge, rule.x);
             vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
             vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            float inverse2 = 1.0 / max(dot(u, u), 1.0e-30);
+            float inverse2 = 1.0 / max(dot(u, u), smallest_divisor());
             vec3 rim = u * sqrt(inverse2);
             float rim_cosine = dot(rim, c.centre);
             vec3 out_of_centre = rim - c.centre * rim_cosine;
-            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), 1.0e-30));
+            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), smallest_divisor()));
             float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = steradian_select(present, om, 0.0);
@@ -2061,12 +2090,12 @@ MomentEdge moment_edge(vec3 a, vec3 b, vec3 r) {
     float pole2 = 1.0e-6;
     vec3 n = cross(a, b);
     float n2 = dot(n, n);
-    bool has_length = n2 > 1.0e-30;
-    n = n * inversesqrt(max(n2, 1.0e-30));
+    bool has_length = n2 > smallest_divisor();
+    n = n * inversesqrt(max(n2, smallest_divisor()));
     float s = dot(n, r);
     vec3 q = cross(n, r);
     // The share vanishes with s, like s sqrt(n/2) in the highlight: a floor of 1e-10 would show there.
-    float s2 = clamp(s * s, 1.0e-30, 1.0);
+    float s2 = clamp(s * s, smallest_divisor(), 1.0);
     float c2 = clamp(dot(q, q), pole2, 1.0);
 
     MomentEdge edge;
@@ -2119,7 +2148,7 @@ float moment_edge_share(MomentEdge edge, float front) {
 //
 // Source: Lecocq et al. 2017, eq. 10: (n + 1)/(2 pi) times the moment; without foreshortening.
 float moment_phong_radiance(float sum, bool reversed) {
-    return clamp(steradian_select(reversed, -sum, sum) * 0.159154943091895336, 0.0, 1.0);
+    return clamp(steradian_select(reversed, -sum, sum) * inverse_two_pi(), 0.0, 1.0);
 }
 
 // ==== moment_quadrature ====
@@ -2144,10 +2173,10 @@ struct MomentQuadrature {
     float t1;
 };
 
-// tan(u/2) of the direction (w x, y), x >= 0.
+// The parameter t = tan(u/2) of the direction (w x, y), x >= 0, whose angle is u.
 float moment_quadrature_parameter(float w, float x, float y) {
     float wx = w * x;
-    return clamp(y / max(wx + sqrt(wx * wx + y * y), 1.0e-18), -1.0, 1.0);
+    return clamp(y / max(wx + sqrt(wx * wx + y * y), smallest_length()), -1.0, 1.0);
 }
 
 // Prepares the integrand of one edge for a lobe of exponent n.
@@ -2358,7 +2387,7 @@ float moment_series_cubic(vec4 b, float t) {
     return ((b.w * t + b.z) * t + b.y) * t + b.x;
 }
 
-// The same in high quality.
+// A harmonic's amplitude over 1 - kap2 in high quality, at t = kap2.
 float moment_series_quintic(vec3 low, vec3 high, float t) {
     return ((((high.z * t + high.y) * t + high.x) * t + low.z) * t + low.y) * t + low.x;
 }
@@ -2389,7 +2418,7 @@ MomentWarp moment_warp(MomentEdge edge, float m) {
     // One division for both ends: they are at least c^2 w^2, 1e-10 where the pole begins.
     float d0 = wx0 * wx0 + edge.y0 * edge.y0;
     float d1 = wx1 * wx1 + edge.y1 * edge.y1;
-    float over_both = 2.0 / max(d0 * d1, 1.0e-30);
+    float over_both = 2.0 / max(d0 * d1, smallest_divisor());
     float scale0 = over_both * d1;
     float scale1 = over_both * d0;
     warp.cosine = vec2(scale0 * (wx0 * wx0 - edge.y0 * edge.y0), scale1 * (wx1 * wx1 - edge.y1 * edge.y1));
@@ -2417,7 +2446,7 @@ float moment_series_front(MomentEdge edge, MomentSeries series) {
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// The same in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// What moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 float moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
     MomentWarp warp = moment_warp(edge, series.m);
     float t = warp.kap2;
@@ -2450,7 +2479,7 @@ float moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
 // Source of the error function: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
 float moment_cosine_from_foot(float x, float y, float n) {
     float a = n + 0.5;
-    float v2 = moment_log_1_plus(y * y / max(x * x, 1.0e-30));
+    float v2 = moment_log_1_plus(y * y / max(x * x, smallest_divisor()));
     float t = 0.5 * a * v2;
     float v = sqrt(v2);
     float decay = exp(-t);
@@ -2497,7 +2526,7 @@ float moment_series_low_front(MomentEdge edge, MomentSeries raised, float n) {
     return max(moment_series_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// The same in high quality; the error is then that of the cosines.
+// What moment_series_low_front returns, in high quality; the error is then that of the cosines.
 float moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, float n) {
     return max(moment_series_high_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
@@ -2513,8 +2542,8 @@ float moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, flo
 float moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float share, float cosines) {
     vec3 n = cross(a, b);
     float n2 = dot(n, n);
-    float inward = dot(n, v) * inversesqrt(max(n2, 1.0e-30));
-    return dot(r, v) * share + steradian_select(n2 > 1.0e-30, inward * cosines, 0.0);
+    float inward = dot(n, v) * inversesqrt(max(n2, smallest_divisor()));
+    return dot(r, v) * share + steradian_select(n2 > smallest_divisor(), inward * cosines, 0.0);
 }
 
 // ==== half_vector ====
@@ -2541,7 +2570,7 @@ float blinn_phong_alpha(float n) {
 vec3 half_vector_at(GgxView view, ConicArc edge, float tau) {
     vec3 u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
     vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
-    return h * inversesqrt(max(dot(h, h), 1.0e-30));
+    return h * inversesqrt(max(dot(h, h), smallest_divisor()));
 }
 
 // The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
@@ -2549,7 +2578,7 @@ float half_vector_split_uniform(ConicArc edge, float share) {
     float first = trig_atan2(edge.scale * edge.begin, 1.0);
     float last = trig_atan2(edge.scale * edge.end, 1.0);
     vec2 u = complex_unit(first + share * (last - first));
-    return clamp(u.y / max(u.x * edge.scale, 1.0e-18), edge.begin, edge.end);
+    return clamp(u.y / max(u.x * edge.scale, smallest_length()), edge.begin, edge.end);
 }
 
 // The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
@@ -2604,7 +2633,7 @@ float blinn_phong_arc(vec3 a, vec3 b, vec3 v, float n) {
     return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front.moment), front.power);
 }
 
-// The same by the cosine series and the error function.
+// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
 //
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
@@ -2658,8 +2687,8 @@ float beckmann_arc(GgxView view, vec3 a, vec3 b, MomentSeriesHigh series) {
     vec2 q = vec2(b.x * zb / view.ax, b.y * zb / view.ay);
     vec2 along = q - p;
     float length2 = dot(along, along);
-    bool usable = length2 > 1.0e-30;
-    along = along * inversesqrt(max(length2, 1.0e-30));
+    bool usable = length2 > smallest_divisor();
+    along = along * inversesqrt(max(length2, smallest_divisor()));
     float d = p.x * along.y - p.y * along.x;
     float low = dot(p, along);
     float high = dot(q, along);
@@ -2692,7 +2721,7 @@ vec3 ggx_arc(GgxView view, vec3 a, vec3 b) {
 //
 //   facing   1.0; -1.0 where the light is seen from behind
 float half_vector_radiance(GgxView view, float sum, float facing) {
-    return max(sum * facing, 0.0) * 0.159154943091895336 / view.v.z;
+    return max(sum * facing, 0.0) * inverse_two_pi() / view.v.z;
 }
 
 // ==== ltc ====
@@ -2704,7 +2733,7 @@ float half_vector_radiance(GgxView view, float sum, float facing) {
 // is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
-// M^-1 up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
 struct LtcMatrix {
     float xx;
     float xz;
@@ -2713,7 +2742,7 @@ struct LtcMatrix {
     float zz;
 };
 
-// Where a table is read, both in [0, 1], nodes on the ends.
+// The place where a table is read: both coordinates are in [0, 1], and the outer nodes stand on the ends.
 //
 //   roughness  perceptual: the square root of alpha
 //   n_dot_v    cosine of the view
@@ -2721,7 +2750,7 @@ vec2 ltc_coordinates(float roughness, float n_dot_v) {
     return vec2(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
 }
 
-// From the classic texture.
+// The matrix as the literature's texture stores it.
 //
 //   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
 LtcMatrix ltc_from_classic(vec4 t) {
@@ -2734,7 +2763,7 @@ LtcMatrix ltc_from_classic(vec4 t) {
     return m;
 }
 
-// From the compact table, in which the matrix is stored about the mirror direction and divided by alpha.
+// The matrix from the compact table, in which it is stored about the mirror direction and divided by alpha.
 //
 //   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
 //            R turns z into the mirror direction (-s, 0, c)
@@ -2756,7 +2785,7 @@ LtcMatrix ltc_from_compact(vec4 e, float alpha, vec3 view) {
     return m;
 }
 
-// M^-1 v, up to the matrix' factor. Any vector of the shading frame.
+// The vector M^-1 v, up to the matrix' factor, for any vector v of the shading frame.
 vec3 ltc_transform(LtcMatrix m, vec3 v) {
     return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
@@ -2764,16 +2793,16 @@ vec3 ltc_transform(LtcMatrix m, vec3 v) {
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 float ltc_lobe(LtcMatrix m, vec3 l) {
     vec3 w = ltc_transform(m, l);
-    float d2 = max(dot(w, w), 1.0e-18);
+    float d2 = max(dot(w, w), smallest_length());
     float determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
-    return determinant * max(w.z, 0.0) * 0.318309886183790672 / (d2 * d2);
+    return determinant * max(w.z, 0.0) * inverse_pi() / (d2 * d2);
 }
 
 // The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
 //
 // Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
 float ltc_energy_above_horizon(LtcMatrix m) {
-    return 0.5 + 0.5 * m.xx * inversesqrt(max(m.xx * m.xx + m.zx * m.zx, 1.0e-36));
+    return 0.5 + 0.5 * m.xx * inversesqrt(max(m.xx * m.xx + m.zx * m.zx, smallest_square()));
 }
 
 // The state of a walk along a light's outline under M^-1.
@@ -2791,7 +2820,7 @@ LtcWalk ltc_begin() {
     LtcWalk walk;
     walk.lobe = polygon_begin();
     walk.anchor = vec3(0.0, 0.0, 0.0);
-    walk.anchored = walk.anchor.x > 0.0;
+    walk.anchored = mask_none();
     return walk;
 }
 
@@ -2847,7 +2876,7 @@ LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb
 //
 //   reversed true where the light is seen from behind
 float ltc_integral(LtcWalk walk, bool reversed) {
-    return polygon_irradiance(walk.lobe, reversed) * 0.318309886183790672;
+    return polygon_irradiance(walk.lobe, reversed) * inverse_pi();
 }
 
 // What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
@@ -2925,7 +2954,7 @@ struct LtcTextureFootprint {
     bool valid;
 };
 
-// M w, up to a positive factor: the inverse of ltc_transform.
+// The vector M w, up to a positive factor: the inverse of ltc_transform.
 vec3 ltc_texture_transform_back(LtcMatrix m, vec3 w) {
     float determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
@@ -2962,8 +2991,8 @@ vec3 ltc_texture_irradiance_vector(LtcWalk walk, bool reversed) {
 // Error: docs/ltc.md, "Textured lights".
 LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, float height) {
     float p2 = dot(phi, phi);
-    bool lit = p2 > 1.0e-30;
-    vec3 w = steradian_select(lit, phi * inversesqrt(max(p2, 1.0e-30)), vec3(0.0, 0.0, 1.0));
+    bool lit = p2 > smallest_divisor();
+    vec3 w = steradian_select(lit, phi * inversesqrt(max(p2, smallest_divisor())), vec3(0.0, 0.0, 1.0));
     mat3 across = frame_from_normal(w);
     vec3 l = ltc_texture_transform_back(m, w);
     float along = dot(normal, l);
@@ -3000,11 +3029,11 @@ LtcTextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
     // An eigenvector of the larger eigenvalue, from the row that does not cancel.
     vec2 v = steradian_select(half_difference > 0.0, vec2(half_difference + spread, xy2), vec2(xy2, spread - half_difference));
     float v2 = dot(v, v);
-    vec2 direction = steradian_select(v2 > 1.0e-36, v * inversesqrt(max(v2, 1.0e-36)), vec2(1.0, 0.0));
+    vec2 direction = steradian_select(v2 > smallest_square(), v * inversesqrt(max(v2, smallest_square())), vec2(1.0, 0.0));
     float longest = sqrt(0.5 * (xx + yy) + spread);
     LtcTextureEllipse e;
     e.major = direction * longest;
-    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, smallest_length());
     return e;
 }
 
@@ -3036,19 +3065,19 @@ LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, float width, float w
 vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
     float major2 = dot(g.major, g.major);
     float minor2 = g.minor * g.minor;
-    vec2 u = g.major * inversesqrt(max(major2, 1.0e-36));
+    vec2 u = g.major * inversesqrt(max(major2, smallest_square()));
     float along = major2 - minor2;
     float sxx = minor2 + along * u.x * u.x;
     float sxy = along * u.x * u.y;
     float syy = minor2 + along * u.y * u.y;
-    float least = 1.0e-6 * (light.x + light.z) + 1.0e-30;
+    float least = 1.0e-6 * (light.x + light.z) + smallest_divisor();
     float vxx = light.x + least;
     float vyy = light.z + least;
     // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
     float txx = vxx + sxx;
     float txy = light.y + sxy;
     float tyy = vyy + syy;
-    float t_inverse = 1.0 / max(txx * tyy - txy * txy, 1.0e-36);
+    float t_inverse = 1.0 / max(txx * tyy - txy * txy, smallest_square());
     vec2 p = vec2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
@@ -3056,7 +3085,7 @@ vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) 
     float q = max(dot(slope, p), 0.0);
     float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     vec2 d = aside + p * share;
-    float v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
+    float v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, smallest_square());
     vec2 e = vec2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
     vec2 push = vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
     float pushed2 = max(dot(push, e), 0.0);
@@ -3079,7 +3108,7 @@ vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) 
 float ltc_clipped_sphere(float cosine, float f) {
     float z = clamp(cosine, -1.0, 1.0);
     float s2 = clamp(f, 1.0e-12, 1.0);
-    float sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
+    float sin_w = sqrt(max(1.0 - z * z, smallest_divisor()));
     float cos_s = sqrt(1.0 - s2);
     bool crossed = z * z < s2;
     // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
@@ -3107,8 +3136,8 @@ vec3 ltc_clipless_add_edge(vec3 sum, vec3 ta, vec3 tb) {
 float ltc_clipless_integral(vec3 sum, bool reversed) {
     vec3 e = sum * steradian_select(reversed, -1.0, 1.0);
     float e2 = dot(e, e);
-    float inverse = inversesqrt(max(e2, 1.0e-36));
-    float form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
+    float inverse = inversesqrt(max(e2, smallest_square()));
+    float form_factor = clamp(e2 * inverse * inverse_pi(), 0.0, 1.0);
     return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }
 
@@ -3279,7 +3308,7 @@ struct MomentFit {
     float tail;
 };
 
-// From a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
+// The scaled peak from a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
 MomentFit moment_fit_scaled(MomentPeak p, float integral, float tail, float lowest) {
     float scale = 1.0 / (1.0 - lowest);
     MomentFit fit;
@@ -3294,7 +3323,7 @@ float moment_lorentzian_width(MomentPeak p) {
     return max((1.0 - p.y_w - 0.405284734569351086 * x2) / (p.y_w * x2), 1.0e-3);
 }
 
-// 1/(1 + a phi^2). Source: eq. 11 and 12.
+// The Lorentzian peak 1/(1 + a phi^2). Source: eq. 11 and 12.
 MomentFit moment_fit_lorentzian(MomentPeak p) {
     float a = moment_lorentzian_width(p);
     float root = sqrt(a);
@@ -3302,7 +3331,7 @@ MomentFit moment_fit_lorentzian(MomentPeak p) {
     return moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
 }
 
-// Pearson VII: (1 + b phi^2)^-2 with b = a/2.
+// The peak of Pearson VII: (1 + b phi^2)^-2 with b = a/2.
 MomentFit moment_fit_pearson(MomentPeak p) {
     float b = 0.5 * moment_lorentzian_width(p);
     float root = sqrt(b);
@@ -3325,7 +3354,7 @@ float moment_ellipsoid_width(MomentPeak p) {
     return p.y_w * sine * sine / (cosine * cosine * (1.0 - p.y_w));
 }
 
-// a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
+// The ellipsoid peak a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
 MomentFit moment_fit_ellipsoid(MomentEdge edge, MomentPeak p) {
     float a = moment_fit_not_one(moment_ellipsoid_width(p));
     float root = sqrt(a);
@@ -3334,13 +3363,13 @@ MomentFit moment_fit_ellipsoid(MomentEdge edge, MomentPeak p) {
     return moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
 }
 
-// (b/(1 + (b - 1) cos^2 phi))^2.
+// The squared ellipsoid peak (b/(1 + (b - 1) cos^2 phi))^2.
 MomentFit moment_fit_ellipsoid_squared(MomentEdge edge, MomentPeak p) {
     float b = moment_fit_not_one(moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
     float root = sqrt(b);
     float cosine = moment_peak_cosine(p.x_t);
-    float e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, 1.0e-30);
-    float e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, 1.0e-30);
+    float e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, smallest_divisor());
+    float e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, smallest_divisor());
     float angle = moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
     float integral = 0.5 * root * (b + 1.0) * angle - 0.5 * b * (b - 1.0) * (e1 - e0);
     float t = b / (1.0 + (b - 1.0) * cosine * cosine);
@@ -3423,7 +3452,7 @@ RepresentativeWalk representative_begin() {
     RepresentativeWalk walk;
     walk.turn = 0.0;
     walk.nearest = vec3(0.0, 0.0, 1.0);
-    walk.cosine = -2.0;
+    walk.cosine = -2.0;  // below any cosine, so that the first edge counts
     return walk;
 }
 
@@ -3438,9 +3467,9 @@ RepresentativeWalk representative_add_edge(RepresentativeWalk walk, vec3 mirror,
     next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
     // The nearest of the great circle, if it lies between the ends.
     vec3 n = cross(a, b);
-    float n2 = max(dot(n, n), 1.0e-30);
+    float n2 = max(dot(n, n), smallest_divisor());
     vec3 p = mirror - n * (dot(mirror, n) / n2);
-    vec3 on_circle = p * inversesqrt(max(dot(p, p), 1.0e-30));
+    vec3 on_circle = p * inversesqrt(max(dot(p, p), smallest_divisor()));
     bool between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
     vec3 nearest = steradian_select(between, on_circle, steradian_select(ca > cb, a, b));
     float cosine = dot(mirror, nearest);
@@ -3474,7 +3503,7 @@ float representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, f
     return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
-// The half vector's cosine for Fresnel. Arguments as above.
+// The half vector's cosine for Fresnel. Arguments as for representative_radiance.
 float representative_v_dot_h(RepresentativeWalk walk, vec3 view, vec3 mirror, bool reversed) {
     vec3 h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
     return dot(view, h);
@@ -3595,7 +3624,7 @@ float plane_disk_window_integral(float d2, float rho2, float d, float c, float s
 //
 // Error: two roundings more than sqrt; 0 at 0.
 float plane_root(float x) {
-    return x * inversesqrt(max(x, 1.0e-30));
+    return x * inversesqrt(max(x, smallest_divisor()));
 }
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
@@ -3633,7 +3662,7 @@ float plane_disk_window(float m, float d2, float rho2) {
          + beta * (rho2 * e);
 }
 
-// The same over the whole disk: from tangent to tangent.
+// The disk window integral over the whole disk: from tangent to tangent.
 //
 //   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
 float plane_disk_window_whole(float m, float d2, float rho2) {
@@ -3674,13 +3703,13 @@ struct IndirectLobe {
     float scale;
 };
 
-// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+// The lobe of a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
 IndirectLobe indirect_lobe(LtcMatrix m, mat3 frame) {
     IndirectLobe lobe;
     lobe.x = steradian_transform(frame, vec3(m.xx, 0.0, m.xz));
     lobe.y = steradian_transform(frame, vec3(0.0, m.yy, 0.0));
     lobe.z = steradian_transform(frame, vec3(m.zx, 0.0, m.zz));
-    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * inverse_pi();
     return lobe;
 }
 
@@ -3694,12 +3723,12 @@ IndirectLobe indirect_turned(IndirectLobe lobe) {
     return turned;
 }
 
-// Under M^-1. Any vector.
+// The vector v under the lobe's M^-1; v is any vector in world space.
 vec3 indirect_under(IndirectLobe lobe, vec3 v) {
     return vec3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
+// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -3709,12 +3738,12 @@ vec3 indirect_under(IndirectLobe lobe, vec3 v) {
 float indirect_glossy_half(IndirectLobe lobe, vec3 v, float d2, float wide2) {
     vec3 w = indirect_under(lobe, v);
     float w2 = dot(w, w);
-    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), smallest_square());
 }
 
-// Half of a diffuse end of albedo pi: cosine over distance.
+// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
 float indirect_diffuse_half(vec3 n, vec3 v, float d2, float wide2) {
-    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+    return max(dot(n, v), 0.0) / max(d2 + wide2, smallest_square());
 }
 
 // Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
@@ -3726,7 +3755,7 @@ float indirect_diffuse_half(vec3 n, vec3 v, float d2, float wide2) {
 // Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
 float indirect_point_light(IndirectLobe lobe, vec3 v) {
     float d2 = dot(v, v);
-    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inversesqrt(max(d2, 1.0e-36));
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inversesqrt(max(d2, smallest_square()));
 }
 
 // The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
@@ -3738,7 +3767,7 @@ struct IndirectPair {
     float to_glossy;
 };
 
-// Both ends at once: no square root, one division.
+// The halves of both ends at once, with no square root and one division.
 //
 //   receiver, n          the receiver's lobe and normal
 //   light, light_n       the virtual light's, turned
@@ -3755,7 +3784,7 @@ IndirectPair indirect_pair(vec3 v, vec3 n, IndirectLobe receiver, vec3 light_n, 
     float w4 = w2 * w2;
     float o4 = o2 * o2;
     float both = w4 * o4;
-    float inverse = 1.0 / max(d2 * both, 1.0e-36);
+    float inverse = 1.0 / max(d2 * both, smallest_square());
     float peak = inverse * d2 * d2;
     float n_v = max(dot(n, v), 0.0);
     float light_n_v = max(dot(light_n, v), 0.0);
@@ -3772,7 +3801,7 @@ IndirectPair indirect_pair(vec3 v, vec3 n, IndirectLobe receiver, vec3 light_n, 
 //   incoming unit, from the virtual light to the light that feeds it
 //   v        to the virtual light
 float indirect_grazing(vec3 incoming, vec3 v, float d2) {
-    float cosine = -dot(incoming, v) * inversesqrt(max(d2, 1.0e-36));
+    float cosine = -dot(incoming, v) * inversesqrt(max(d2, smallest_square()));
     float half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
     return fresnel_schlick(0.0, 1.0, half_angle * inversesqrt(half_angle));
 }
@@ -3814,9 +3843,9 @@ float indirect_largest_stretch(LtcMatrix m) {
     float determinant = m.xx * m.zz - m.xz * m.zx;
     float square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
     float gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
-    float larger2 = 0.5 * (square + gap2 * inversesqrt(max(gap2, 1.0e-36)));
-    float least2 = determinant * determinant / max(larger2, 1.0e-36);
-    return inversesqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+    float larger2 = 0.5 * (square + gap2 * inversesqrt(max(gap2, smallest_square())));
+    float least2 = determinant * determinant / max(larger2, smallest_square());
+    return inversesqrt(max(min(least2, m.yy * m.yy), smallest_square()));
 }
 
 // Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.

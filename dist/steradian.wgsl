@@ -56,27 +56,60 @@ fn steradian_transform_transposed(m: mat3x3f, v: vec3f) -> vec3f {
     return vec3f(dot(m[0], v), dot(m[1], v), dot(m[2], v));
 }
 
+// ==== constants ====
+
+// The constants that all kernels share. A constant is a function: the same in every language.
+
+// The circle's constant.
+fn steradian_pi() -> f32 { return 3.14159265358979324; }
+
+// 1 / pi.
+fn inverse_pi() -> f32 { return 0.318309886183790672; }
+
+// 1 / (2 pi).
+fn inverse_two_pi() -> f32 { return 0.159154943091895336; }
+
+// False in every lane.
+fn mask_none() -> bool {
+    let zero = 0.0;
+    return zero > 0.0;
+}
+
+// True in every lane.
+fn mask_all() -> bool { return !mask_none(); }
+
+// Squared lengths are kept above this before a division or an inverse root: the smallest normal float is 1.2e-38, and below it
+// GPUs and packs count every number as 0.
+fn smallest_square() -> f32 { return 1.0e-36; }
+
+// Lengths are kept above this before a division: the root of smallest_square.
+fn smallest_length() -> f32 { return 1.0e-18; }
+
+// Divisors of numbers of the order of 1 are kept above this, so that the quotient may still be multiplied by 1.0e8 within float.
+// What is smaller is rounding: a cross product of two unit vectors of float has a square of about 1.0e-14 where they are equal.
+fn smallest_divisor() -> f32 { return 1.0e-30; }
+
 // ==== complex ====
 
 // Complex numbers: vec2(real part, imaginary part).
 
-// a b.
+// The product a b.
 fn complex_product(a: vec2f, b: vec2f) -> vec2f {
     return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+// The quotient a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
 fn complex_quotient(a: vec2f, b: vec2f) -> vec2f {
-    let scale = 1.0 / max(dot(b, b), 1.0e-36);
+    let scale = 1.0 / max(dot(b, b), smallest_square());
     return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
 }
 
-// a / |a|. Degenerate: the zero vector stays zero.
+// The unit number in the direction of a: a / |a|. Degenerate: zero stays zero.
 fn complex_sign(a: vec2f) -> vec2f {
-    return a * inverseSqrt(max(dot(a, a), 1.0e-36));
+    return a * inverseSqrt(max(dot(a, a), smallest_square()));
 }
 
-// exp(i x) for x in [-pi, pi].
+// The unit number of angle x, exp(i x), for x in [-pi, pi].
 //
 // Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
 // 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
@@ -191,9 +224,6 @@ fn gauss_legendre_node(n: i32, j: i32) -> vec2f {
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
 
-// The one function without a topic: every kernel may use it.
-fn steradian_pi() -> f32 { return 3.14159265358979324; }
-
 // Degree 9, largest relative error 1.3e-08 before rounding.
 fn trig_angle_over_sine_24_bits(t: f32) -> f32 {
     var p = 0.01116282422619877;
@@ -243,7 +273,7 @@ fn trig_angle_over_sine(c: f32, s2: f32) -> f32 {
     var f = trig_angle_over_sine_acute(1.0 - abs(c));
     let obtuse = c < 0.0;
     if (obtuse) {
-        f = select(f, steradian_pi() * inverseSqrt(max(s2, 1.0e-30)) - f, obtuse);
+        f = select(f, steradian_pi() * inverseSqrt(max(s2, smallest_divisor())) - f, obtuse);
     }
     return f;
 }
@@ -275,7 +305,7 @@ fn trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
 
 // Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
 
-// One root of each pair, with positive imaginary part.
+// The roots of a real quartic without real roots: one of each conjugate pair, the one with positive imaginary part.
 struct QuarticPoles {
     z1: vec2f,
     z2: vec2f,
@@ -324,7 +354,7 @@ fn quartic_poles_approximate(c0: f32, c1: f32, c2: f32, c3: f32) -> QuarticPoles
 
     let sum = p + z;
     let root = sqrt(max(sum * sum - 4.0 * r, 0.0));
-    let difference = select(select(root, -root, q < 0.0), q / max(s, 1.0e-18), z > 1.0e-3 * abs(p));
+    let difference = select(select(root, -root, q < 0.0), q / max(s, smallest_length()), z > 1.0e-3 * abs(p));
     var poles: QuarticPoles;
     poles.z1 = vec2f(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
     poles.z2 = vec2f(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
@@ -355,7 +385,7 @@ struct PolygonWalk {
 // square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
 fn polygon_direction(v: vec3f) -> vec3f {
     let d2 = dot(v, v);
-    let scale = select(0.0, inverseSqrt(max(d2, 1.0e-36)), d2 < 1.0e36);
+    let scale = select(0.0, inverseSqrt(max(d2, smallest_square())), d2 < 1.0e36);
     return v * scale;
 }
 
@@ -401,7 +431,7 @@ fn polygon_add_edge(walk: PolygonWalk, a: vec3f, b: vec3f) -> PolygonWalk {
             let wa = abs(b.z);
             let wb = abs(a.z);
             var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
+            p = p * inverseSqrt(max(dot(p, p), smallest_square()));
             let crossing = vec3f(p.x, p.y, 0.0);
             start = select(a, crossing, a_below);
             end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
@@ -445,7 +475,7 @@ struct SolidAngleWalk {
     product: vec2f,
 }
 
-// Starts at a vertex.
+// A solid angle's walk before its first triangle.
 //
 //   first    unit direction of any vertex of the light
 fn solid_angle_begin(first: vec3f) -> SolidAngleWalk {
@@ -463,7 +493,7 @@ fn solid_angle_add_edge(walk: SolidAngleWalk, a: vec3f, b: vec3f) -> SolidAngleW
     var next = walk;
     var re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
     var im = dot(walk.first, cross(a, b));
-    let scale = inverseSqrt(max(re * re + im * im, 1.0e-36));
+    let scale = inverseSqrt(max(re * re + im * im, smallest_square()));
     re = re * scale;
     im = im * scale;
     let p = walk.product;
@@ -491,7 +521,7 @@ fn solid_angle_finish(walk: SolidAngleWalk, reversed: bool) -> f32 {
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
 // a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
 
-// A prepared arc. In units of tau in which the poles' distances from 0 have the product 1.
+// A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
 //   begin, end  its ends in tau; equal where the arc has no length
 //   scale       the unit: tau as the caller counted it is scale times tau here
@@ -509,8 +539,8 @@ struct ConicArc {
     sweep: vec2f,
 }
 
-// d4 (z - conj z)(z - o)(z - conj o): the derivative of the quartic at its root z, from the roots. From the coefficients
-// it would cost float 5 to 40 times the error.
+// The derivative of the quartic at its root z, formed from the roots: d4 (z - conj z)(z - o)(z - conj o). Formed from the
+// coefficients it would cost float 5 to 40 times the error.
 //
 //   z, o     a root and the root of the other pair
 fn conic_slope(z: vec2f, o: vec2f, d4: f32) -> vec2f {
@@ -534,7 +564,7 @@ fn conic_pole_step(arc: ConicArc, z: vec2f, o: vec2f, d4: f32) -> vec2f {
     let apart = z - o;
     let apart2 = dot(apart, apart);
     let longest = 0.5 * sqrt(apart2) + z.y;
-    step = step * min(longest * inverseSqrt(max(dot(step, step), 1.0e-30)), 1.0);
+    step = step * min(longest * inverseSqrt(max(dot(step, step), smallest_divisor())), 1.0);
     let free = apart2 > 1.0e-12 * (1.0 + dot(z, z));
     let next = z - select(vec2f(0.0, 0.0), step, free);
     return vec2f(next.x, max(abs(next.y), 1.0e-9));
@@ -579,7 +609,7 @@ fn conic_sweep(z: vec2f, begin: f32, end: f32) -> f32 {
 // tau = 0 as it is.
 fn conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> ConicArc {
     let least = 1.0e-12;
-    let d0 = max(dot(u0, u0), 1.0e-30);
+    let d0 = max(dot(u0, u0), smallest_divisor());
     let d4 = dot(u2, u2);
     let ratio = sqrt(d0 / max(d4, least * d0));
     var arc: ConicArc;
@@ -590,7 +620,7 @@ fn conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> Conic
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
 
-    let inverse = 1.0 / max(dot(arc.u2, arc.u2), 1.0e-30);
+    let inverse = 1.0 / max(dot(arc.u2, arc.u2), smallest_divisor());
     var poles = quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
@@ -632,7 +662,7 @@ fn conic_node(arc: ConicArc, share: f32) -> ConicNode {
     let positive = linear_term >= 0.0;
     let top = select(root - linear_term, -2.0 * constant_term, positive);
     let bottom = select(2.0 * s, linear_term + root, positive);
-    let usable = abs(bottom) > 1.0e-30;
+    let usable = abs(bottom) > smallest_divisor();
     let tau = select(arc.begin, top / select(1.0, bottom, usable), usable);
     var node: ConicNode;
     node.tau = clamp(tau, arc.begin, arc.end);
@@ -660,7 +690,7 @@ fn conic_residue(arc: ConicArc, z: vec2f, o: vec2f, sweep: f32) -> vec3f {
     return re * factor.x - im * factor.y;
 }
 
-// The same by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
 fn conic_vector_approximate(arc: ConicArc) -> vec3f {
     var sum = vec3f(0.0, 0.0, 0.0);
     let total = arc.sweep.x + arc.sweep.y;
@@ -670,7 +700,7 @@ fn conic_vector_approximate(arc: ConicArc) -> vec3f {
         let node = conic_node(arc, 0.5 * (rule.x + f32(part)));
         let u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
         let du = arc.u1 + arc.u2 * (2.0 * node.tau);
-        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), 1.0e-30)));
+        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), smallest_divisor())));
     }
     return sum;
 }
@@ -734,7 +764,7 @@ fn ellipse_irradiance_vector(e: Ellipse) -> vec3f {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     let up = vec2f(e.axis_a.z, e.axis_b.z);
     let rise = sqrt(dot(up, up));
-    let turn = select(vec2f(1.0, 0.0), up * (1.0 / max(rise, 1.0e-30)), rise > 0.0);
+    let turn = select(vec2f(1.0, 0.0), up * (1.0 / max(rise, smallest_divisor())), rise > 0.0);
     var level: Ellipse;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -745,7 +775,7 @@ fn ellipse_irradiance_vector(e: Ellipse) -> vec3f {
     let bottom = rise - e.center.z;
     let shows = top > 0.0;
     let cut = bottom > 0.0 && shows;
-    var limit = sqrt(max(top, 0.0) / max(bottom, 1.0e-30));
+    var limit = sqrt(max(top, 0.0) / max(bottom, smallest_divisor()));
     limit = select(select(0.0, 1.0e15, shows), limit, cut);
     let upper = min(limit, 1.0);
     var sum = conic_vector(ellipse_arc(level, -upper, upper));
@@ -783,7 +813,7 @@ struct EllipseFan {
     beta: f32,
 }
 
-// Equal steps of t.
+// The polygon whose corners stand at equal steps of t.
 fn ellipse_fan(e: Ellipse) -> EllipseFan {
     var fan: EllipseFan;
     fan.ellipse = e;
@@ -792,7 +822,7 @@ fn ellipse_fan(e: Ellipse) -> EllipseFan {
     return fan;
 }
 
-// Corners that gather where the lobe's axis meets the ellipse's rim.
+// The polygon whose corners gather where the lobe's axis meets the ellipse's rim.
 //
 //   r        unit axis of the lobe
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
@@ -802,7 +832,7 @@ fn ellipse_fan(e: Ellipse) -> EllipseFan {
 // Source: this project; table of errors in docs/ggx.md.
 fn ellipse_fan_concentrated(e: Ellipse, r: vec3f, width: f32) -> EllipseFan {
     let normal = cross(e.axis_a, e.axis_b);
-    let n2 = max(dot(normal, normal), 1.0e-30);
+    let n2 = max(dot(normal, normal), smallest_divisor());
     let height = dot(e.center, normal);  // > 0 in walk order
     let along = dot(r, normal);
     // Where the axis meets the plane, in units of the half axes: (x, y) / along.
@@ -816,7 +846,7 @@ fn ellipse_fan_concentrated(e: Ellipse, r: vec3f, width: f32) -> EllipseFan {
     let rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
     let tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
     let reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
-    let blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), 1.0e-30));
+    let blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), smallest_divisor()));
     let beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
     fan.beta = select(1.0, clamp(beta, 0.05, 1.0), along > 0.0);
     return fan;
@@ -898,24 +928,24 @@ fn capsule_prepare(end_a: vec3f, end_b: vec3f, radius: f32) -> Capsule {
     let b2 = dot(end_b, end_b);
     let nearer = select(end_b, end_a, a2 < b2);
     let nearer2 = min(a2, b2);
-    let along = difference * inverseSqrt(max(span2, 1.0e-36));
+    let along = difference * inverseSqrt(max(span2, smallest_square()));
     let moment = cross(nearer, along);
     let height2 = dot(moment, moment);
     let at_a = dot(end_a, along);
     let at_b = dot(end_b, along);
     let radius2 = radius * radius;
     // From within the endless cylinder, the nearer ball hides the other.
-    let tube = height2 > radius2 && span2 > 1.0e-30;
-    let beside = at_a < 0.0 && at_b > 0.0 && span2 > 1.0e-30;
+    let tube = height2 > radius2 && span2 > smallest_divisor();
+    let beside = at_a < 0.0 && at_b > 0.0 && span2 > smallest_divisor();
 
     let nearest = sqrt(nearer2);
-    let direction = select(vec3f(0.0, 0.0, 1.0), nearer * inverseSqrt(max(nearer2, 1.0e-36)), nearer2 > 1.0e-36);
+    let direction = select(vec3f(0.0, 0.0, 1.0), nearer * inverseSqrt(max(nearer2, smallest_square())), nearer2 > smallest_square());
     let across = frame_from_normal(direction);
     var c: Capsule;
     c.end_a = select(nearer, end_a, tube);
     c.end_b = select(nearer, end_b, tube);
     c.along = select(steradian_transform(across, vec3f(1.0, 0.0, 0.0)), along, tube);
-    c.toward = select(direction, cross(along, moment) * inverseSqrt(max(height2, 1.0e-36)), tube);
+    c.toward = select(direction, cross(along, moment) * inverseSqrt(max(height2, smallest_square())), tube);
     c.at_a = select(0.0, at_a, tube);
     c.at_b = select(0.0, at_b, tube);
     c.span = select(0.0, sqrt(span2), tube);
@@ -936,7 +966,7 @@ fn capsule_touch(c: Capsule) -> f32 {
 //   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
 //   distance  of the end's centre
 fn capsule_half_angle(c: Capsule, place: f32, distance: f32) -> f32 {
-    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, 1.0e-18));
+    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, smallest_length()));
 }
 
 // Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
@@ -948,7 +978,7 @@ fn capsule_half_angle(c: Capsule, place: f32, distance: f32) -> f32 {
 fn capsule_straight_part(along: vec3f, toward: vec3f, at_a: f32, at_b: f32, span: f32, height: f32, angle: f32, share: f32) -> vec3f {
     let h2 = height * height;
     let both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
-    let chords = share * span * height / max(both, 1.0e-36);
+    let chords = share * span * height / max(both, smallest_square());
     return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
 }
 
@@ -962,11 +992,11 @@ fn capsule_straight_part(along: vec3f, toward: vec3f, at_a: f32, at_b: f32, span
 fn capsule_whole_vector(c: Capsule) -> vec3f {
     let touch = capsule_touch(c);
     let angle = trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
-    let share = touch / max(c.height, 1.0e-18);
-    let slope = c.radius / max(c.height, 1.0e-18);
+    let share = touch / max(c.height, smallest_length());
+    let slope = c.radius / max(c.height, smallest_length());
     var e = capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
-    let a2 = max(dot(c.end_a, c.end_a), 1.0e-36);
-    let b2 = max(dot(c.end_b, c.end_b), 1.0e-36);
+    let a2 = max(dot(c.end_a, c.end_a), smallest_square());
+    let b2 = max(dot(c.end_b, c.end_b), smallest_square());
     let ia = inverseSqrt(a2);
     let ib = inverseSqrt(b2);
     let sine_a = c.radius * ia;
@@ -985,7 +1015,7 @@ fn capsule_whole_vector(c: Capsule) -> vec3f {
 // Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
 // the joints; an arc between two ends on one side crosses twice or not at all.
 fn capsule_add_arc(walk: PolygonWalk, center: vec3f, radius: f32, middle: vec3f, half_angle: f32, start: vec3f, finish: vec3f) -> PolygonWalk {
-    let d2 = max(dot(center, center), 1.0e-36);
+    let d2 = max(dot(center, center), smallest_square());
     let distance = sqrt(d2);
     let inverse = 1.0 / distance;
     let tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
@@ -1000,7 +1030,7 @@ fn capsule_add_arc(walk: PolygonWalk, center: vec3f, radius: f32, middle: vec3f,
     let seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
     // Where the cap's rim crosses: azimuths left and right of the cap's own.
-    let flat2 = max(center.x * center.x + center.y * center.y, 1.0e-36);
+    let flat2 = max(center.x * center.x + center.y * center.y, smallest_square());
     let azimuth = vec2f(center.x, center.y) * inverseSqrt(flat2);
     let tilt = complex_sign(vec2f(tangent, root));
     let comes = complex_product(azimuth, tilt);
@@ -1041,16 +1071,16 @@ fn capsule_irradiance_vector(c: Capsule) -> vec3f {
         let b2 = dot(c.end_b, c.end_b);
         let r2 = c.radius * c.radius;
         let side = cross(c.toward, c.along);
-        let inward = c.toward * (r2 / max(c.height, 1.0e-18));
-        let aside = side * (c.radius * capsule_touch(c) / max(c.height, 1.0e-18));
-        let ia = inverseSqrt(max(a2 - r2, 1.0e-36));
-        let ib = inverseSqrt(max(b2 - r2, 1.0e-36));
+        let inward = c.toward * (r2 / max(c.height, smallest_length()));
+        let aside = side * (c.radius * capsule_touch(c) / max(c.height, smallest_length()));
+        let ia = inverseSqrt(max(a2 - r2, smallest_square()));
+        let ib = inverseSqrt(max(b2 - r2, smallest_square()));
         let a_left = (c.end_a - inward + aside) * ia;
         let a_right = (c.end_a - inward - aside) * ia;
         let b_left = (c.end_b - inward + aside) * ib;
         let b_right = (c.end_b - inward - aside) * ib;
-        let da = sqrt(max(a2, 1.0e-36));
-        let db = sqrt(max(b2, 1.0e-36));
+        let da = sqrt(max(a2, smallest_square()));
+        let db = sqrt(max(b2, smallest_square()));
         let a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
         let b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
         var walk = polygon_begin();
@@ -1059,7 +1089,7 @@ fn capsule_irradiance_vector(c: Capsule) -> vec3f {
         walk = capsule_add_arc(walk, c.end_b, c.radius, b_middle, capsule_half_angle(c, c.at_b, db), b_right, b_left);
         walk = polygon_add_edge(walk, b_left, a_left);
         let shows = max(c.end_a.z, c.end_b.z) > -c.radius;
-        let above = polygon_irradiance_vector(walk, !(c.radius <= c.radius));
+        let above = polygon_irradiance_vector(walk, mask_none());
         e = select(e, select(vec3f(0.0, 0.0, 0.0), above, shows), cut);
     }
     e = vec3f(e.x, e.y, clamp(e.z, 0.0, steradian_pi()));
@@ -1076,14 +1106,14 @@ fn capsule_irradiance_vector(c: Capsule) -> vec3f {
 fn line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
     let wa = abs(end_a.z);
     let wb = abs(end_b.z);
-    let crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, 1.0e-36));
+    let crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, smallest_square()));
     let a = select(end_a, crossing, end_a.z < 0.0);
     let b = select(end_b, crossing, end_b.z < 0.0);
     let difference = b - a;
     let span2 = dot(difference, difference);
-    let along = difference * inverseSqrt(max(span2, 1.0e-36));
+    let along = difference * inverseSqrt(max(span2, smallest_square()));
     let moment = cross(select(b, a, dot(a, a) < dot(b, b)), along);
-    let height2 = max(dot(moment, moment), 1.0e-36);
+    let height2 = max(dot(moment, moment), smallest_square());
     let height = sqrt(height2);
     let toward = cross(along, moment) * (1.0 / height);
     let span = sqrt(span2);
@@ -1126,10 +1156,10 @@ struct CapsuleFan {
 //   middle      unit, across `center`, where the arc's middle lies
 //   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
 fn capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: f32, r: vec3f, width: f32) -> CapsuleEnd {
-    let d2 = max(dot(center, center), 1.0e-36);
+    let d2 = max(dot(center, center), smallest_square());
     let inverse = inverseSqrt(d2);
-    let sine = max(radius * inverse, 1.0e-18);
-    let cosine2 = max(1.0 - sine * sine, 1.0e-18);
+    let sine = max(radius * inverse, smallest_length());
+    let cosine2 = max(1.0 - sine * sine, smallest_length());
     let cosine = sqrt(cosine2);
     let axis = center * inverse;
     let side = cross(axis, middle);
@@ -1214,8 +1244,8 @@ fn capsule_end_corner(end: CapsuleEnd, j: f32) -> vec3f {
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
 //   count    of all corners, 6 or more; each end has its share of the steps, at least one
 fn capsule_fan(c: Capsule, r: vec3f, width: f32, count: i32) -> CapsuleFan {
-    let da = sqrt(max(dot(c.end_a, c.end_a), 1.0e-36));
-    let db = sqrt(max(dot(c.end_b, c.end_b), 1.0e-36));
+    let da = sqrt(max(dot(c.end_a, c.end_a), smallest_square()));
+    let db = sqrt(max(dot(c.end_b, c.end_b), smallest_square()));
     let angle_a = capsule_half_angle(c, -c.at_a, da);
     let angle_b = capsule_half_angle(c, c.at_b, db);
     let a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
@@ -1223,7 +1253,7 @@ fn capsule_fan(c: Capsule, r: vec3f, width: f32, count: i32) -> CapsuleFan {
     var fan: CapsuleFan;
     fan.a = capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
     fan.b = capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
-    let share = fan.a.step / max(fan.a.step + fan.b.step, 1.0e-18);
+    let share = fan.a.step / max(fan.a.step + fan.b.step, smallest_length());
     fan.a.corners = 1.0 + floor(0.5 + f32(count - 2) * share);
     fan.b.corners = f32(count) - fan.a.corners;
     fan.a.step = fan.a.step / fan.a.corners;
@@ -1276,7 +1306,7 @@ fn ellipsoid_outline(to_center: vec3f, s: mat3x3f, inverse: mat3x3f) -> Ellipsoi
     let d2 = dot(p, p);
     let safe = max(d2, 1.000001);
     let inverse_d = inverseSqrt(safe);
-    let k = p * inverseSqrt(max(d2, 1.0e-30));
+    let k = p * inverseSqrt(max(d2, smallest_divisor()));
     let rho = sqrt(1.0 - 1.0 / safe);
     let frame = frame_from_normal(k);
     let a = steradian_transform(frame, vec3f(rho, 0.0, 0.0));
@@ -1329,13 +1359,12 @@ struct HorizonClip {
 // The state before the first edge.
 fn horizon_clip_begin() -> HorizonClip {
     let nowhere = vec3f(0.0, 0.0, 0.0);
-    let zero = 0.0;
     var clip: HorizonClip;
     clip.start = nowhere;
     clip.end = nowhere;
     clip.arc_start = nowhere;
     clip.arc_end = nowhere;
-    clip.closes = zero > 0.0;
+    clip.closes = mask_none();
     clip.leave = nowhere;
     clip.entry = nowhere;
     return clip;
@@ -1349,7 +1378,7 @@ fn horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
     let wa = abs(b.z);
     let wb = abs(a.z);
     var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    p = p * inverseSqrt(max(dot(p, p), 1.0e-36));
+    p = p * inverseSqrt(max(dot(p, p), smallest_square()));
     return vec3f(p.x, p.y, 0.0);
 }
 
@@ -1363,7 +1392,7 @@ fn horizon_clip_edge(clip: HorizonClip, a: vec3f, b: vec3f) -> HorizonClip {
     let b_below = b.z < 0.0;
     next.start = a;
     next.end = b;
-    next.closes = a.z > 2.0;
+    next.closes = mask_none();
     if (a_below || b_below) {
         let nowhere = vec3f(0.0, 0.0, 0.0);
         let crossing = horizon_crossing(a, b);
@@ -1401,12 +1430,12 @@ fn horizon_clip_finish(clip: HorizonClip) -> HorizonClip {
 //
 //   irradiance  polygon_irradiance, in [0, pi]
 fn lambert_radiance(irradiance: f32) -> f32 {
-    return irradiance * 0.318309886183790672;
+    return irradiance * inverse_pi();
 }
 
 // The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
 fn lambert_lobe(l: vec3f) -> f32 {
-    return max(l.z, 0.0) * 0.318309886183790672;
+    return max(l.z, 0.0) * inverse_pi();
 }
 
 // ==== lobe_product ====
@@ -1426,14 +1455,14 @@ fn lambert_lobe(l: vec3f) -> f32 {
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
 // Source: this project (docs/moments.md).
 
-// scale (u.axis)^exponent
+// A cosine lobe: scale (u.axis)^exponent.
 struct CosineLobe {
     axis: vec3f,
     exponent: f32,
     scale: f32,
 }
 
-// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
 struct StretchedLobe {
     frame: mat3x3f,
     stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy
@@ -1489,7 +1518,7 @@ fn lobe_product_newton(p: LobeProduct) -> vec3f {
     let xx = p.total + p.curvature.x;
     let yy = p.total + p.curvature.z;
     let xy = p.curvature.y;
-    let inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    let inverse = 1.0 / max(xx * yy - xy * xy, smallest_divisor());
     let step_to = vec3f(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
     let u = steradian_transform(p.about, step_to);
     return u * inverseSqrt(dot(u, u));
@@ -1517,7 +1546,7 @@ fn lobe_product_anisotropic(p: LobeProduct) -> StretchedLobe {
     let xx = p.total + p.curvature.x + 3.0;
     let yy = p.total + p.curvature.z + 3.0;
     let xy = p.curvature.y;
-    let d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    let d = sqrt(max(xx * yy - xy * xy, smallest_divisor()));
     // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
     let root = inverseSqrt((xx + yy) / d + 2.0);
     var lobe: StretchedLobe;
@@ -1528,7 +1557,7 @@ fn lobe_product_anisotropic(p: LobeProduct) -> StretchedLobe {
     return lobe;
 }
 
-// A direction in the lobe's stretched frame, not unit; 0 at zero.
+// A direction in the lobe's stretched frame. It is not unit; the zero vector stays zero.
 fn lobe_product_stretch(lobe: StretchedLobe, u: vec3f) -> vec3f {
     let l = steradian_transform_transposed(lobe.frame, u);
     return vec3f(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
@@ -1544,7 +1573,7 @@ fn lobe_product_peak_of_two(r1: vec3f, n1: f32, r2: vec3f, n2: f32) -> vec3f {
     let tangent = sqrt(sine2) / cosine;
     let sum = n1 + n2;
     let t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    let u = r1 + across * (t * inverseSqrt(max(sine2, 1.0e-30)));
+    let u = r1 + across * (t * inverseSqrt(max(sine2, smallest_divisor())));
     return u * inverseSqrt(dot(u, u));
 }
 
@@ -1558,7 +1587,7 @@ fn lobe_product_peak_of_two(r1: vec3f, n1: f32, r2: vec3f, n2: f32) -> vec3f {
 // Half vector of light and view. Degenerate: l = -v gives the zero vector.
 fn microfacet_half_vector(l: vec3f, v: vec3f) -> vec3f {
     let h = l + v;
-    return h * inverseSqrt(max(dot(h, h), 1.0e-36));
+    return h * inverseSqrt(max(dot(h, h), smallest_square()));
 }
 
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
@@ -1570,7 +1599,7 @@ fn ggx_distribution(h: vec3f, ax: f32, ay: f32) -> f32 {
     let x = h.x / ax;
     let y = h.y / ay;
     let d = x * x + y * y + h.z * h.z;
-    return 0.318309886183790672 / (ax * ay * d * d);
+    return inverse_pi() / (ax * ay * d * d);
 }
 
 // Length of the direction w stretched by the surface: sqrt(w_z^2 + (ax w_x)^2 + (ay w_y)^2).
@@ -1588,7 +1617,7 @@ fn ggx_shadowing(l: vec3f, v: vec3f, ax: f32, ay: f32) -> f32 {
     let lz = max(l.z, 0.0);
     let vz = max(v.z, 0.0);
     let d = lz * ggx_stretched_length(v, ax, ay) + vz * ggx_stretched_length(l, ax, ay);
-    return 2.0 * lz * vz / max(d, 1.0e-36);
+    return 2.0 * lz * vz / max(d, smallest_square());
 }
 
 // Schlick's Fresnel with a free value at grazing.
@@ -1612,7 +1641,7 @@ fn beckmann_distribution(h: vec3f, ax: f32, ay: f32) -> f32 {
     let x = h.x / (ax * hz);
     let y = h.y / (ay * hz);
     let z2 = hz * hz;
-    return 0.318309886183790672 * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
+    return inverse_pi() * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
 }
 
 // A microfacet lobe without shadowing and Fresnel: BRDF times cosine, D / (4 v_z).
@@ -1635,7 +1664,7 @@ fn ggx_lobe(l: vec3f, v: vec3f, ax: f32, ay: f32) -> f32 {
 
 // Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
 
-// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
+// The logarithm of x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
 // high exponent multiplies it.
 //
 // Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
@@ -1655,12 +1684,12 @@ fn phong_log(x: f32) -> f32 {
     return result;
 }
 
-// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
+// The power x^n, for x in [0, 1] and n >= 0, as exp(n log x).
 //
 // Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
 // Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
 fn phong_power(x: f32, n: f32) -> f32 {
-    return exp(n * phong_log(max(x, 1.0e-30)));
+    return exp(n * phong_log(max(x, smallest_divisor())));
 }
 
 // The view mirrored at the surface.
@@ -1677,14 +1706,14 @@ fn phong_mirror(v: vec3f) -> vec3f {
 //
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
 fn phong_lobe(l: vec3f, r: vec3f, n: f32) -> f32 {
-    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
+    return (n + 1.0) * inverse_two_pi() * phong_power(dot(l, r), n);
 }
 
 // Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
 //
 //   h        unit half vector, shading frame
 fn blinn_phong_distribution(h: vec3f, n: f32) -> f32 {
-    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+    return (n + 2.0) * inverse_two_pi() * phong_power(h.z, n);
 }
 
 // ==== ggx_closed_form ====
@@ -1742,9 +1771,9 @@ fn ggx_edge(view: GgxView, a: vec3f, b: vec3f) -> ConicArc {
     let sum = a + b;
     let chord2 = dot(chord, chord);
     let sum2 = dot(sum, sum);
-    let usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
-    let middle = sum * inverseSqrt(max(sum2, 1.0e-30));
-    let along = chord * inverseSqrt(max(chord2, 1.0e-36));
+    let usable = chord2 > smallest_divisor() && sum2 > 1.0e-12;
+    let middle = sum * inverseSqrt(max(sum2, smallest_divisor()));
+    let along = chord * inverseSqrt(max(chord2, smallest_square()));
     let half_sine = 0.5 * sqrt(chord2);
     let half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
 
@@ -1769,7 +1798,7 @@ fn ggx_edge(view: GgxView, a: vec3f, b: vec3f) -> ConicArc {
 //   e        sum over the edges of conic_vector, negated where the light is seen from behind
 //   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
 fn ggx_unshadowed(view: GgxView, e: vec3f) -> f32 {
-    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
+    return max(dot(view.w, e), 0.0) * inverse_pi() / view.v.z;
 }
 
 // ==== ggx_cubature ====
@@ -1818,11 +1847,11 @@ struct GgxCubature {
 //   returns  (0, 0) where the mirrored light is not above the surface
 fn ggx_shadowing_and_fresnel(view: GgxView, u: vec3f, smith: f32) -> vec2f {
     var h = vec3f(view.ax * u.x, view.ay * u.y, u.z);
-    h = h * inverseSqrt(max(dot(h, h), 1.0e-30));
+    h = h * inverseSqrt(max(dot(h, h), smallest_divisor()));
     let v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
     let l = h * (2.0 * v_dot_h) - view.v;
     let lz = max(l.z, 0.0);
-    let shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), 1.0e-30);
+    let shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), smallest_divisor());
     let g = select(0.0, 1.0 + smith * (shadowing - 1.0), l.z > 0.0);
     let x = 1.0 - v_dot_h;
     let x2 = x * x;
@@ -1838,9 +1867,9 @@ fn ggx_cubature_begin(view: GgxView, e: vec3f, smith: f32, facing: f32) -> GgxCu
     var c: GgxCubature;
     let inward = e * facing;
     let length2 = dot(inward, inward);
-    let usable = length2 > 1.0e-36;
+    let usable = length2 > smallest_square();
     c.view = view;
-    c.centre = select(vec3f(0.0, 0.0, 1.0), inward * inverseSqrt(max(length2, 1.0e-36)), usable);
+    c.centre = select(vec3f(0.0, 0.0, 1.0), inward * inverseSqrt(max(length2, smallest_square())), usable);
     c.amount = select(0.0, ggx_unshadowed(view, inward), usable);
     c.extent = sqrt(length2);
     c.smith = smith;
@@ -1900,11 +1929,11 @@ fn ggx_cubature_edge(c: GgxCubature, edge: ConicArc, extra: i32) -> GgxCubature 
             let node = conic_node(edge, rule.x);
             let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
             let du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            let inverse2 = 1.0 / max(dot(u, u), 1.0e-30);
+            let inverse2 = 1.0 / max(dot(u, u), smallest_divisor());
             let rim = u * sqrt(inverse2);
             let rim_cosine = dot(rim, c.centre);
             let out_of_centre = rim - c.centre * rim_cosine;
-            let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), 1.0e-30));
+            let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), smallest_divisor()));
             var om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = select(0.0, om, present);
@@ -2058,12 +2087,12 @@ fn moment_edge(a: vec3f, b: vec3f, r: vec3f) -> MomentEdge {
     let pole2 = 1.0e-6;
     var n = cross(a, b);
     let n2 = dot(n, n);
-    let has_length = n2 > 1.0e-30;
-    n = n * inverseSqrt(max(n2, 1.0e-30));
+    let has_length = n2 > smallest_divisor();
+    n = n * inverseSqrt(max(n2, smallest_divisor()));
     let s = dot(n, r);
     let q = cross(n, r);
     // The share vanishes with s, like s sqrt(n/2) in the highlight: a floor of 1e-10 would show there.
-    let s2 = clamp(s * s, 1.0e-30, 1.0);
+    let s2 = clamp(s * s, smallest_divisor(), 1.0);
     let c2 = clamp(dot(q, q), pole2, 1.0);
 
     var edge: MomentEdge;
@@ -2116,7 +2145,7 @@ fn moment_edge_share(edge: MomentEdge, front: f32) -> f32 {
 //
 // Source: Lecocq et al. 2017, eq. 10: (n + 1)/(2 pi) times the moment; without foreshortening.
 fn moment_phong_radiance(sum: f32, reversed: bool) -> f32 {
-    return clamp(select(sum, -sum, reversed) * 0.159154943091895336, 0.0, 1.0);
+    return clamp(select(sum, -sum, reversed) * inverse_two_pi(), 0.0, 1.0);
 }
 
 // ==== moment_quadrature ====
@@ -2141,10 +2170,10 @@ struct MomentQuadrature {
     t1: f32,
 }
 
-// tan(u/2) of the direction (w x, y), x >= 0.
+// The parameter t = tan(u/2) of the direction (w x, y), x >= 0, whose angle is u.
 fn moment_quadrature_parameter(w: f32, x: f32, y: f32) -> f32 {
     let wx = w * x;
-    return clamp(y / max(wx + sqrt(wx * wx + y * y), 1.0e-18), -1.0, 1.0);
+    return clamp(y / max(wx + sqrt(wx * wx + y * y), smallest_length()), -1.0, 1.0);
 }
 
 // Prepares the integrand of one edge for a lobe of exponent n.
@@ -2355,7 +2384,7 @@ fn moment_series_cubic(b: vec4f, t: f32) -> f32 {
     return ((b.w * t + b.z) * t + b.y) * t + b.x;
 }
 
-// The same in high quality.
+// A harmonic's amplitude over 1 - kap2 in high quality, at t = kap2.
 fn moment_series_quintic(low: vec3f, high: vec3f, t: f32) -> f32 {
     return ((((high.z * t + high.y) * t + high.x) * t + low.z) * t + low.y) * t + low.x;
 }
@@ -2386,7 +2415,7 @@ fn moment_warp(edge: MomentEdge, m: f32) -> MomentWarp {
     // One division for both ends: they are at least c^2 w^2, 1e-10 where the pole begins.
     let d0 = wx0 * wx0 + edge.y0 * edge.y0;
     let d1 = wx1 * wx1 + edge.y1 * edge.y1;
-    let over_both = 2.0 / max(d0 * d1, 1.0e-30);
+    let over_both = 2.0 / max(d0 * d1, smallest_divisor());
     let scale0 = over_both * d1;
     let scale1 = over_both * d0;
     warp.cosine = vec2f(scale0 * (wx0 * wx0 - edge.y0 * edge.y0), scale1 * (wx1 * wx1 - edge.y1 * edge.y1));
@@ -2414,7 +2443,7 @@ fn moment_series_front(edge: MomentEdge, series: MomentSeries) -> f32 {
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// The same in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// What moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 fn moment_series_high_front(edge: MomentEdge, series: MomentSeriesHigh) -> f32 {
     let warp = moment_warp(edge, series.m);
     let t = warp.kap2;
@@ -2447,7 +2476,7 @@ fn moment_series_high_front(edge: MomentEdge, series: MomentSeriesHigh) -> f32 {
 // Source of the error function: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
 fn moment_cosine_from_foot(x: f32, y: f32, n: f32) -> f32 {
     let a = n + 0.5;
-    let v2 = moment_log_1_plus(y * y / max(x * x, 1.0e-30));
+    let v2 = moment_log_1_plus(y * y / max(x * x, smallest_divisor()));
     let t = 0.5 * a * v2;
     let v = sqrt(v2);
     let decay = exp(-t);
@@ -2494,7 +2523,7 @@ fn moment_series_low_front(edge: MomentEdge, raised: MomentSeries, n: f32) -> f3
     return max(moment_series_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// The same in high quality; the error is then that of the cosines.
+// What moment_series_low_front returns, in high quality; the error is then that of the cosines.
 fn moment_series_high_low_front(edge: MomentEdge, raised: MomentSeriesHigh, n: f32) -> f32 {
     return max(moment_series_high_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
@@ -2510,8 +2539,8 @@ fn moment_series_high_low_front(edge: MomentEdge, raised: MomentSeriesHigh, n: f
 fn moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, share: f32, cosines: f32) -> f32 {
     let n = cross(a, b);
     let n2 = dot(n, n);
-    let inward = dot(n, v) * inverseSqrt(max(n2, 1.0e-30));
-    return dot(r, v) * share + select(0.0, inward * cosines, n2 > 1.0e-30);
+    let inward = dot(n, v) * inverseSqrt(max(n2, smallest_divisor()));
+    return dot(r, v) * share + select(0.0, inward * cosines, n2 > smallest_divisor());
 }
 
 // ==== half_vector ====
@@ -2538,7 +2567,7 @@ fn blinn_phong_alpha(n: f32) -> f32 {
 fn half_vector_at(view: GgxView, edge: ConicArc, tau: f32) -> vec3f {
     let u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
     let h = vec3f(view.ax * u.x, view.ay * u.y, u.z);
-    return h * inverseSqrt(max(dot(h, h), 1.0e-30));
+    return h * inverseSqrt(max(dot(h, h), smallest_divisor()));
 }
 
 // The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
@@ -2546,7 +2575,7 @@ fn half_vector_split_uniform(edge: ConicArc, share: f32) -> f32 {
     let first = trig_atan2(edge.scale * edge.begin, 1.0);
     let last = trig_atan2(edge.scale * edge.end, 1.0);
     let u = complex_unit(first + share * (last - first));
-    return clamp(u.y / max(u.x * edge.scale, 1.0e-18), edge.begin, edge.end);
+    return clamp(u.y / max(u.x * edge.scale, smallest_length()), edge.begin, edge.end);
 }
 
 // The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
@@ -2601,7 +2630,7 @@ fn blinn_phong_arc(a: vec3f, b: vec3f, v: vec3f, n: f32) -> f32 {
     return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front.moment), front.power);
 }
 
-// The same by the cosine series and the error function.
+// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
 //
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
@@ -2655,8 +2684,8 @@ fn beckmann_arc(view: GgxView, a: vec3f, b: vec3f, series: MomentSeriesHigh) -> 
     let q = vec2f(b.x * zb / view.ax, b.y * zb / view.ay);
     var along = q - p;
     let length2 = dot(along, along);
-    let usable = length2 > 1.0e-30;
-    along = along * inverseSqrt(max(length2, 1.0e-30));
+    let usable = length2 > smallest_divisor();
+    along = along * inverseSqrt(max(length2, smallest_divisor()));
     let d = p.x * along.y - p.y * along.x;
     let low = dot(p, along);
     let high = dot(q, along);
@@ -2689,7 +2718,7 @@ fn ggx_arc(view: GgxView, a: vec3f, b: vec3f) -> vec3f {
 //
 //   facing   1.0; -1.0 where the light is seen from behind
 fn half_vector_radiance(view: GgxView, sum: f32, facing: f32) -> f32 {
-    return max(sum * facing, 0.0) * 0.159154943091895336 / view.v.z;
+    return max(sum * facing, 0.0) * inverse_two_pi() / view.v.z;
 }
 
 // ==== ltc ====
@@ -2701,7 +2730,7 @@ fn half_vector_radiance(view: GgxView, sum: f32, facing: f32) -> f32 {
 // is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
-// M^-1 up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
 struct LtcMatrix {
     xx: f32,
     xz: f32,
@@ -2710,7 +2739,7 @@ struct LtcMatrix {
     zz: f32,
 }
 
-// Where a table is read, both in [0, 1], nodes on the ends.
+// The place where a table is read: both coordinates are in [0, 1], and the outer nodes stand on the ends.
 //
 //   roughness  perceptual: the square root of alpha
 //   n_dot_v    cosine of the view
@@ -2718,7 +2747,7 @@ fn ltc_coordinates(roughness: f32, n_dot_v: f32) -> vec2f {
     return vec2f(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
 }
 
-// From the classic texture.
+// The matrix as the literature's texture stores it.
 //
 //   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
 fn ltc_from_classic(t: vec4f) -> LtcMatrix {
@@ -2731,7 +2760,7 @@ fn ltc_from_classic(t: vec4f) -> LtcMatrix {
     return m;
 }
 
-// From the compact table, in which the matrix is stored about the mirror direction and divided by alpha.
+// The matrix from the compact table, in which it is stored about the mirror direction and divided by alpha.
 //
 //   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
 //            R turns z into the mirror direction (-s, 0, c)
@@ -2753,7 +2782,7 @@ fn ltc_from_compact(e: vec4f, alpha: f32, view: vec3f) -> LtcMatrix {
     return m;
 }
 
-// M^-1 v, up to the matrix' factor. Any vector of the shading frame.
+// The vector M^-1 v, up to the matrix' factor, for any vector v of the shading frame.
 fn ltc_transform(m: LtcMatrix, v: vec3f) -> vec3f {
     return vec3f(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
@@ -2761,16 +2790,16 @@ fn ltc_transform(m: LtcMatrix, v: vec3f) -> vec3f {
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 fn ltc_lobe(m: LtcMatrix, l: vec3f) -> f32 {
     let w = ltc_transform(m, l);
-    let d2 = max(dot(w, w), 1.0e-18);
+    let d2 = max(dot(w, w), smallest_length());
     let determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
-    return determinant * max(w.z, 0.0) * 0.318309886183790672 / (d2 * d2);
+    return determinant * max(w.z, 0.0) * inverse_pi() / (d2 * d2);
 }
 
 // The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
 //
 // Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
 fn ltc_energy_above_horizon(m: LtcMatrix) -> f32 {
-    return 0.5 + 0.5 * m.xx * inverseSqrt(max(m.xx * m.xx + m.zx * m.zx, 1.0e-36));
+    return 0.5 + 0.5 * m.xx * inverseSqrt(max(m.xx * m.xx + m.zx * m.zx, smallest_square()));
 }
 
 // The state of a walk along a light's outline under M^-1.
@@ -2788,7 +2817,7 @@ fn ltc_begin() -> LtcWalk {
     var walk: LtcWalk;
     walk.lobe = polygon_begin();
     walk.anchor = vec3f(0.0, 0.0, 0.0);
-    walk.anchored = walk.anchor.x > 0.0;
+    walk.anchored = mask_none();
     return walk;
 }
 
@@ -2844,7 +2873,7 @@ fn ltc_add_edge(walk: LtcWalk, m: LtcMatrix, a: vec3f, b: vec3f, ta: vec3f, tb: 
 //
 //   reversed true where the light is seen from behind
 fn ltc_integral(walk: LtcWalk, reversed: bool) -> f32 {
-    return polygon_irradiance(walk.lobe, reversed) * 0.318309886183790672;
+    return polygon_irradiance(walk.lobe, reversed) * inverse_pi();
 }
 
 // What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
@@ -2922,7 +2951,7 @@ struct LtcTextureFootprint {
     valid: bool,
 }
 
-// M w, up to a positive factor: the inverse of ltc_transform.
+// The vector M w, up to a positive factor: the inverse of ltc_transform.
 fn ltc_texture_transform_back(m: LtcMatrix, w: vec3f) -> vec3f {
     let determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3f(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
@@ -2959,8 +2988,8 @@ fn ltc_texture_irradiance_vector(walk: LtcWalk, reversed: bool) -> vec3f {
 // Error: docs/ltc.md, "Textured lights".
 fn ltc_texture_footprint(m: LtcMatrix, phi: vec3f, normal: vec3f, height: f32) -> LtcTextureFootprint {
     let p2 = dot(phi, phi);
-    let lit = p2 > 1.0e-30;
-    let w = select(vec3f(0.0, 0.0, 1.0), phi * inverseSqrt(max(p2, 1.0e-30)), lit);
+    let lit = p2 > smallest_divisor();
+    let w = select(vec3f(0.0, 0.0, 1.0), phi * inverseSqrt(max(p2, smallest_divisor())), lit);
     let across = frame_from_normal(w);
     let l = ltc_texture_transform_back(m, w);
     let along = dot(normal, l);
@@ -2997,11 +3026,11 @@ fn ltc_texture_axes(a: vec2f, b: vec2f) -> LtcTextureEllipse {
     // An eigenvector of the larger eigenvalue, from the row that does not cancel.
     let v = select(vec2f(xy2, spread - half_difference), vec2f(half_difference + spread, xy2), half_difference > 0.0);
     let v2 = dot(v, v);
-    let direction = select(vec2f(1.0, 0.0), v * inverseSqrt(max(v2, 1.0e-36)), v2 > 1.0e-36);
+    let direction = select(vec2f(1.0, 0.0), v * inverseSqrt(max(v2, smallest_square())), v2 > smallest_square());
     let longest = sqrt(0.5 * (xx + yy) + spread);
     var e: LtcTextureEllipse;
     e.major = direction * longest;
-    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, smallest_length());
     return e;
 }
 
@@ -3033,19 +3062,19 @@ fn ltc_texture_gaussian(e: LtcTextureEllipse, width: f32, widest: f32) -> LtcTex
 fn ltc_texture_place(g: LtcTextureEllipse, aside: vec2f, slope: vec2f, light: vec3f) -> vec2f {
     let major2 = dot(g.major, g.major);
     let minor2 = g.minor * g.minor;
-    let u = g.major * inverseSqrt(max(major2, 1.0e-36));
+    let u = g.major * inverseSqrt(max(major2, smallest_square()));
     let along = major2 - minor2;
     let sxx = minor2 + along * u.x * u.x;
     let sxy = along * u.x * u.y;
     let syy = minor2 + along * u.y * u.y;
-    let least = 1.0e-6 * (light.x + light.z) + 1.0e-30;
+    let least = 1.0e-6 * (light.x + light.z) + smallest_divisor();
     let vxx = light.x + least;
     let vyy = light.z + least;
     // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
     let txx = vxx + sxx;
     let txy = light.y + sxy;
     let tyy = vyy + syy;
-    let t_inverse = 1.0 / max(txx * tyy - txy * txy, 1.0e-36);
+    let t_inverse = 1.0 / max(txx * tyy - txy * txy, smallest_square());
     var p = vec2f(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2f(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2f(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
@@ -3053,7 +3082,7 @@ fn ltc_texture_place(g: LtcTextureEllipse, aside: vec2f, slope: vec2f, light: ve
     let q = max(dot(slope, p), 0.0);
     let share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     let d = aside + p * share;
-    let v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
+    let v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, smallest_square());
     let e = vec2f(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
     let push = vec2f(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
     let pushed2 = max(dot(push, e), 0.0);
@@ -3076,7 +3105,7 @@ fn ltc_texture_place(g: LtcTextureEllipse, aside: vec2f, slope: vec2f, light: ve
 fn ltc_clipped_sphere(cosine: f32, f: f32) -> f32 {
     let z = clamp(cosine, -1.0, 1.0);
     let s2 = clamp(f, 1.0e-12, 1.0);
-    let sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
+    let sin_w = sqrt(max(1.0 - z * z, smallest_divisor()));
     let cos_s = sqrt(1.0 - s2);
     let crossed = z * z < s2;
     // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
@@ -3104,8 +3133,8 @@ fn ltc_clipless_add_edge(sum: vec3f, ta: vec3f, tb: vec3f) -> vec3f {
 fn ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
     let e = sum * select(1.0, -1.0, reversed);
     let e2 = dot(e, e);
-    let inverse = inverseSqrt(max(e2, 1.0e-36));
-    let form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
+    let inverse = inverseSqrt(max(e2, smallest_square()));
+    let form_factor = clamp(e2 * inverse * inverse_pi(), 0.0, 1.0);
     return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }
 
@@ -3276,7 +3305,7 @@ struct MomentFit {
     tail: f32,
 }
 
-// From a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
+// The scaled peak from a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
 fn moment_fit_scaled(p: MomentPeak, integral: f32, tail: f32, lowest: f32) -> MomentFit {
     let scale = 1.0 / (1.0 - lowest);
     var fit: MomentFit;
@@ -3291,7 +3320,7 @@ fn moment_lorentzian_width(p: MomentPeak) -> f32 {
     return max((1.0 - p.y_w - 0.405284734569351086 * x2) / (p.y_w * x2), 1.0e-3);
 }
 
-// 1/(1 + a phi^2). Source: eq. 11 and 12.
+// The Lorentzian peak 1/(1 + a phi^2). Source: eq. 11 and 12.
 fn moment_fit_lorentzian(p: MomentPeak) -> MomentFit {
     let a = moment_lorentzian_width(p);
     let root = sqrt(a);
@@ -3299,7 +3328,7 @@ fn moment_fit_lorentzian(p: MomentPeak) -> MomentFit {
     return moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
 }
 
-// Pearson VII: (1 + b phi^2)^-2 with b = a/2.
+// The peak of Pearson VII: (1 + b phi^2)^-2 with b = a/2.
 fn moment_fit_pearson(p: MomentPeak) -> MomentFit {
     let b = 0.5 * moment_lorentzian_width(p);
     let root = sqrt(b);
@@ -3322,7 +3351,7 @@ fn moment_ellipsoid_width(p: MomentPeak) -> f32 {
     return p.y_w * sine * sine / (cosine * cosine * (1.0 - p.y_w));
 }
 
-// a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
+// The ellipsoid peak a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
 fn moment_fit_ellipsoid(edge: MomentEdge, p: MomentPeak) -> MomentFit {
     let a = moment_fit_not_one(moment_ellipsoid_width(p));
     let root = sqrt(a);
@@ -3331,13 +3360,13 @@ fn moment_fit_ellipsoid(edge: MomentEdge, p: MomentPeak) -> MomentFit {
     return moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
 }
 
-// (b/(1 + (b - 1) cos^2 phi))^2.
+// The squared ellipsoid peak (b/(1 + (b - 1) cos^2 phi))^2.
 fn moment_fit_ellipsoid_squared(edge: MomentEdge, p: MomentPeak) -> MomentFit {
     let b = moment_fit_not_one(moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
     let root = sqrt(b);
     let cosine = moment_peak_cosine(p.x_t);
-    let e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, 1.0e-30);
-    let e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, 1.0e-30);
+    let e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, smallest_divisor());
+    let e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, smallest_divisor());
     let angle = moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
     let integral = 0.5 * root * (b + 1.0) * angle - 0.5 * b * (b - 1.0) * (e1 - e0);
     let t = b / (1.0 + (b - 1.0) * cosine * cosine);
@@ -3420,7 +3449,7 @@ fn representative_begin() -> RepresentativeWalk {
     var walk: RepresentativeWalk;
     walk.turn = 0.0;
     walk.nearest = vec3f(0.0, 0.0, 1.0);
-    walk.cosine = -2.0;
+    walk.cosine = -2.0;  // below any cosine, so that the first edge counts
     return walk;
 }
 
@@ -3435,9 +3464,9 @@ fn representative_add_edge(walk: RepresentativeWalk, mirror: vec3f, a: vec3f, b:
     next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
     // The nearest of the great circle, if it lies between the ends.
     let n = cross(a, b);
-    let n2 = max(dot(n, n), 1.0e-30);
+    let n2 = max(dot(n, n), smallest_divisor());
     let p = mirror - n * (dot(mirror, n) / n2);
-    let on_circle = p * inverseSqrt(max(dot(p, p), 1.0e-30));
+    let on_circle = p * inverseSqrt(max(dot(p, p), smallest_divisor()));
     let between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
     let nearest = select(select(b, a, ca > cb), on_circle, between);
     let cosine = dot(mirror, nearest);
@@ -3471,7 +3500,7 @@ fn representative_radiance(walk: RepresentativeWalk, view: vec3f, mirror: vec3f,
     return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
-// The half vector's cosine for Fresnel. Arguments as above.
+// The half vector's cosine for Fresnel. Arguments as for representative_radiance.
 fn representative_v_dot_h(walk: RepresentativeWalk, view: vec3f, mirror: vec3f, reversed: bool) -> f32 {
     let h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
     return dot(view, h);
@@ -3592,7 +3621,7 @@ fn plane_disk_window_integral(d2: f32, rho2: f32, d: f32, c: f32, s: f32, psi: f
 //
 // Error: two roundings more than sqrt; 0 at 0.
 fn plane_root(x: f32) -> f32 {
-    return x * inverseSqrt(max(x, 1.0e-30));
+    return x * inverseSqrt(max(x, smallest_divisor()));
 }
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
@@ -3630,7 +3659,7 @@ fn plane_disk_window(m: f32, d2: f32, rho2: f32) -> f32 {
          + beta * (rho2 * e);
 }
 
-// The same over the whole disk: from tangent to tangent.
+// The disk window integral over the whole disk: from tangent to tangent.
 //
 //   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
 fn plane_disk_window_whole(m: f32, d2: f32, rho2: f32) -> f32 {
@@ -3671,13 +3700,13 @@ struct IndirectLobe {
     scale: f32,
 }
 
-// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+// The lobe of a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
 fn indirect_lobe(m: LtcMatrix, frame: mat3x3f) -> IndirectLobe {
     var lobe: IndirectLobe;
     lobe.x = steradian_transform(frame, vec3f(m.xx, 0.0, m.xz));
     lobe.y = steradian_transform(frame, vec3f(0.0, m.yy, 0.0));
     lobe.z = steradian_transform(frame, vec3f(m.zx, 0.0, m.zz));
-    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * inverse_pi();
     return lobe;
 }
 
@@ -3691,12 +3720,12 @@ fn indirect_turned(lobe: IndirectLobe) -> IndirectLobe {
     return turned;
 }
 
-// Under M^-1. Any vector.
+// The vector v under the lobe's M^-1; v is any vector in world space.
 fn indirect_under(lobe: IndirectLobe, v: vec3f) -> vec3f {
     return vec3f(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
+// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -3706,12 +3735,12 @@ fn indirect_under(lobe: IndirectLobe, v: vec3f) -> vec3f {
 fn indirect_glossy_half(lobe: IndirectLobe, v: vec3f, d2: f32, wide2: f32) -> f32 {
     let w = indirect_under(lobe, v);
     let w2 = dot(w, w);
-    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), smallest_square());
 }
 
-// Half of a diffuse end of albedo pi: cosine over distance.
+// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
 fn indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
-    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+    return max(dot(n, v), 0.0) / max(d2 + wide2, smallest_square());
 }
 
 // Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
@@ -3723,7 +3752,7 @@ fn indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
 // Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
 fn indirect_point_light(lobe: IndirectLobe, v: vec3f) -> f32 {
     let d2 = dot(v, v);
-    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inverseSqrt(max(d2, 1.0e-36));
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inverseSqrt(max(d2, smallest_square()));
 }
 
 // The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
@@ -3735,7 +3764,7 @@ struct IndirectPair {
     to_glossy: f32,
 }
 
-// Both ends at once: no square root, one division.
+// The halves of both ends at once, with no square root and one division.
 //
 //   receiver, n          the receiver's lobe and normal
 //   light, light_n       the virtual light's, turned
@@ -3752,7 +3781,7 @@ fn indirect_pair(v: vec3f, n: vec3f, receiver: IndirectLobe, light_n: vec3f, lig
     let w4 = w2 * w2;
     let o4 = o2 * o2;
     let both = w4 * o4;
-    let inverse = 1.0 / max(d2 * both, 1.0e-36);
+    let inverse = 1.0 / max(d2 * both, smallest_square());
     let peak = inverse * d2 * d2;
     let n_v = max(dot(n, v), 0.0);
     let light_n_v = max(dot(light_n, v), 0.0);
@@ -3769,7 +3798,7 @@ fn indirect_pair(v: vec3f, n: vec3f, receiver: IndirectLobe, light_n: vec3f, lig
 //   incoming unit, from the virtual light to the light that feeds it
 //   v        to the virtual light
 fn indirect_grazing(incoming: vec3f, v: vec3f, d2: f32) -> f32 {
-    let cosine = -dot(incoming, v) * inverseSqrt(max(d2, 1.0e-36));
+    let cosine = -dot(incoming, v) * inverseSqrt(max(d2, smallest_square()));
     let half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
     return fresnel_schlick(0.0, 1.0, half_angle * inverseSqrt(half_angle));
 }
@@ -3811,9 +3840,9 @@ fn indirect_largest_stretch(m: LtcMatrix) -> f32 {
     let determinant = m.xx * m.zz - m.xz * m.zx;
     let square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
     let gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
-    let larger2 = 0.5 * (square + gap2 * inverseSqrt(max(gap2, 1.0e-36)));
-    let least2 = determinant * determinant / max(larger2, 1.0e-36);
-    return inverseSqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+    let larger2 = 0.5 * (square + gap2 * inverseSqrt(max(gap2, smallest_square())));
+    let least2 = determinant * determinant / max(larger2, smallest_square());
+    return inverseSqrt(max(min(least2, m.yy * m.yy), smallest_square()));
 }
 
 // Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.

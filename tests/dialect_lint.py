@@ -20,6 +20,8 @@ BUILT_IN = {"abs", "min", "max", "clamp", "floor", "sqrt", "inversesqrt", "exp",
 STATEMENTS = {"if", "else", "for", "return", "struct", "break", "continue", "true", "false"}
 ASSIGNMENTS = {"=", "+=", "-=", "*=", "/="}
 ALLOWED_OPERATORS = set("+-*/<>!=:;,.(){}[]") | ASSIGNMENTS | {"<=", ">=", "==", "!=", "&&", "||", "++", "--"}
+NAMED = {"3.14159265358979324": "pi()", "0.318309886183790672": "inverse_pi()", "0.159154943091895336": "inverse_two_pi()",
+         "1.0e-36": "smallest_square()", "1.0e-18": "smallest_length()", "1.0e-30": "smallest_divisor()"}
 LITERAL = re.compile(r"\d+\.\d+(?:[eE][+-]?\d+)?")
 
 
@@ -56,6 +58,8 @@ class Lint:
             self.say(t, f"'{t.text}' is not in the dialect" + (": use select" if t.text == "?" else ""))
         elif t.kind == "number" and not LITERAL.fullmatch(t.text) and not t.text.isdigit():
             self.say(t, f"'{t.text}': write a plain decimal with digits on both sides of the point and no suffix")
+        elif t.kind == "number" and t.text in NAMED and Path(self.path).stem != "constants":
+            self.say(t, f"'{t.text}' has a name: {NAMED[t.text]} (math/constants.glsl)")
         elif t.kind == "name" and t.text in RESERVED and t.text not in STATEMENTS | TYPES:
             self.say(t, f"'{t.text}' is a reserved word of {RESERVED[t.text]}")
         elif t.kind == "comment" and t.text.startswith("/*"):
@@ -94,7 +98,7 @@ class Lint:
         return t.line >= 2 and self.lines[t.line - 2].startswith("//")
 
     def has_topic(self, name):
-        return any(name.startswith(topic + "_") for topic in self.topics)
+        return any(name == topic or name.startswith(topic + "_") for topic in self.topics)
 
     def struct(self, i):
         name = self.at(i + 1)
@@ -126,7 +130,7 @@ class Lint:
             self.say(kind, f"'{kind.text}' is not a type of the dialect")
         if not self.commented(kind):
             self.say(name, f"{name.text} has no comment above it")
-        if name.text != "pi" and not self.has_topic(name.text):
+        if not self.has_topic(name.text):
             self.say(name, f"{name.text} does not begin with a topic of this file ({', '.join(self.topics)})")
         if name.text in self.functions or name.text in BUILT_IN:
             self.say(name, f"{name.text} is defined twice: no overloading")

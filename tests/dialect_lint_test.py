@@ -13,7 +13,7 @@ def in_function(body, kind="real", parameters="real x, vec3 v, mask m, int n"):
 
 GOOD = [
     in_function("    return x * 0.5 + v.x;"),
-    in_function("    real y = x;\n    y += 1.0e-36;\n    return select(y < 0.0, -y, y);"),
+    in_function("    real y = x;\n    y += 1.0e-35;\n    return select(y < 0.0, -y, y);"),
     in_function("    real y = x;\n    if (any_lane(m || y < 0.0)) {\n        y = select(m, 0.0, y);\n    }\n    return y;"),
     in_function("    if (real_digits() > 24) {\n        return x;\n    }\n    return -x;"),
     in_function("    if (n == 1) {\n        return x;\n    } else {\n        return -x;\n    }"),
@@ -23,7 +23,7 @@ GOOD = [
     in_function("    mat3 a = mat3(v, v, v);\n    vec3 b = transform(a, v);\n    return b.x;"),
     "// S.\nstruct TopicState {\n    real a[4];\n    vec3 b;\n};\n"
     + in_function("    TopicState s;\n    s.a[0] = x;\n    s.a[n + 1] = 2.0;\n    return s.a[n] + s.b.z;"),
-    "// A constant.\nreal pi() { return 3.14159265358979324; }\n",
+    "// A constant.\nreal topic_e() { return 2.71828182845904524; }\n",
     "// G.\nreal topic_g(real x, int n) { return x * real(n); }\n" + in_function("    return topic_g(x, 3);"),
 ]
 
@@ -85,6 +85,7 @@ BAD = [
     (in_function("    return select(m && m || m, x, x);"), "needs parentheses"),
     (in_function("    real x = 1.0;\n    return x;"), "hides another"),
     (in_function("    return real_(x) & 3;"), "not in the dialect"),
+    (in_function("    return x / max(x * x, 1.0e-36);"), "has a name: smallest_square()"),
 ]
 
 

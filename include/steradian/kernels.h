@@ -28,6 +28,7 @@ struct Kernels {
 
 // In the order of dependency (tests/dialect_lint.py holds the list to the folders).
 // clang-format off
+#include "math/constants.glsl"
 #include "math/complex.glsl"
 #include "math/frame.glsl"
 #include "math/gauss_legendre.glsl"

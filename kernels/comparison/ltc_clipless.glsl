@@ -1,6 +1,6 @@
 // Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
 // irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
-// Needs: inverse_trig.glsl polygon.glsl ltc.glsl
+// Needs: constants.glsl inverse_trig.glsl polygon.glsl ltc.glsl
 // Topics: ltc
 // Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
@@ -15,7 +15,7 @@
 real ltc_clipped_sphere(real cosine, real f) {
     real z = clamp(cosine, -1.0, 1.0);
     real s2 = clamp(f, 1.0e-12, 1.0);
-    real sin_w = sqrt(max(1.0 - z * z, 1.0e-30));
+    real sin_w = sqrt(max(1.0 - z * z, smallest_divisor()));
     real cos_s = sqrt(1.0 - s2);
     mask crossed = z * z < s2;
     // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
@@ -43,7 +43,7 @@ vec3 ltc_clipless_add_edge(vec3 sum, vec3 ta, vec3 tb) {
 real ltc_clipless_integral(vec3 sum, mask reversed) {
     vec3 e = sum * select(reversed, -1.0, 1.0);
     real e2 = dot(e, e);
-    real inverse = inversesqrt(max(e2, 1.0e-36));
-    real form_factor = clamp(e2 * inverse * 0.318309886183790672, 0.0, 1.0);
+    real inverse = inversesqrt(max(e2, smallest_square()));
+    real form_factor = clamp(e2 * inverse * inverse_pi(), 0.0, 1.0);
     return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }

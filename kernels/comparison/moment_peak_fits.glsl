@@ -6,7 +6,7 @@
 // faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
-// Needs: moment_arvo.glsl, phong.glsl
+// Needs: constants.glsl, moment_arvo.glsl, phong.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -102,7 +102,7 @@ struct MomentFit {
     real tail;
 };
 
-// From a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
+// The scaled peak from a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
 MomentFit moment_fit_scaled(MomentPeak p, real integral, real tail, real lowest) {
     real scale = 1.0 / (1.0 - lowest);
     MomentFit fit;
@@ -117,7 +117,7 @@ real moment_lorentzian_width(MomentPeak p) {
     return max((1.0 - p.y_w - 0.405284734569351086 * x2) / (p.y_w * x2), 1.0e-3);
 }
 
-// 1/(1 + a phi^2). Source: eq. 11 and 12.
+// The Lorentzian peak 1/(1 + a phi^2). Source: eq. 11 and 12.
 MomentFit moment_fit_lorentzian(MomentPeak p) {
     real a = moment_lorentzian_width(p);
     real root = sqrt(a);
@@ -125,7 +125,7 @@ MomentFit moment_fit_lorentzian(MomentPeak p) {
     return moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
 }
 
-// Pearson VII: (1 + b phi^2)^-2 with b = a/2.
+// The peak of Pearson VII: (1 + b phi^2)^-2 with b = a/2.
 MomentFit moment_fit_pearson(MomentPeak p) {
     real b = 0.5 * moment_lorentzian_width(p);
     real root = sqrt(b);
@@ -148,7 +148,7 @@ real moment_ellipsoid_width(MomentPeak p) {
     return p.y_w * sine * sine / (cosine * cosine * (1.0 - p.y_w));
 }
 
-// a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
+// The ellipsoid peak a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
 MomentFit moment_fit_ellipsoid(MomentEdge edge, MomentPeak p) {
     real a = moment_fit_not_one(moment_ellipsoid_width(p));
     real root = sqrt(a);
@@ -157,13 +157,13 @@ MomentFit moment_fit_ellipsoid(MomentEdge edge, MomentPeak p) {
     return moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
 }
 
-// (b/(1 + (b - 1) cos^2 phi))^2.
+// The squared ellipsoid peak (b/(1 + (b - 1) cos^2 phi))^2.
 MomentFit moment_fit_ellipsoid_squared(MomentEdge edge, MomentPeak p) {
     real b = moment_fit_not_one(moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
     real root = sqrt(b);
     real cosine = moment_peak_cosine(p.x_t);
-    real e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, 1.0e-30);
-    real e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, 1.0e-30);
+    real e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, smallest_divisor());
+    real e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, smallest_divisor());
     real angle = moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
     real integral = 0.5 * root * (b + 1.0) * angle - 0.5 * b * (b - 1.0) * (e1 - e0);
     real t = b / (1.0 + (b - 1.0) * cosine * cosine);

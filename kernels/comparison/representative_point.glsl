@@ -8,7 +8,7 @@
 //      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
 //      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
 // Walk the outline clipped to the horizon (horizon_clip.glsl).
-// Needs: inverse_trig.glsl polygon.glsl microfacet.glsl
+// Needs: constants.glsl inverse_trig.glsl polygon.glsl microfacet.glsl
 // Topics: representative
 // Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
 // radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
@@ -30,7 +30,7 @@ RepresentativeWalk representative_begin() {
     RepresentativeWalk walk;
     walk.turn = 0.0;
     walk.nearest = vec3(0.0, 0.0, 1.0);
-    walk.cosine = -2.0;
+    walk.cosine = -2.0;  // below any cosine, so that the first edge counts
     return walk;
 }
 
@@ -45,9 +45,9 @@ RepresentativeWalk representative_add_edge(RepresentativeWalk walk, vec3 mirror,
     next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
     // The nearest of the great circle, if it lies between the ends.
     vec3 n = cross(a, b);
-    real n2 = max(dot(n, n), 1.0e-30);
+    real n2 = max(dot(n, n), smallest_divisor());
     vec3 p = mirror - n * (dot(mirror, n) / n2);
-    vec3 on_circle = p * inversesqrt(max(dot(p, p), 1.0e-30));
+    vec3 on_circle = p * inversesqrt(max(dot(p, p), smallest_divisor()));
     mask between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
     vec3 nearest = select(between, on_circle, select(ca > cb, a, b));
     real cosine = dot(mirror, nearest);
@@ -81,7 +81,7 @@ real representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, re
     return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
-// The half vector's cosine for Fresnel. Arguments as above.
+// The half vector's cosine for Fresnel. Arguments as for representative_radiance.
 real representative_v_dot_h(RepresentativeWalk walk, vec3 view, vec3 mirror, mask reversed) {
     vec3 h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
     return dot(view, h);

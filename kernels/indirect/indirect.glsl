@@ -7,7 +7,7 @@
 //   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
 //
 // and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
-// Needs: ltc.glsl microfacet.glsl
+// Needs: constants.glsl ltc.glsl microfacet.glsl
 // Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
 // distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
@@ -22,13 +22,13 @@ struct IndirectLobe {
     real scale;
 };
 
-// From a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+// The lobe of a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
 IndirectLobe indirect_lobe(LtcMatrix m, mat3 frame) {
     IndirectLobe lobe;
     lobe.x = transform(frame, vec3(m.xx, 0.0, m.xz));
     lobe.y = transform(frame, vec3(0.0, m.yy, 0.0));
     lobe.z = transform(frame, vec3(m.zx, 0.0, m.zz));
-    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * 0.318309886183790672;
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * inverse_pi();
     return lobe;
 }
 
@@ -42,12 +42,12 @@ IndirectLobe indirect_turned(IndirectLobe lobe) {
     return turned;
 }
 
-// Under M^-1. Any vector.
+// The vector v under the lobe's M^-1; v is any vector in world space.
 vec3 indirect_under(IndirectLobe lobe, vec3 v) {
     return vec3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// Half of a glossy end, for scale 1: w_z D / |w|^4. One division.
+// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -57,12 +57,12 @@ vec3 indirect_under(IndirectLobe lobe, vec3 v) {
 real indirect_glossy_half(IndirectLobe lobe, vec3 v, real d2, real wide2) {
     vec3 w = indirect_under(lobe, v);
     real w2 = dot(w, w);
-    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), 1.0e-36);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), smallest_square());
 }
 
-// Half of a diffuse end of albedo pi: cosine over distance.
+// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
 real indirect_diffuse_half(vec3 n, vec3 v, real d2, real wide2) {
-    return max(dot(n, v), 0.0) / max(d2 + wide2, 1.0e-36);
+    return max(dot(n, v), 0.0) / max(d2 + wide2, smallest_square());
 }
 
 // Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
@@ -74,7 +74,7 @@ real indirect_diffuse_half(vec3 n, vec3 v, real d2, real wide2) {
 // Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
 real indirect_point_light(IndirectLobe lobe, vec3 v) {
     real d2 = dot(v, v);
-    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inversesqrt(max(d2, 1.0e-36));
+    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * inversesqrt(max(d2, smallest_square()));
 }
 
 // The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
@@ -86,7 +86,7 @@ struct IndirectPair {
     real to_glossy;
 };
 
-// Both ends at once: no square root, one division.
+// The halves of both ends at once, with no square root and one division.
 //
 //   receiver, n          the receiver's lobe and normal
 //   light, light_n       the virtual light's, turned
@@ -103,7 +103,7 @@ IndirectPair indirect_pair(vec3 v, vec3 n, IndirectLobe receiver, vec3 light_n, 
     real w4 = w2 * w2;
     real o4 = o2 * o2;
     real both = w4 * o4;
-    real inverse = 1.0 / max(d2 * both, 1.0e-36);
+    real inverse = 1.0 / max(d2 * both, smallest_square());
     real peak = inverse * d2 * d2;
     real n_v = max(dot(n, v), 0.0);
     real light_n_v = max(dot(light_n, v), 0.0);
@@ -120,7 +120,7 @@ IndirectPair indirect_pair(vec3 v, vec3 n, IndirectLobe receiver, vec3 light_n, 
 //   incoming unit, from the virtual light to the light that feeds it
 //   v        to the virtual light
 real indirect_grazing(vec3 incoming, vec3 v, real d2) {
-    real cosine = -dot(incoming, v) * inversesqrt(max(d2, 1.0e-36));
+    real cosine = -dot(incoming, v) * inversesqrt(max(d2, smallest_square()));
     real half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
     return fresnel_schlick(0.0, 1.0, half_angle * inversesqrt(half_angle));
 }
@@ -162,9 +162,9 @@ real indirect_largest_stretch(LtcMatrix m) {
     real determinant = m.xx * m.zz - m.xz * m.zx;
     real square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
     real gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
-    real larger2 = 0.5 * (square + gap2 * inversesqrt(max(gap2, 1.0e-36)));
-    real least2 = determinant * determinant / max(larger2, 1.0e-36);
-    return inversesqrt(max(min(least2, m.yy * m.yy), 1.0e-36));
+    real larger2 = 0.5 * (square + gap2 * inversesqrt(max(gap2, smallest_square())));
+    real least2 = determinant * determinant / max(larger2, smallest_square());
+    return inversesqrt(max(min(least2, m.yy * m.yy), smallest_square()));
 }
 
 // Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.

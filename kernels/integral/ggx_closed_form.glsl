@@ -11,7 +11,7 @@
 //
 // docs/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
-// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
+// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
 // Topics: ggx
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -54,9 +54,9 @@ ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
     vec3 sum = a + b;
     real chord2 = dot(chord, chord);
     real sum2 = dot(sum, sum);
-    mask usable = chord2 > 1.0e-30 && sum2 > 1.0e-12;
-    vec3 middle = sum * inversesqrt(max(sum2, 1.0e-30));
-    vec3 along = chord * inversesqrt(max(chord2, 1.0e-36));
+    mask usable = chord2 > smallest_divisor() && sum2 > 1.0e-12;
+    vec3 middle = sum * inversesqrt(max(sum2, smallest_divisor()));
+    vec3 along = chord * inversesqrt(max(chord2, smallest_square()));
     real half_sine = 0.5 * sqrt(chord2);
     real half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
 
@@ -81,5 +81,5 @@ ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
 //   e        sum over the edges of conic_vector, negated where the light is seen from behind
 //   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
 real ggx_unshadowed(GgxView view, vec3 e) {
-    return max(dot(view.w, e), 0.0) * 0.318309886183790672 / view.v.z;
+    return max(dot(view.w, e), 0.0) * inverse_pi() / view.v.z;
 }

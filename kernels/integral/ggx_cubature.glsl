@@ -9,7 +9,7 @@
 // In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
 // equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
 // The measure itself is exact; only the smooth factor G2 F is sampled.
-// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl ggx_closed_form.glsl
+// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl ggx_closed_form.glsl
 // Topics: ggx
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -45,11 +45,11 @@ struct GgxCubature {
 //   returns  (0, 0) where the mirrored light is not above the surface
 vec2 ggx_shadowing_and_fresnel(GgxView view, vec3 u, real smith) {
     vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
-    h = h * inversesqrt(max(dot(h, h), 1.0e-30));
+    h = h * inversesqrt(max(dot(h, h), smallest_divisor()));
     real v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
     vec3 l = h * (2.0 * v_dot_h) - view.v;
     real lz = max(l.z, 0.0);
-    real shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), 1.0e-30);
+    real shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), smallest_divisor());
     real g = select(l.z > 0.0, 1.0 + smith * (shadowing - 1.0), 0.0);
     real x = 1.0 - v_dot_h;
     real x2 = x * x;
@@ -65,9 +65,9 @@ GgxCubature ggx_cubature_begin(GgxView view, vec3 e, real smith, real facing) {
     GgxCubature c;
     vec3 inward = e * facing;
     real length2 = dot(inward, inward);
-    mask usable = length2 > 1.0e-36;
+    mask usable = length2 > smallest_square();
     c.view = view;
-    c.centre = select(usable, inward * inversesqrt(max(length2, 1.0e-36)), vec3(0.0, 0.0, 1.0));
+    c.centre = select(usable, inward * inversesqrt(max(length2, smallest_square())), vec3(0.0, 0.0, 1.0));
     c.amount = select(usable, ggx_unshadowed(view, inward), 0.0);
     c.extent = sqrt(length2);
     c.smith = smith;
@@ -127,11 +127,11 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
             ConicNode node = conic_node(edge, rule.x);
             vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
             vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            real inverse2 = 1.0 / max(dot(u, u), 1.0e-30);
+            real inverse2 = 1.0 / max(dot(u, u), smallest_divisor());
             vec3 rim = u * sqrt(inverse2);
             real rim_cosine = dot(rim, c.centre);
             vec3 out_of_centre = rim - c.centre * rim_cosine;
-            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), 1.0e-30));
+            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), smallest_divisor()));
             real om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = select(present, om, 0.0);

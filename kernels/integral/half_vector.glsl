@@ -10,7 +10,7 @@
 //       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
 //
 // Frame and order: as ggx_closed_form.glsl.
-// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl microfacet.glsl phong.glsl moment.glsl moment_quadrature.glsl moment_series.glsl moment_cosine.glsl polygon.glsl ggx_closed_form.glsl
+// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl microfacet.glsl phong.glsl moment.glsl moment_quadrature.glsl moment_series.glsl moment_cosine.glsl polygon.glsl ggx_closed_form.glsl
 // Topics: half_vector blinn_phong beckmann ggx
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -23,7 +23,7 @@ real blinn_phong_alpha(real n) {
 vec3 half_vector_at(GgxView view, ConicArc edge, real tau) {
     vec3 u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
     vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
-    return h * inversesqrt(max(dot(h, h), 1.0e-30));
+    return h * inversesqrt(max(dot(h, h), smallest_divisor()));
 }
 
 // The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
@@ -31,7 +31,7 @@ real half_vector_split_uniform(ConicArc edge, real share) {
     real first = trig_atan2(edge.scale * edge.begin, 1.0);
     real last = trig_atan2(edge.scale * edge.end, 1.0);
     vec2 u = complex_unit(first + share * (last - first));
-    return clamp(u.y / max(u.x * edge.scale, 1.0e-18), edge.begin, edge.end);
+    return clamp(u.y / max(u.x * edge.scale, smallest_length()), edge.begin, edge.end);
 }
 
 // The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
@@ -86,7 +86,7 @@ real blinn_phong_arc(vec3 a, vec3 b, vec3 v, real n) {
     return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front.moment), front.power);
 }
 
-// The same by the cosine series and the error function.
+// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
 //
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
@@ -140,8 +140,8 @@ real beckmann_arc(GgxView view, vec3 a, vec3 b, MomentSeriesHigh series) {
     vec2 q = vec2(b.x * zb / view.ax, b.y * zb / view.ay);
     vec2 along = q - p;
     real length2 = dot(along, along);
-    mask usable = length2 > 1.0e-30;
-    along = along * inversesqrt(max(length2, 1.0e-30));
+    mask usable = length2 > smallest_divisor();
+    along = along * inversesqrt(max(length2, smallest_divisor()));
     real d = p.x * along.y - p.y * along.x;
     real low = dot(p, along);
     real high = dot(q, along);
@@ -174,5 +174,5 @@ vec3 ggx_arc(GgxView view, vec3 a, vec3 b) {
 //
 //   facing   1.0; -1.0 where the light is seen from behind
 real half_vector_radiance(GgxView view, real sum, real facing) {
-    return max(sum * facing, 0.0) * 0.159154943091895336 / view.v.z;
+    return max(sum * facing, 0.0) * inverse_two_pi() / view.v.z;
 }

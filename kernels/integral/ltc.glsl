@@ -3,11 +3,11 @@
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
 // is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
-// Needs: inverse_trig.glsl polygon.glsl microfacet.glsl
+// Needs: constants.glsl inverse_trig.glsl polygon.glsl microfacet.glsl
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// M^-1 up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
 struct LtcMatrix {
     real xx;
     real xz;
@@ -16,7 +16,7 @@ struct LtcMatrix {
     real zz;
 };
 
-// Where a table is read, both in [0, 1], nodes on the ends.
+// The place where a table is read: both coordinates are in [0, 1], and the outer nodes stand on the ends.
 //
 //   roughness  perceptual: the square root of alpha
 //   n_dot_v    cosine of the view
@@ -24,7 +24,7 @@ vec2 ltc_coordinates(real roughness, real n_dot_v) {
     return vec2(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
 }
 
-// From the classic texture.
+// The matrix as the literature's texture stores it.
 //
 //   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
 LtcMatrix ltc_from_classic(vec4 t) {
@@ -37,7 +37,7 @@ LtcMatrix ltc_from_classic(vec4 t) {
     return m;
 }
 
-// From the compact table, in which the matrix is stored about the mirror direction and divided by alpha.
+// The matrix from the compact table, in which it is stored about the mirror direction and divided by alpha.
 //
 //   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
 //            R turns z into the mirror direction (-s, 0, c)
@@ -59,7 +59,7 @@ LtcMatrix ltc_from_compact(vec4 e, real alpha, vec3 view) {
     return m;
 }
 
-// M^-1 v, up to the matrix' factor. Any vector of the shading frame.
+// The vector M^-1 v, up to the matrix' factor, for any vector v of the shading frame.
 vec3 ltc_transform(LtcMatrix m, vec3 v) {
     return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
@@ -67,16 +67,16 @@ vec3 ltc_transform(LtcMatrix m, vec3 v) {
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 real ltc_lobe(LtcMatrix m, vec3 l) {
     vec3 w = ltc_transform(m, l);
-    real d2 = max(dot(w, w), 1.0e-18);
+    real d2 = max(dot(w, w), smallest_length());
     real determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
-    return determinant * max(w.z, 0.0) * 0.318309886183790672 / (d2 * d2);
+    return determinant * max(w.z, 0.0) * inverse_pi() / (d2 * d2);
 }
 
 // The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
 //
 // Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
 real ltc_energy_above_horizon(LtcMatrix m) {
-    return 0.5 + 0.5 * m.xx * inversesqrt(max(m.xx * m.xx + m.zx * m.zx, 1.0e-36));
+    return 0.5 + 0.5 * m.xx * inversesqrt(max(m.xx * m.xx + m.zx * m.zx, smallest_square()));
 }
 
 // The state of a walk along a light's outline under M^-1.
@@ -94,7 +94,7 @@ LtcWalk ltc_begin() {
     LtcWalk walk;
     walk.lobe = polygon_begin();
     walk.anchor = vec3(0.0, 0.0, 0.0);
-    walk.anchored = walk.anchor.x > 0.0;
+    walk.anchored = mask_none();
     return walk;
 }
 
@@ -150,7 +150,7 @@ LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb
 //
 //   reversed true where the light is seen from behind
 real ltc_integral(LtcWalk walk, mask reversed) {
-    return polygon_irradiance(walk.lobe, reversed) * 0.318309886183790672;
+    return polygon_irradiance(walk.lobe, reversed) * inverse_pi();
 }
 
 // What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.

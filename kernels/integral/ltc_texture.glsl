@@ -11,7 +11,7 @@
 //   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
 // A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
-// Needs: frame.glsl polygon.glsl ltc.glsl
+// Needs: constants.glsl frame.glsl polygon.glsl ltc.glsl
 // Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -26,7 +26,7 @@ struct LtcTextureFootprint {
     mask valid;
 };
 
-// M w, up to a positive factor: the inverse of ltc_transform.
+// The vector M w, up to a positive factor: the inverse of ltc_transform.
 vec3 ltc_texture_transform_back(LtcMatrix m, vec3 w) {
     real determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
@@ -63,8 +63,8 @@ vec3 ltc_texture_irradiance_vector(LtcWalk walk, mask reversed) {
 // Error: docs/ltc.md, "Textured lights".
 LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, real height) {
     real p2 = dot(phi, phi);
-    mask lit = p2 > 1.0e-30;
-    vec3 w = select(lit, phi * inversesqrt(max(p2, 1.0e-30)), vec3(0.0, 0.0, 1.0));
+    mask lit = p2 > smallest_divisor();
+    vec3 w = select(lit, phi * inversesqrt(max(p2, smallest_divisor())), vec3(0.0, 0.0, 1.0));
     mat3 across = frame_from_normal(w);
     vec3 l = ltc_texture_transform_back(m, w);
     real along = dot(normal, l);
@@ -101,11 +101,11 @@ LtcTextureEllipse ltc_texture_axes(vec2 a, vec2 b) {
     // An eigenvector of the larger eigenvalue, from the row that does not cancel.
     vec2 v = select(half_difference > 0.0, vec2(half_difference + spread, xy2), vec2(xy2, spread - half_difference));
     real v2 = dot(v, v);
-    vec2 direction = select(v2 > 1.0e-36, v * inversesqrt(max(v2, 1.0e-36)), vec2(1.0, 0.0));
+    vec2 direction = select(v2 > smallest_square(), v * inversesqrt(max(v2, smallest_square())), vec2(1.0, 0.0));
     real longest = sqrt(0.5 * (xx + yy) + spread);
     LtcTextureEllipse e;
     e.major = direction * longest;
-    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, 1.0e-18);
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, smallest_length());
     return e;
 }
 
@@ -137,19 +137,19 @@ LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, real width, real wid
 vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
     real major2 = dot(g.major, g.major);
     real minor2 = g.minor * g.minor;
-    vec2 u = g.major * inversesqrt(max(major2, 1.0e-36));
+    vec2 u = g.major * inversesqrt(max(major2, smallest_square()));
     real along = major2 - minor2;
     real sxx = minor2 + along * u.x * u.x;
     real sxy = along * u.x * u.y;
     real syy = minor2 + along * u.y * u.y;
-    real least = 1.0e-6 * (light.x + light.z) + 1.0e-30;
+    real least = 1.0e-6 * (light.x + light.z) + smallest_divisor();
     real vxx = light.x + least;
     real vyy = light.z + least;
     // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
     real txx = vxx + sxx;
     real txy = light.y + sxy;
     real tyy = vyy + syy;
-    real t_inverse = 1.0 / max(txx * tyy - txy * txy, 1.0e-36);
+    real t_inverse = 1.0 / max(txx * tyy - txy * txy, smallest_square());
     vec2 p = vec2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
@@ -157,7 +157,7 @@ vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) 
     real q = max(dot(slope, p), 0.0);
     real share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     vec2 d = aside + p * share;
-    real v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, 1.0e-36);
+    real v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, smallest_square());
     vec2 e = vec2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
     vec2 push = vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
     real pushed2 = max(dot(push, e), 0.0);

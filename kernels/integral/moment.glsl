@@ -15,7 +15,7 @@
 // Source: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena", 1995; Lecocq,
 // Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017. The form without
 // parity is this project's own.
-// Needs: inverse_trig.glsl
+// Needs: constants.glsl inverse_trig.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -101,12 +101,12 @@ MomentEdge moment_edge(vec3 a, vec3 b, vec3 r) {
     }
     vec3 n = cross(a, b);
     real n2 = dot(n, n);
-    mask has_length = n2 > 1.0e-30;
-    n = n * inversesqrt(max(n2, 1.0e-30));
+    mask has_length = n2 > smallest_divisor();
+    n = n * inversesqrt(max(n2, smallest_divisor()));
     real s = dot(n, r);
     vec3 q = cross(n, r);
     // The share vanishes with s, like s sqrt(n/2) in the highlight: a floor of 1e-10 would show there.
-    real s2 = clamp(s * s, 1.0e-30, 1.0);
+    real s2 = clamp(s * s, smallest_divisor(), 1.0);
     real c2 = clamp(dot(q, q), pole2, 1.0);
 
     MomentEdge edge;
@@ -159,5 +159,5 @@ real moment_edge_share(MomentEdge edge, real front) {
 //
 // Source: Lecocq et al. 2017, eq. 10: (n + 1)/(2 pi) times the moment; without foreshortening.
 real moment_phong_radiance(real sum, mask reversed) {
-    return clamp(select(reversed, -sum, sum) * 0.159154943091895336, 0.0, 1.0);
+    return clamp(select(reversed, -sum, sum) * inverse_two_pi(), 0.0, 1.0);
 }

@@ -4,7 +4,7 @@
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
 // Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
-// Needs: moment_series.glsl, phong.glsl
+// Needs: constants.glsl, moment_series.glsl, phong.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -14,7 +14,7 @@
 // Source of the error function: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
 real moment_cosine_from_foot(real x, real y, real n) {
     real a = n + 0.5;
-    real v2 = moment_log_1_plus(y * y / max(x * x, 1.0e-30));
+    real v2 = moment_log_1_plus(y * y / max(x * x, smallest_divisor()));
     real t = 0.5 * a * v2;
     real v = sqrt(v2);
     real decay = exp(-t);
@@ -61,7 +61,7 @@ real moment_series_low_front(MomentEdge edge, MomentSeries raised, real n) {
     return max(moment_series_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// The same in high quality; the error is then that of the cosines.
+// What moment_series_low_front returns, in high quality; the error is then that of the cosines.
 real moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, real n) {
     return max(moment_series_high_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
@@ -77,6 +77,6 @@ real moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, real
 real moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, real share, real cosines) {
     vec3 n = cross(a, b);
     real n2 = dot(n, n);
-    real inward = dot(n, v) * inversesqrt(max(n2, 1.0e-30));
-    return dot(r, v) * share + select(n2 > 1.0e-30, inward * cosines, 0.0);
+    real inward = dot(n, v) * inversesqrt(max(n2, smallest_divisor()));
+    return dot(r, v) * share + select(n2 > smallest_divisor(), inward * cosines, 0.0);
 }

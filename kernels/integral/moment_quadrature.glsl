@@ -5,7 +5,7 @@
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
-// Needs: moment.glsl
+// Needs: constants.glsl moment.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -21,10 +21,10 @@ struct MomentQuadrature {
     real t1;
 };
 
-// tan(u/2) of the direction (w x, y), x >= 0.
+// The parameter t = tan(u/2) of the direction (w x, y), x >= 0, whose angle is u.
 real moment_quadrature_parameter(real w, real x, real y) {
     real wx = w * x;
-    return clamp(y / max(wx + sqrt(wx * wx + y * y), 1.0e-18), -1.0, 1.0);
+    return clamp(y / max(wx + sqrt(wx * wx + y * y), smallest_length()), -1.0, 1.0);
 }
 
 // Prepares the integrand of one edge for a lobe of exponent n.

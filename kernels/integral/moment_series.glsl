@@ -8,7 +8,7 @@
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
 // Source: this project (docs/moments.md).
-// Needs: moment.glsl
+// Needs: constants.glsl moment.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -128,7 +128,7 @@ real moment_series_cubic(vec4 b, real t) {
     return ((b.w * t + b.z) * t + b.y) * t + b.x;
 }
 
-// The same in high quality.
+// A harmonic's amplitude over 1 - kap2 in high quality, at t = kap2.
 real moment_series_quintic(vec3 low, vec3 high, real t) {
     return ((((high.z * t + high.y) * t + high.x) * t + low.z) * t + low.y) * t + low.x;
 }
@@ -159,7 +159,7 @@ MomentWarp moment_warp(MomentEdge edge, real m) {
     // One division for both ends: they are at least c^2 w^2, 1e-10 where the pole begins.
     real d0 = wx0 * wx0 + edge.y0 * edge.y0;
     real d1 = wx1 * wx1 + edge.y1 * edge.y1;
-    real over_both = 2.0 / max(d0 * d1, 1.0e-30);
+    real over_both = 2.0 / max(d0 * d1, smallest_divisor());
     real scale0 = over_both * d1;
     real scale1 = over_both * d0;
     warp.cosine = vec2(scale0 * (wx0 * wx0 - edge.y0 * edge.y0), scale1 * (wx1 * wx1 - edge.y1 * edge.y1));
@@ -187,7 +187,7 @@ real moment_series_front(MomentEdge edge, MomentSeries series) {
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// The same in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// What moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 real moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
     MomentWarp warp = moment_warp(edge, series.m);
     real t = warp.kap2;

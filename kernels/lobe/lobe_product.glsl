@@ -12,18 +12,18 @@
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
 // Source: this project (docs/moments.md).
-// Needs: frame.glsl
+// Needs: constants.glsl frame.glsl
 // Topics: lobe_product, cosine_lobe, stretched_lobe
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// scale (u.axis)^exponent
+// A cosine lobe: scale (u.axis)^exponent.
 struct CosineLobe {
     vec3 axis;
     real exponent;
     real scale;
 };
 
-// scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
 struct StretchedLobe {
     mat3 frame;
     vec3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
@@ -79,7 +79,7 @@ vec3 lobe_product_newton(LobeProduct p) {
     real xx = p.total + p.curvature.x;
     real yy = p.total + p.curvature.z;
     real xy = p.curvature.y;
-    real inverse = 1.0 / max(xx * yy - xy * xy, 1.0e-30);
+    real inverse = 1.0 / max(xx * yy - xy * xy, smallest_divisor());
     vec3 step_to = vec3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
     vec3 u = transform(p.about, step_to);
     return u * inversesqrt(dot(u, u));
@@ -107,7 +107,7 @@ StretchedLobe lobe_product_anisotropic(LobeProduct p) {
     real xx = p.total + p.curvature.x + 3.0;
     real yy = p.total + p.curvature.z + 3.0;
     real xy = p.curvature.y;
-    real d = sqrt(max(xx * yy - xy * xy, 1.0e-30));
+    real d = sqrt(max(xx * yy - xy * xy, smallest_divisor()));
     // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
     real root = inversesqrt((xx + yy) / d + 2.0);
     StretchedLobe lobe;
@@ -118,7 +118,7 @@ StretchedLobe lobe_product_anisotropic(LobeProduct p) {
     return lobe;
 }
 
-// A direction in the lobe's stretched frame, not unit; 0 at zero.
+// A direction in the lobe's stretched frame. It is not unit; the zero vector stays zero.
 vec3 lobe_product_stretch(StretchedLobe lobe, vec3 u) {
     vec3 l = transform_transposed(lobe.frame, u);
     return vec3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
@@ -134,6 +134,6 @@ vec3 lobe_product_peak_of_two(vec3 r1, real n1, vec3 r2, real n2) {
     real tangent = sqrt(sine2) / cosine;
     real sum = n1 + n2;
     real t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    vec3 u = r1 + across * (t * inversesqrt(max(sine2, 1.0e-30)));
+    vec3 u = r1 + across * (t * inversesqrt(max(sine2, smallest_divisor())));
     return u * inversesqrt(dot(u, u));
 }

@@ -2,13 +2,14 @@
 //
 // Frame: z the surface normal, x and y the directions of the widths ax and ay (equal where isotropic). l light,
 // v view, h half vector, all unit and pointing away from the surface. Width alpha = roughness squared, at least 1.0e-4.
+// Needs: constants.glsl
 // Topics: microfacet, ggx, fresnel, beckmann
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Half vector of light and view. Degenerate: l = -v gives the zero vector.
 vec3 microfacet_half_vector(vec3 l, vec3 v) {
     vec3 h = l + v;
-    return h * inversesqrt(max(dot(h, h), 1.0e-36));
+    return h * inversesqrt(max(dot(h, h), smallest_square()));
 }
 
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
@@ -20,7 +21,7 @@ real ggx_distribution(vec3 h, real ax, real ay) {
     real x = h.x / ax;
     real y = h.y / ay;
     real d = x * x + y * y + h.z * h.z;
-    return 0.318309886183790672 / (ax * ay * d * d);
+    return inverse_pi() / (ax * ay * d * d);
 }
 
 // Length of the direction w stretched by the surface: sqrt(w_z^2 + (ax w_x)^2 + (ay w_y)^2).
@@ -38,7 +39,7 @@ real ggx_shadowing(vec3 l, vec3 v, real ax, real ay) {
     real lz = max(l.z, 0.0);
     real vz = max(v.z, 0.0);
     real d = lz * ggx_stretched_length(v, ax, ay) + vz * ggx_stretched_length(l, ax, ay);
-    return 2.0 * lz * vz / max(d, 1.0e-36);
+    return 2.0 * lz * vz / max(d, smallest_square());
 }
 
 // Schlick's Fresnel with a free value at grazing.
@@ -62,7 +63,7 @@ real beckmann_distribution(vec3 h, real ax, real ay) {
     real x = h.x / (ax * hz);
     real y = h.y / (ay * hz);
     real z2 = hz * hz;
-    return 0.318309886183790672 * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
+    return inverse_pi() * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
 }
 
 // A microfacet lobe without shadowing and Fresnel: BRDF times cosine, D / (4 v_z).

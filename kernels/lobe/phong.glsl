@@ -1,8 +1,9 @@
 // Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
+// Needs: constants.glsl
 // Topics: phong, blinn_phong
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// log x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
+// The logarithm of x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
 // high exponent multiplies it.
 //
 // Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
@@ -25,12 +26,12 @@ real phong_log(real x) {
     return result;
 }
 
-// x to the power n, for x in [0, 1] and n >= 0, as exp(n log x).
+// The power x^n, for x in [0, 1] and n >= 0, as exp(n log x).
 //
 // Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
 // Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
 real phong_power(real x, real n) {
-    return exp(n * phong_log(max(x, 1.0e-30)));
+    return exp(n * phong_log(max(x, smallest_divisor())));
 }
 
 // The view mirrored at the surface.
@@ -47,12 +48,12 @@ vec3 phong_mirror(vec3 v) {
 //
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
 real phong_lobe(vec3 l, vec3 r, real n) {
-    return (n + 1.0) * 0.159154943091895336 * phong_power(dot(l, r), n);
+    return (n + 1.0) * inverse_two_pi() * phong_power(dot(l, r), n);
 }
 
 // Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
 //
 //   h        unit half vector, shading frame
 real blinn_phong_distribution(vec3 h, real n) {
-    return (n + 2.0) * 0.159154943091895336 * phong_power(h.z, n);
+    return (n + 2.0) * inverse_two_pi() * phong_power(h.z, n);
 }

@@ -1,23 +1,24 @@
 // Complex numbers: vec2(real part, imaginary part).
+// Needs: constants.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// a b.
+// The product a b.
 vec2 complex_product(vec2 a, vec2 b) {
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+// The quotient a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
 vec2 complex_quotient(vec2 a, vec2 b) {
-    real scale = 1.0 / max(dot(b, b), 1.0e-36);
+    real scale = 1.0 / max(dot(b, b), smallest_square());
     return vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
 }
 
-// a / |a|. Degenerate: the zero vector stays zero.
+// The unit number in the direction of a: a / |a|. Degenerate: zero stays zero.
 vec2 complex_sign(vec2 a) {
-    return a * inversesqrt(max(dot(a, a), 1.0e-36));
+    return a * inversesqrt(max(dot(a, a), smallest_square()));
 }
 
-// exp(i x) for x in [-pi, pi].
+// The unit number of angle x, exp(i x), for x in [-pi, pi].
 //
 // Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
 // 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.

@@ -3,11 +3,9 @@
 // The built-in acos and atan of shader compilers differ by up to 8e-5; these polynomials do not. Each exists for 24
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
+// Needs: constants.glsl
 // Topics: trig
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-
-// The one function without a topic: every kernel may use it.
-real pi() { return 3.14159265358979324; }
 
 // Degree 9, largest relative error 1.3e-08 before rounding.
 real trig_angle_over_sine_24_bits(real t) {
@@ -117,7 +115,7 @@ real trig_angle_over_sine(real c, real s2) {
     real f = trig_angle_over_sine_acute(1.0 - abs(c));
     mask obtuse = c < 0.0;
     if (any_lane(obtuse)) {
-        f = select(obtuse, pi() * inversesqrt(max(s2, 1.0e-30)) - f, f);
+        f = select(obtuse, pi() * inversesqrt(max(s2, smallest_divisor())) - f, f);
     }
     return f;
 }

@@ -1,7 +1,8 @@
 // Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
+// Needs: constants.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// One root of each pair, with positive imaginary part.
+// The roots of a real quartic without real roots: one of each conjugate pair, the one with positive imaginary part.
 struct QuarticPoles {
     vec2 z1;
     vec2 z2;
@@ -50,7 +51,7 @@ QuarticPoles quartic_poles_approximate(real c0, real c1, real c2, real c3) {
 
     real sum = p + z;
     real root = sqrt(max(sum * sum - 4.0 * r, 0.0));
-    real difference = select(z > 1.0e-3 * abs(p), q / max(s, 1.0e-18), select(q < 0.0, -root, root));
+    real difference = select(z > 1.0e-3 * abs(p), q / max(s, smallest_length()), select(q < 0.0, -root, root));
     QuarticPoles poles;
     poles.z1 = vec2(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
     poles.z2 = vec2(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));

@@ -6,7 +6,7 @@
 // antiderivatives in elementary functions: the irradiance needs no more than four arc tangents. Where the point sees one
 // cap within the other, it sees a sphere.
 // Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
-// Needs: inverse_trig.glsl frame.glsl polygon.glsl complex.glsl ellipse.glsl
+// Needs: constants.glsl inverse_trig.glsl frame.glsl polygon.glsl complex.glsl ellipse.glsl
 // Topics: capsule, line
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -44,24 +44,24 @@ Capsule capsule_prepare(vec3 end_a, vec3 end_b, real radius) {
     real b2 = dot(end_b, end_b);
     vec3 nearer = select(a2 < b2, end_a, end_b);
     real nearer2 = min(a2, b2);
-    vec3 along = difference * inversesqrt(max(span2, 1.0e-36));
+    vec3 along = difference * inversesqrt(max(span2, smallest_square()));
     vec3 moment = cross(nearer, along);
     real height2 = dot(moment, moment);
     real at_a = dot(end_a, along);
     real at_b = dot(end_b, along);
     real radius2 = radius * radius;
     // From within the endless cylinder, the nearer ball hides the other.
-    mask tube = height2 > radius2 && span2 > 1.0e-30;
-    mask beside = at_a < 0.0 && at_b > 0.0 && span2 > 1.0e-30;
+    mask tube = height2 > radius2 && span2 > smallest_divisor();
+    mask beside = at_a < 0.0 && at_b > 0.0 && span2 > smallest_divisor();
 
     real nearest = sqrt(nearer2);
-    vec3 direction = select(nearer2 > 1.0e-36, nearer * inversesqrt(max(nearer2, 1.0e-36)), vec3(0.0, 0.0, 1.0));
+    vec3 direction = select(nearer2 > smallest_square(), nearer * inversesqrt(max(nearer2, smallest_square())), vec3(0.0, 0.0, 1.0));
     mat3 across = frame_from_normal(direction);
     Capsule c;
     c.end_a = select(tube, end_a, nearer);
     c.end_b = select(tube, end_b, nearer);
     c.along = select(tube, along, transform(across, vec3(1.0, 0.0, 0.0)));
-    c.toward = select(tube, cross(along, moment) * inversesqrt(max(height2, 1.0e-36)), direction);
+    c.toward = select(tube, cross(along, moment) * inversesqrt(max(height2, smallest_square())), direction);
     c.at_a = select(tube, at_a, 0.0);
     c.at_b = select(tube, at_b, 0.0);
     c.span = select(tube, sqrt(span2), 0.0);
@@ -82,7 +82,7 @@ real capsule_touch(Capsule c) {
 //   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
 //   distance  of the end's centre
 real capsule_half_angle(Capsule c, real place, real distance) {
-    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, 1.0e-18));
+    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, smallest_length()));
 }
 
 // Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
@@ -94,7 +94,7 @@ real capsule_half_angle(Capsule c, real place, real distance) {
 vec3 capsule_straight_part(vec3 along, vec3 toward, real at_a, real at_b, real span, real height, real angle, real share) {
     real h2 = height * height;
     real both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
-    real chords = share * span * height / max(both, 1.0e-36);
+    real chords = share * span * height / max(both, smallest_square());
     return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
 }
 
@@ -108,11 +108,11 @@ vec3 capsule_straight_part(vec3 along, vec3 toward, real at_a, real at_b, real s
 vec3 capsule_whole_vector(Capsule c) {
     real touch = capsule_touch(c);
     real angle = trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
-    real share = touch / max(c.height, 1.0e-18);
-    real slope = c.radius / max(c.height, 1.0e-18);
+    real share = touch / max(c.height, smallest_length());
+    real slope = c.radius / max(c.height, smallest_length());
     vec3 e = capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
-    real a2 = max(dot(c.end_a, c.end_a), 1.0e-36);
-    real b2 = max(dot(c.end_b, c.end_b), 1.0e-36);
+    real a2 = max(dot(c.end_a, c.end_a), smallest_square());
+    real b2 = max(dot(c.end_b, c.end_b), smallest_square());
     real ia = inversesqrt(a2);
     real ib = inversesqrt(b2);
     real sine_a = c.radius * ia;
@@ -131,7 +131,7 @@ vec3 capsule_whole_vector(Capsule c) {
 // Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
 // the joints; an arc between two ends on one side crosses twice or not at all.
 PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, real radius, vec3 middle, real half_angle, vec3 start, vec3 finish) {
-    real d2 = max(dot(center, center), 1.0e-36);
+    real d2 = max(dot(center, center), smallest_square());
     real distance = sqrt(d2);
     real inverse = 1.0 / distance;
     real tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
@@ -146,7 +146,7 @@ PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, real radius, vec3 mid
     real seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * pi() - horizon), 0.0);
 
     // Where the cap's rim crosses: azimuths left and right of the cap's own.
-    real flat2 = max(center.x * center.x + center.y * center.y, 1.0e-36);
+    real flat2 = max(center.x * center.x + center.y * center.y, smallest_square());
     vec2 azimuth = vec2(center.x, center.y) * inversesqrt(flat2);
     vec2 tilt = complex_sign(vec2(tangent, root));
     vec2 comes = complex_product(azimuth, tilt);
@@ -187,16 +187,16 @@ vec3 capsule_irradiance_vector(Capsule c) {
         real b2 = dot(c.end_b, c.end_b);
         real r2 = c.radius * c.radius;
         vec3 side = cross(c.toward, c.along);
-        vec3 inward = c.toward * (r2 / max(c.height, 1.0e-18));
-        vec3 aside = side * (c.radius * capsule_touch(c) / max(c.height, 1.0e-18));
-        real ia = inversesqrt(max(a2 - r2, 1.0e-36));
-        real ib = inversesqrt(max(b2 - r2, 1.0e-36));
+        vec3 inward = c.toward * (r2 / max(c.height, smallest_length()));
+        vec3 aside = side * (c.radius * capsule_touch(c) / max(c.height, smallest_length()));
+        real ia = inversesqrt(max(a2 - r2, smallest_square()));
+        real ib = inversesqrt(max(b2 - r2, smallest_square()));
         vec3 a_left = (c.end_a - inward + aside) * ia;
         vec3 a_right = (c.end_a - inward - aside) * ia;
         vec3 b_left = (c.end_b - inward + aside) * ib;
         vec3 b_right = (c.end_b - inward - aside) * ib;
-        real da = sqrt(max(a2, 1.0e-36));
-        real db = sqrt(max(b2, 1.0e-36));
+        real da = sqrt(max(a2, smallest_square()));
+        real db = sqrt(max(b2, smallest_square()));
         vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
         vec3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
         PolygonWalk walk = polygon_begin();
@@ -205,7 +205,7 @@ vec3 capsule_irradiance_vector(Capsule c) {
         walk = capsule_add_arc(walk, c.end_b, c.radius, b_middle, capsule_half_angle(c, c.at_b, db), b_right, b_left);
         walk = polygon_add_edge(walk, b_left, a_left);
         mask shows = max(c.end_a.z, c.end_b.z) > -c.radius;
-        vec3 above = polygon_irradiance_vector(walk, !(c.radius <= c.radius));
+        vec3 above = polygon_irradiance_vector(walk, mask_none());
         e = select(cut, select(shows, above, vec3(0.0, 0.0, 0.0)), e);
     }
     e = vec3(e.x, e.y, clamp(e.z, 0.0, pi()));
@@ -222,14 +222,14 @@ vec3 capsule_irradiance_vector(Capsule c) {
 vec3 line_irradiance_vector(vec3 end_a, vec3 end_b) {
     real wa = abs(end_a.z);
     real wb = abs(end_b.z);
-    vec3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, 1.0e-36));
+    vec3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, smallest_square()));
     vec3 a = select(end_a.z < 0.0, crossing, end_a);
     vec3 b = select(end_b.z < 0.0, crossing, end_b);
     vec3 difference = b - a;
     real span2 = dot(difference, difference);
-    vec3 along = difference * inversesqrt(max(span2, 1.0e-36));
+    vec3 along = difference * inversesqrt(max(span2, smallest_square()));
     vec3 moment = cross(select(dot(a, a) < dot(b, b), a, b), along);
-    real height2 = max(dot(moment, moment), 1.0e-36);
+    real height2 = max(dot(moment, moment), smallest_square());
     real height = sqrt(height2);
     vec3 toward = cross(along, moment) * (1.0 / height);
     real span = sqrt(span2);
@@ -272,10 +272,10 @@ struct CapsuleFan {
 //   middle      unit, across `center`, where the arc's middle lies
 //   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
 CapsuleEnd capsule_end(vec3 center, real radius, vec3 middle, real half_angle, vec3 r, real width) {
-    real d2 = max(dot(center, center), 1.0e-36);
+    real d2 = max(dot(center, center), smallest_square());
     real inverse = inversesqrt(d2);
-    real sine = max(radius * inverse, 1.0e-18);
-    real cosine2 = max(1.0 - sine * sine, 1.0e-18);
+    real sine = max(radius * inverse, smallest_length());
+    real cosine2 = max(1.0 - sine * sine, smallest_length());
     real cosine = sqrt(cosine2);
     vec3 axis = center * inverse;
     vec3 side = cross(axis, middle);
@@ -360,8 +360,8 @@ vec3 capsule_end_corner(CapsuleEnd end, real j) {
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
 //   count    of all corners, 6 or more; each end has its share of the steps, at least one
 CapsuleFan capsule_fan(Capsule c, vec3 r, real width, int count) {
-    real da = sqrt(max(dot(c.end_a, c.end_a), 1.0e-36));
-    real db = sqrt(max(dot(c.end_b, c.end_b), 1.0e-36));
+    real da = sqrt(max(dot(c.end_a, c.end_a), smallest_square()));
+    real db = sqrt(max(dot(c.end_b, c.end_b), smallest_square()));
     real angle_a = capsule_half_angle(c, -c.at_a, da);
     real angle_b = capsule_half_angle(c, c.at_b, db);
     vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
@@ -369,7 +369,7 @@ CapsuleFan capsule_fan(Capsule c, vec3 r, real width, int count) {
     CapsuleFan fan;
     fan.a = capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
     fan.b = capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
-    real share = fan.a.step / max(fan.a.step + fan.b.step, 1.0e-18);
+    real share = fan.a.step / max(fan.a.step + fan.b.step, smallest_length());
     fan.a.corners = 1.0 + floor(0.5 + real(count - 2) * share);
     fan.b.corners = real(count) - fan.a.corners;
     fan.a.step = fan.a.step / fan.a.corners;

@@ -5,10 +5,10 @@
 // two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
 // a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
-// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl
+// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// A prepared arc. In units of tau in which the poles' distances from 0 have the product 1.
+// A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
 //   begin, end  its ends in tau; equal where the arc has no length
 //   scale       the unit: tau as the caller counted it is scale times tau here
@@ -26,8 +26,8 @@ struct ConicArc {
     vec2 sweep;
 };
 
-// d4 (z - conj z)(z - o)(z - conj o): the derivative of the quartic at its root z, from the roots. From the coefficients
-// it would cost float 5 to 40 times the error.
+// The derivative of the quartic at its root z, formed from the roots: d4 (z - conj z)(z - o)(z - conj o). Formed from the
+// coefficients it would cost float 5 to 40 times the error.
 //
 //   z, o     a root and the root of the other pair
 vec2 conic_slope(vec2 z, vec2 o, real d4) {
@@ -51,7 +51,7 @@ vec2 conic_pole_step(ConicArc arc, vec2 z, vec2 o, real d4) {
     vec2 apart = z - o;
     real apart2 = dot(apart, apart);
     real longest = 0.5 * sqrt(apart2) + z.y;
-    step = step * min(longest * inversesqrt(max(dot(step, step), 1.0e-30)), 1.0);
+    step = step * min(longest * inversesqrt(max(dot(step, step), smallest_divisor())), 1.0);
     mask free = apart2 > 1.0e-12 * (1.0 + dot(z, z));
     vec2 next = z - select(free, step, vec2(0.0, 0.0));
     return vec2(next.x, max(abs(next.y), 1.0e-9));
@@ -103,7 +103,7 @@ ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, real begin, real end) {
     if (real_digits() > 24) {
         least = 1.0e-24;
     }
-    real d0 = max(dot(u0, u0), 1.0e-30);
+    real d0 = max(dot(u0, u0), smallest_divisor());
     real d4 = dot(u2, u2);
     real ratio = sqrt(d0 / max(d4, least * d0));
     ConicArc arc;
@@ -114,7 +114,7 @@ ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, real begin, real end) {
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
 
-    real inverse = 1.0 / max(dot(arc.u2, arc.u2), 1.0e-30);
+    real inverse = 1.0 / max(dot(arc.u2, arc.u2), smallest_divisor());
     QuarticPoles poles = quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
@@ -156,7 +156,7 @@ ConicNode conic_node(ConicArc arc, real share) {
     mask positive = linear_term >= 0.0;
     real top = select(positive, -2.0 * constant_term, root - linear_term);
     real bottom = select(positive, linear_term + root, 2.0 * s);
-    mask usable = abs(bottom) > 1.0e-30;
+    mask usable = abs(bottom) > smallest_divisor();
     real tau = select(usable, top / select(usable, bottom, 1.0), arc.begin);
     ConicNode node;
     node.tau = clamp(tau, arc.begin, arc.end);
@@ -184,7 +184,7 @@ vec3 conic_residue(ConicArc arc, vec2 z, vec2 o, real sweep) {
     return re * factor.x - im * factor.y;
 }
 
-// The same by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
 vec3 conic_vector_approximate(ConicArc arc) {
     vec3 sum = vec3(0.0, 0.0, 0.0);
     real total = arc.sweep.x + arc.sweep.y;
@@ -194,7 +194,7 @@ vec3 conic_vector_approximate(ConicArc arc) {
         ConicNode node = conic_node(arc, 0.5 * (rule.x + real(part)));
         vec3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
         vec3 du = arc.u1 + arc.u2 * (2.0 * node.tau);
-        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), 1.0e-30)));
+        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), smallest_divisor())));
     }
     return sum;
 }

@@ -4,7 +4,7 @@
 // is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
 // lobe is sharp.
 // Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
-// Needs: inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
+// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // An ellipse, seen from the shading point.
@@ -41,7 +41,7 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
     real rise = sqrt(dot(up, up));
-    vec2 turn = select(rise > 0.0, up * (1.0 / max(rise, 1.0e-30)), vec2(1.0, 0.0));
+    vec2 turn = select(rise > 0.0, up * (1.0 / max(rise, smallest_divisor())), vec2(1.0, 0.0));
     Ellipse level;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -52,7 +52,7 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     real bottom = rise - e.center.z;
     mask shows = top > 0.0;
     mask cut = bottom > 0.0 && shows;
-    real limit = sqrt(max(top, 0.0) / max(bottom, 1.0e-30));
+    real limit = sqrt(max(top, 0.0) / max(bottom, smallest_divisor()));
     limit = select(cut, limit, select(shows, 1.0e15, 0.0));
     real upper = min(limit, 1.0);
     vec3 sum = conic_vector(ellipse_arc(level, -upper, upper));
@@ -90,7 +90,7 @@ struct EllipseFan {
     real beta;
 };
 
-// Equal steps of t.
+// The polygon whose corners stand at equal steps of t.
 EllipseFan ellipse_fan(Ellipse e) {
     EllipseFan fan;
     fan.ellipse = e;
@@ -99,7 +99,7 @@ EllipseFan ellipse_fan(Ellipse e) {
     return fan;
 }
 
-// Corners that gather where the lobe's axis meets the ellipse's rim.
+// The polygon whose corners gather where the lobe's axis meets the ellipse's rim.
 //
 //   r        unit axis of the lobe
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
@@ -109,7 +109,7 @@ EllipseFan ellipse_fan(Ellipse e) {
 // Source: this project; table of errors in docs/ggx.md.
 EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     vec3 normal = cross(e.axis_a, e.axis_b);
-    real n2 = max(dot(normal, normal), 1.0e-30);
+    real n2 = max(dot(normal, normal), smallest_divisor());
     real height = dot(e.center, normal);  // > 0 in walk order
     real along = dot(r, normal);
     // Where the axis meets the plane, in units of the half axes: (x, y) / along.
@@ -123,7 +123,7 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
     vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
     real reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
-    real blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), 1.0e-30));
+    real blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), smallest_divisor()));
     real beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
     fan.beta = select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
     return fan;

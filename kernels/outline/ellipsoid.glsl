@@ -1,6 +1,6 @@
 // Spheres and ellipsoids as lights: their outline, seen from a point, is a planar ellipse.
 //
-// Needs: frame.glsl
+// Needs: constants.glsl frame.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point [m], and whether it can be seen.
@@ -25,7 +25,7 @@ EllipsoidOutline ellipsoid_outline(vec3 to_center, mat3 s, mat3 inverse) {
     real d2 = dot(p, p);
     real safe = max(d2, 1.000001);
     real inverse_d = inversesqrt(safe);
-    vec3 k = p * inversesqrt(max(d2, 1.0e-30));
+    vec3 k = p * inversesqrt(max(d2, smallest_divisor()));
     real rho = sqrt(1.0 - 1.0 / safe);
     mat3 frame = frame_from_normal(k);
     vec3 a = transform(frame, vec3(rho, 0.0, 0.0));

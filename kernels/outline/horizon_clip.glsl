@@ -16,6 +16,7 @@
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
+// Needs: constants.glsl
 // Topics: horizon
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -38,13 +39,12 @@ struct HorizonClip {
 // The state before the first edge.
 HorizonClip horizon_clip_begin() {
     vec3 nowhere = vec3(0.0, 0.0, 0.0);
-    real zero = 0.0;
     HorizonClip clip;
     clip.start = nowhere;
     clip.end = nowhere;
     clip.arc_start = nowhere;
     clip.arc_end = nowhere;
-    clip.closes = zero > 0.0;
+    clip.closes = mask_none();
     clip.leave = nowhere;
     clip.entry = nowhere;
     return clip;
@@ -58,7 +58,7 @@ vec3 horizon_crossing(vec3 a, vec3 b) {
     real wa = abs(b.z);
     real wb = abs(a.z);
     vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+    p = p * inversesqrt(max(dot(p, p), smallest_square()));
     return vec3(p.x, p.y, 0.0);
 }
 
@@ -72,7 +72,7 @@ HorizonClip horizon_clip_edge(HorizonClip clip, vec3 a, vec3 b) {
     mask b_below = b.z < 0.0;
     next.start = a;
     next.end = b;
-    next.closes = a.z > 2.0;
+    next.closes = mask_none();
     if (any_lane(a_below || b_below)) {
         vec3 nowhere = vec3(0.0, 0.0, 0.0);
         vec3 crossing = horizon_crossing(a, b);

@@ -3,7 +3,7 @@
 // A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
 // way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
 // point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
-// Needs: inverse_trig.glsl
+// Needs: constants.glsl inverse_trig.glsl
 // Topics: polygon, solid_angle
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -23,7 +23,7 @@ struct PolygonWalk {
 // square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
 vec3 polygon_direction(vec3 v) {
     real d2 = dot(v, v);
-    real scale = select(d2 < 1.0e36, inversesqrt(max(d2, 1.0e-36)), 0.0);
+    real scale = select(d2 < 1.0e36, inversesqrt(max(d2, smallest_square())), 0.0);
     return v * scale;
 }
 
@@ -69,7 +69,7 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
             real wa = abs(b.z);
             real wb = abs(a.z);
             vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), 1.0e-36));
+            p = p * inversesqrt(max(dot(p, p), smallest_square()));
             vec3 crossing = vec3(p.x, p.y, 0.0);
             start = select(a_below, crossing, a);
             end = select(b_below, crossing, b);  // both below: start = end, an edge of no length
@@ -113,7 +113,7 @@ struct SolidAngleWalk {
     vec2 product;
 };
 
-// Starts at a vertex.
+// A solid angle's walk before its first triangle.
 //
 //   first    unit direction of any vertex of the light
 SolidAngleWalk solid_angle_begin(vec3 first) {
@@ -131,7 +131,7 @@ SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, vec3 a, vec3 b) {
     SolidAngleWalk next = walk;
     real re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
     real im = dot(walk.first, cross(a, b));
-    real scale = inversesqrt(max(re * re + im * im, 1.0e-36));
+    real scale = inversesqrt(max(re * re + im * im, smallest_square()));
     re = re * scale;
     im = im * scale;
     vec2 p = walk.product;

@@ -3,7 +3,7 @@
 // An edge is seen in the frame of its foot: d the distance of its line, f the angle from the perpendicular, t = tan f.
 // A circle is seen in the frame of its centre: D the centre's distance, psi the angle from the centre's direction.
 // Range window: (1 - r^2/R^2)^2 with r the distance to the surface; q = d^2/R^2; no window is q = 0, R = infinite.
-// Needs: inverse_trig.glsl
+// Needs: constants.glsl inverse_trig.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Antiderivative of cos(f)^n.
@@ -113,7 +113,7 @@ real plane_disk_window_integral(real d2, real rho2, real d, real c, real s, real
 //
 // Error: two roundings more than sqrt; 0 at 0.
 real plane_root(real x) {
-    return x * inversesqrt(max(x, 1.0e-30));
+    return x * inversesqrt(max(x, smallest_divisor()));
 }
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
@@ -154,7 +154,7 @@ real plane_disk_window(real m, real d2, real rho2) {
          + beta * (rho2 * e);
 }
 
-// The same over the whole disk: from tangent to tangent.
+// The disk window integral over the whole disk: from tangent to tangent.
 //
 //   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
 real plane_disk_window_whole(real m, real d2, real rho2) {
