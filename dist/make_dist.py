@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Writes the single files for other people's engines: dist/steradian.glsl, .es.glsl, .hlsl, .wgsl.
+"""Writes the kernels and the compact tables for other people's engines.
+
+    dist/steradian.glsl, .es.glsl, .hlsl, .wgsl   everything, a file a language
+    dist/glsl/, es/, hlsl/, wgsl/                 the same by topic: paste the topics you need, in the order that their heads give
 
     make_dist.py                 writes them beside itself
     make_dist.py --check         exit 1 when what is checked in is not what would be written
-    make_dist.py --with-usage F  prints the file for language F with its usage example as code, not as a comment
+    make_dist.py --with-usage L  prints the whole for language L (glsl, es, hlsl, wgsl) with its usage example as code, not as a comment
 
 Tokens are replaced and nothing else: comments, line breaks and the order of every operation stay. What only double
-needs is left out, and what the dialect's prelude defines is named steradian_...
+needs is left out. Every name at file scope begins with steradian_, a struct's with Steradian.
 """
 import re
 import sys
@@ -14,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
-from kernel_text import in_order, kernel_files  # noqa: E402
+from kernel_text import functions, in_order, kernel_files, with_needs  # noqa: E402
 
 VERSION = re.search(r"project\(steradian VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 LICENCE = (ROOT / "LICENSE").read_text()
@@ -127,16 +130,33 @@ def without_lanes(pieces):
     return pieces
 
 
-RENAMED = {name: "steradian_" + name for name in ("select", "transform", "transform_transposed", "xy", "pi")}
+HELPERS = ("select", "transform", "transform_transposed", "xy")
+TEXTS = {path: path.read_text() for path in kernel_files()}
+FUNCTIONS = {name: "steradian_" + name
+             for name in (*HELPERS, *(name for text in TEXTS.values() for name, _ in functions(text)))}
+STRUCTS = {name: "Steradian" + name
+           for text in TEXTS.values() for name in re.findall(r"^struct (\w+)", text, re.MULTILINE)}
 
 
 def rename(pieces, table):
+    """Names of functions only where something is called: a variable may be called like one."""
     for i, p in enumerate(pieces):
+        if p.kind == "comment":
+            p.text = re.sub(r"\w+", lambda m: in_comment(m.group()), p.text)
+        if p.kind != "name":
+            continue
         after = solid(pieces, i + 1)
-        is_variable = p.text in RENAMED and (after >= len(pieces) or pieces[after].text != "(")
-        if p.kind == "name" and not is_variable:
+        is_call = after < len(pieces) and pieces[after].text == "("
+        if is_call or p.text not in FUNCTIONS:
             p.text = table.get(p.text, p.text)
     return pieces
+
+
+def in_comment(word):
+    """What a comment calls a function or a struct; Ellipse alone is a word of English."""
+    if "_" in word:
+        return FUNCTIONS.get(word, word)
+    return STRUCTS.get(word, word) if re.search(r"[a-z][A-Z]", word) else word
 
 
 # ---- GLSL and HLSL: other names for the same text ------------------------------------------------------------------
@@ -147,7 +167,7 @@ HLSL_NAMES = {**GLSL_NAMES, "vec2": "float2", "vec3": "float3", "vec4": "float4"
 
 
 def c_like(names):
-    table = {**RENAMED, **names}
+    table = {**FUNCTIONS, **STRUCTS, **names}
     return lambda text: text_of(rename(without_lanes(pieces_of(text)), table))
 
 
@@ -188,7 +208,7 @@ class Wgsl:
         return i
 
     def type(self, name):
-        return WGSL_TYPES.get(name, name)
+        return WGSL_TYPES.get(name, STRUCTS.get(name, name))
 
     def is_type(self, name):
         return name in WGSL_TYPES or name in self.structs
@@ -214,10 +234,10 @@ class Wgsl:
             pieces[opening + 1:end] = (strip(b) + [Piece("op", ","), space] + strip(a) + [Piece("op", ","), space] + strip(m))
 
     def struct(self, pieces):
-        text = text_of(rename(pieces, {}))
+        text = text_of(rename(pieces, STRUCTS))
         def member(match):
             space, kind, name, size, comment = match.groups()
-            kind = self.type(kind)
+            kind = WGSL_TYPES.get(kind, kind)
             return f"{space}{name}: {f'array<{kind}, {size}>' if size else kind},{comment}"
         return re.sub(r"^(\s+)(\w+) (\w+)(?:\[(\d+)\])?;([^\n]*)$", member, text, flags=re.MULTILINE)
 
@@ -228,7 +248,7 @@ class Wgsl:
         parameters = ", ".join(f"{word}: {self.type(t)}" for t, word in
                                re.findall(r"(\w+)\s+(\w+)", text_of(pieces[opening + 1:end])))
         body = self.body(pieces[end + 1:])
-        name = RENAMED.get(name, name)
+        name = FUNCTIONS.get(name, name)
         return f"fn {name}({parameters}) -> {self.type(kind)}{body}"
 
     def body(self, pieces):
@@ -245,7 +265,7 @@ class Wgsl:
                 pieces[i] = Piece("raw", word)
                 pieces[after] = Piece("raw", f"{name}: {kind}" if without_value or kind == "i32" else name)
             i += 1
-        names = {**WGSL_TYPES, **RENAMED, "select": "select", "inversesqrt": "inverseSqrt"}
+        names = {**FUNCTIONS, **STRUCTS, **WGSL_TYPES, "select": "select", "inversesqrt": "inverseSqrt"}
         return text_of(rename(pieces, names))
 
     @staticmethod
@@ -298,14 +318,159 @@ fn steradian_transform_transposed(m: mat3x3f, v: vec3f) -> vec3f {
 }
 """
 
-LANGUAGES = {  # file: (language's name, what must stand before it, helpers, printer)
-    "steradian.glsl": ("GLSL 4.50", "Paste after #version and your own declarations.", GLSL_HELPERS,
-                       lambda: c_like(GLSL_NAMES)),
-    "steradian.es.glsl": ("GLSL ES 3.00 (WebGL2)", "Paste after #version 300 es and `precision highp float;`.",
-                          GLSL_HELPERS, lambda: c_like(GLSL_NAMES)),
-    "steradian.hlsl": ("HLSL", "#include or paste it; it has no macros, globals or resources.", HLSL_HELPERS,
-                       lambda: c_like(HLSL_NAMES)),
-    "steradian.wgsl": ("WGSL", "Put it before your module's text; it has no bindings or globals.", WGSL_HELPERS, Wgsl),
+# ---- topics --------------------------------------------------------------------------------------------------------
+
+TOPICS = {  # name: (what it is, the beginnings of its kernels' names; a kernel belongs to the longest that fits
+    "math": ("arithmetic that all topics share", ["math/"]),
+    "polygon": ("polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe",
+                ["outline/polygon", "outline/horizon_clip", "lobe/lambert"]),
+    "lobe": ("lobes of surfaces", ["lobe/"]),
+    "round": ("disks, ellipses, spheres, ellipsoids, tubes and lines", ["outline/"]),
+    "phong": ("Phong's lobe over polygons, exactly and by a series", ["integral/moment"]),
+    "ltc": ("linearly transformed cosines over polygons, textured ones too", ["integral/ltc"]),
+    "ltc_tables": ("the tables of linearly transformed cosines, 4 KB each, and how they are read", []),
+    "ggx": ("GGX in closed form, and half vector methods for Blinn-Phong and Beckmann", ["integral/"]),
+    "comparison": ("methods of the literature that ours are compared with", ["comparison/"]),
+    "plane": ("light in the plane", ["plane/"]),
+    "indirect": ("one bounce from virtual lights", ["indirect/"]),
+}
+
+
+def topic_of(path):
+    name = f"{path.parent.name}/{path.stem}"
+    return max((len(start), topic) for topic, (_, starts) in TOPICS.items() for start in starts if name.startswith(start))[1]
+
+
+def needs_of_topic(topic, _open=()):
+    """The topics that come before one, each after what it needs itself."""
+    if topic in _open:
+        raise ValueError(f"topics need each other in a circle: {_open}")
+    files = [p for path in TEXTS if topic_of(path) == topic for p in with_needs(path)]
+    order = []
+    for needed in [t for t in TOPICS if t != topic and t in {"math"} | {topic_of(p) for p in files}] if topic != "math" else []:
+        order += [t for t in needs_of_topic(needed, _open + (topic,)) + [needed] if t not in order]
+    return order
+
+
+def all_topics():
+    order = []
+    for topic in TOPICS:
+        order += [t for t in needs_of_topic(topic) + [topic] if t not in order]
+    return order
+
+
+# ---- tables --------------------------------------------------------------------------------------------------------
+
+TABLES = {  # name: (the header that `steradian fit` wrote, what it says)
+    "ggx": ("ggx_compact.h", "GGX; the shape is what steradian_ltc_from_compact takes"),
+    "charlie": ("charlie_compact.h", "Charlie's sheen; the shape is M^-1 about the normal: xx, yy, xz, zx, and zz is 1"),
+}
+
+
+def table_words(name):
+    """The words of a compact table: 16 x 16 shapes of four half floats, 22 x 22 magnitudes of two."""
+    text = next(ROOT.glob(f"**/{TABLES[name][0]}")).read_text()
+    arrays = [re.findall(r"0x[0-9a-f]{8}", body) for body in re.findall(r"unsigned int \w+\[\d+\] = {(.*?)}", text, re.S)]
+    assert [len(a) for a in arrays] == [512, 484], TABLES[name][0]
+    return arrays
+
+
+LOOK_UP = {
+    "c": """\
+// The table NAME at a place that steradian_ltc_coordinates gives: WHAT.
+VEC4 steradian_ltc_NAME_shape_at(int k) {
+    return VEC4(HALVES(steradian_ltc_NAME_shape_words[2 * k]), HALVES(steradian_ltc_NAME_shape_words[2 * k + 1]));
+}
+VEC4 steradian_ltc_NAME_shape(VEC2 place) {
+    VEC2 x = clamp(place, 0.0, 1.0) * 15.0;
+    VEC2 node = min(floor(x), VEC2(14.0, 14.0));
+    VEC2 f = x - node;
+    int k = int(node.y) * 16 + int(node.x);
+    VEC4 low = MIX(steradian_ltc_NAME_shape_at(k), steradian_ltc_NAME_shape_at(k + 1), f.x);
+    VEC4 high = MIX(steradian_ltc_NAME_shape_at(k + 16), steradian_ltc_NAME_shape_at(k + 17), f.x);
+    return MIX(low, high, f.y);
+}
+
+// The magnitudes of the table NAME at such a place: what steradian_ltc_specular_scale takes.
+VEC2 steradian_ltc_NAME_magnitude_at(int k) { return HALVES(steradian_ltc_NAME_magnitude_words[k]); }
+VEC2 steradian_ltc_NAME_magnitude(VEC2 place) {
+    VEC2 x = clamp(place, 0.0, 1.0) * 21.0;
+    VEC2 node = min(floor(x), VEC2(20.0, 20.0));
+    VEC2 f = x - node;
+    int k = int(node.y) * 22 + int(node.x);
+    VEC2 low = MIX(steradian_ltc_NAME_magnitude_at(k), steradian_ltc_NAME_magnitude_at(k + 1), f.x);
+    VEC2 high = MIX(steradian_ltc_NAME_magnitude_at(k + 22), steradian_ltc_NAME_magnitude_at(k + 23), f.x);
+    return MIX(low, high, f.y);
+}
+""",
+    "wgsl": """\
+// The table NAME at a place that steradian_ltc_coordinates gives: WHAT.
+fn steradian_ltc_NAME_shape_at(k: i32) -> vec4f {
+    return vec4f(unpack2x16float(steradian_ltc_NAME_shape_words[2 * k]), unpack2x16float(steradian_ltc_NAME_shape_words[2 * k + 1]));
+}
+fn steradian_ltc_NAME_shape(place: vec2f) -> vec4f {
+    let x = clamp(place, vec2f(0.0, 0.0), vec2f(1.0, 1.0)) * 15.0;
+    let node = min(floor(x), vec2f(14.0, 14.0));
+    let f = x - node;
+    let k = i32(node.y) * 16 + i32(node.x);
+    let low = mix(steradian_ltc_NAME_shape_at(k), steradian_ltc_NAME_shape_at(k + 1), f.x);
+    let high = mix(steradian_ltc_NAME_shape_at(k + 16), steradian_ltc_NAME_shape_at(k + 17), f.x);
+    return mix(low, high, f.y);
+}
+
+// The magnitudes of the table NAME at such a place: what steradian_ltc_specular_scale takes.
+fn steradian_ltc_NAME_magnitude_at(k: i32) -> vec2f { return unpack2x16float(steradian_ltc_NAME_magnitude_words[k]); }
+fn steradian_ltc_NAME_magnitude(place: vec2f) -> vec2f {
+    let x = clamp(place, vec2f(0.0, 0.0), vec2f(1.0, 1.0)) * 21.0;
+    let node = min(floor(x), vec2f(20.0, 20.0));
+    let f = x - node;
+    let k = i32(node.y) * 22 + i32(node.x);
+    let low = mix(steradian_ltc_NAME_magnitude_at(k), steradian_ltc_NAME_magnitude_at(k + 1), f.x);
+    let high = mix(steradian_ltc_NAME_magnitude_at(k + 22), steradian_ltc_NAME_magnitude_at(k + 23), f.x);
+    return mix(low, high, f.y);
+}
+""",
+}
+
+ARRAY = {  # language: (before and after the words, an element's ending)
+    "glsl": ("const uint {name}[{count}] = uint[{count}](", ");", "u"),
+    "es": ("const highp uint {name}[{count}] = uint[{count}](", ");", "u"),
+    "hlsl": ("static const uint {name}[{count}] = {{", "}};", "u"),
+    "wgsl": ("var<private> {name}: array<u32, {count}> = array<u32, {count}>(", ");", "u"),
+}
+SPELLING = {"glsl": {"VEC4": "vec4", "VEC2": "vec2", "MIX": "mix", "HALVES": "unpackHalf2x16"},
+            "hlsl": {"VEC4": "float4", "VEC2": "float2", "MIX": "lerp", "HALVES": "steradian_halves"}, "wgsl": {}}
+SPELLING["es"] = SPELLING["glsl"]
+HALVES_HLSL = """\
+// Two half floats in a word, the first in the low bits.
+float2 steradian_halves(uint word) { return float2(f16tof32(word), f16tof32(word >> 16)); }
+
+"""
+
+
+def tables_text(language):
+    out = HALVES_HLSL if language == "hlsl" else ""
+    before, after, ending = ARRAY[language]
+    for name, (_, what) in TABLES.items():
+        for kind, words in zip(("shape", "magnitude"), table_words(name)):
+            rows = [", ".join(w + ending for w in words[i:i + 8]) for i in range(0, len(words), 8)]
+            array = f"steradian_ltc_{name}_{kind}_words"
+            out += (before.format(name=array, count=len(words)) + "\n    " + ",\n    ".join(rows) + after.format() + "\n\n")
+        look_up = LOOK_UP["wgsl" if language == "wgsl" else "c"].replace("NAME", name).replace("WHAT", what)
+        for word, spelt in SPELLING[language].items():
+            look_up = look_up.replace(word, spelt)
+        out += look_up + "\n"
+    return out.rstrip() + "\n"
+
+
+# ---- files ---------------------------------------------------------------------------------------------------------
+
+LANGUAGES = {  # key: (ending, name, what must stand before it, helpers, printer)
+    "glsl": (".glsl", "GLSL 4.50", "Paste after #version and your own declarations.", GLSL_HELPERS, lambda: c_like(GLSL_NAMES)),
+    "es": (".es.glsl", "GLSL ES 3.00 (WebGL2)", "Paste after #version 300 es and `precision highp float;`.", GLSL_HELPERS,
+           lambda: c_like(GLSL_NAMES)),
+    "hlsl": (".hlsl", "HLSL", "#include or paste it; it has no macros and no resources.", HLSL_HELPERS, lambda: c_like(HLSL_NAMES)),
+    "wgsl": (".wgsl", "WGSL", "Put it before your module's text; it has no bindings.", WGSL_HELPERS, Wgsl),
 }
 
 
@@ -313,36 +478,53 @@ def as_comment(text):
     return "".join(f"// {line}".rstrip() + "\n" for line in text.splitlines())
 
 
-def file_text(name, usage_as_code=False):
-    language, place, helpers, make_printer = LANGUAGES[name]
-    printer = make_printer()
-    kernels = "".join(f"// ==== {p.stem} ====\n\n{printer(without_head(without_double(p.read_text()))).strip()}\n\n"
-                      for p in in_order(kernel_files()))
-    usage = printer(USAGE)
-    indented = "".join(f"    {line}\n" if line else "\n" for line in usage.splitlines())
-    text = (as_comment(f"Steradian {VERSION}: area light integrals in closed form, for {language}.\n\n{place} Made by\n"
-                       f"dist/make_dist.py from kernels/: change those. For example:\n\n")
-            + as_comment(indented)
-            + as_comment("\nA light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,\n"
-                         "degenerate case and source.\n\n" + LICENCE)
-            + "\n" + helpers + "\n" + kernels)
-    return text.rstrip("\n") + "\n" + ("\n" + usage if usage_as_code else "")
+def topic_text(topic, language, printer):
+    if topic == "ltc_tables":
+        return tables_text(language)
+    kernels = "".join(f"// ==== {p.stem} ====\n\n{printer(without_head(without_double(TEXTS[p]))).strip()}\n\n"
+                      for p in in_order(kernel_files()) if topic_of(p) == topic)
+    return (LANGUAGES[language][3] + "\n" if topic == "math" else "") + kernels.rstrip("\n") + "\n"
+
+
+def printed(language):
+    """{topic: its text}. One printer for all: WGSL's learns the structs as they come."""
+    printer = LANGUAGES[language][4]()
+    return {topic: topic_text(topic, language, printer) for topic in all_topics()}, printer
+
+
+def files(language):
+    """{path under dist/: text} of one language."""
+    ending, title, place, _, _ = LANGUAGES[language]
+    texts, printer = printed(language)
+    indented = "".join(f"    {line}\n" if line else "\n" for line in printer(USAGE).splitlines())
+    manual = "A light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,\ndegenerate case and source.\n\n"
+    made = "Made by dist/make_dist.py from kernels/: change those."
+    whole = (as_comment(f"Steradian {VERSION}: area light integrals in closed form, for {title}.\n\n{place}\n{made} For example:\n\n")
+             + as_comment(indented) + as_comment("\n" + manual + LICENCE))
+    found = {f"steradian{ending}": whole + "\n" + "\n".join(f"// ======== {t}: {TOPICS[t][0]} ========\n\n{text}" for t, text in texts.items())}
+    for topic, text in texts.items():
+        before = ", ".join(t + ending for t in needs_of_topic(topic))
+        head = f"Steradian {VERSION}, {topic}: {TOPICS[topic][0]}, for {title}.\n\n{place}" + (f"\nIt comes after {before}." if before else "")
+        found[f"{language}/{topic}{ending}"] = as_comment(f"{head}\n{made}\n\n" + LICENCE) + "\n" + text
+    return found
 
 
 def main():
-    if sys.argv[1:2] == ["--with-usage"]:
-        print(file_text(sys.argv[2], usage_as_code=True))
+    job, *rest = sys.argv[1:] or ["--write"]
+    if job == "--with-usage":
+        print(files(rest[0])["steradian" + LANGUAGES[rest[0]][0]] + "\n" + printed(rest[0])[1](USAGE))
         return
-    stale = 0
-    for name in LANGUAGES:
-        path, text = ROOT / "dist" / name, file_text(name)
-        if sys.argv[1:] == ["--check"]:
+    stale, written = 0, {name: text for language in LANGUAGES for name, text in files(language).items()}
+    for name, text in written.items():
+        path = ROOT / "dist" / name
+        if job == "--check":
             if not path.exists() or path.read_text() != text:
                 stale += 1
                 print(f"{path} is not what dist/make_dist.py writes: run it")
         else:
+            path.parent.mkdir(exist_ok=True)
             path.write_text(text)
-    print(f"{len(LANGUAGES)} files, {stale} stale")
+    print(f"{len(written)} files, {stale} stale")
     sys.exit(stale > 0)
 
 

@@ -1,26 +1,26 @@
 // Steradian 0.1.0: area light integrals in closed form, for HLSL.
 //
-// #include or paste it; it has no macros, globals or resources. Made by
-// dist/make_dist.py from kernels/: change those. For example:
+// #include or paste it; it has no macros and no resources.
+// Made by dist/make_dist.py from kernels/: change those. For example:
 //
 //     // Radiance that a quad light sends to the eye from a Lambert surface.
 //     //   p, n         surface point and its unit normal
 //     //   v0 ... v3    the light's corners, counter-clockwise as seen from its lit side
 //     //   radiance     of the light; the result is for albedo 1
 //     float lit_by_quad(float3 p, float3 n, float3 v0, float3 v1, float3 v2, float3 v3, float radiance) {
-//         float3x3 frame = frame_from_normal(n);
-//         float3 a = polygon_direction(steradian_transform_transposed(frame, v3 - p));  // walk order: the corners backwards
-//         float3 b = polygon_direction(steradian_transform_transposed(frame, v2 - p));
-//         float3 c = polygon_direction(steradian_transform_transposed(frame, v1 - p));
-//         float3 d = polygon_direction(steradian_transform_transposed(frame, v0 - p));
-//         PolygonWalk walk = polygon_begin();
-//         walk = polygon_add_edge(walk, a, b);
-//         walk = polygon_add_edge(walk, b, c);
-//         walk = polygon_add_edge(walk, c, d);
-//         walk = polygon_add_edge(walk, d, a);
+//         float3x3 frame = steradian_frame_from_normal(n);
+//         float3 a = steradian_polygon_direction(steradian_transform_transposed(frame, v3 - p));  // walk order: the corners backwards
+//         float3 b = steradian_polygon_direction(steradian_transform_transposed(frame, v2 - p));
+//         float3 c = steradian_polygon_direction(steradian_transform_transposed(frame, v1 - p));
+//         float3 d = steradian_polygon_direction(steradian_transform_transposed(frame, v0 - p));
+//         SteradianPolygonWalk walk = steradian_polygon_begin();
+//         walk = steradian_polygon_add_edge(walk, a, b);
+//         walk = steradian_polygon_add_edge(walk, b, c);
+//         walk = steradian_polygon_add_edge(walk, c, d);
+//         walk = steradian_polygon_add_edge(walk, d, a);
 //         bool lit = dot(cross(v1 - v0, v2 - v0), p - v0) > 0.0;
-//         float irradiance = steradian_select(lit, polygon_irradiance(walk, !lit), 0.0);
-//         return lambert_radiance(irradiance) * radiance;
+//         float irradiance = steradian_select(lit, steradian_polygon_irradiance(walk, !lit), 0.0);
+//         return steradian_lambert_radiance(irradiance) * radiance;
 //     }
 //
 // A light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,
@@ -48,6 +48,8 @@
 // OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
 // SOFTWARE.
 
+// ======== math: arithmetic that all topics share ========
+
 float steradian_select(bool m, float a, float b) { return m ? a : b; }
 float2 steradian_select(bool m, float2 a, float2 b) { return m ? a : b; }
 float3 steradian_select(bool m, float3 a, float3 b) { return m ? a : b; }
@@ -68,56 +70,56 @@ float3 steradian_transform_transposed(float3x3 m, float3 v) { return float3(dot(
 float steradian_pi() { return 3.14159265358979324; }
 
 // 1 / pi.
-float inverse_pi() { return 0.318309886183790672; }
+float steradian_inverse_pi() { return 0.318309886183790672; }
 
 // 1 / (2 pi).
-float inverse_two_pi() { return 0.159154943091895336; }
+float steradian_inverse_two_pi() { return 0.159154943091895336; }
 
 // False in every lane.
-bool mask_none() {
+bool steradian_mask_none() {
     float zero = 0.0;
     return zero > 0.0;
 }
 
 // True in every lane.
-bool mask_all() { return !mask_none(); }
+bool steradian_mask_all() { return !steradian_mask_none(); }
 
 // Squared lengths are kept above this before a division or an inverse root: the smallest normal float is 1.2e-38, and below it
 // GPUs and packs count every number as 0.
-float smallest_square() { return 1.0e-36; }
+float steradian_smallest_square() { return 1.0e-36; }
 
-// Lengths are kept above this before a division: the root of smallest_square.
-float smallest_length() { return 1.0e-18; }
+// Lengths are kept above this before a division: the root of steradian_smallest_square.
+float steradian_smallest_length() { return 1.0e-18; }
 
 // Divisors of numbers of the order of 1 are kept above this, so that the quotient may still be multiplied by 1.0e8 within float.
 // What is smaller is rounding: a cross product of two unit vectors of float has a square of about 1.0e-14 where they are equal.
-float smallest_divisor() { return 1.0e-30; }
+float steradian_smallest_divisor() { return 1.0e-30; }
 
 // ==== complex ====
 
 // Complex numbers: vec2(real part, imaginary part).
 
 // The product a b.
-float2 complex_product(float2 a, float2 b) {
+float2 steradian_complex_product(float2 a, float2 b) {
     return float2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
 // The quotient a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
-float2 complex_quotient(float2 a, float2 b) {
-    float scale = 1.0 / max(dot(b, b), smallest_square());
+float2 steradian_complex_quotient(float2 a, float2 b) {
+    float scale = 1.0 / max(dot(b, b), steradian_smallest_square());
     return float2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
 }
 
 // The unit number in the direction of a: a / |a|. Degenerate: zero stays zero.
-float2 complex_sign(float2 a) {
-    return a * rsqrt(max(dot(a, a), smallest_square()));
+float2 steradian_complex_sign(float2 a) {
+    return a * rsqrt(max(dot(a, a), steradian_smallest_square()));
 }
 
 // The unit number of angle x, exp(i x), for x in [-pi, pi].
 //
 // Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
 // 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
-float2 complex_unit(float x) {
+float2 steradian_complex_unit(float x) {
     float y = 0.5 * x;
     float t = y * y;
     float c = 1.0;
@@ -133,7 +135,7 @@ float2 complex_unit(float x) {
 
 // ==== frame ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// Shading frames. A frame is a mat3 whose columns are x, y and z; steradian_transform_transposed(frame, w) takes a world
 // vector into it, transform(frame, l) back.
 
 // Orthonormal right-handed frame with z along n and x, y in any direction.
@@ -141,7 +143,7 @@ float2 complex_unit(float x) {
 //   n        unit normal
 //
 // Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
-float3x3 frame_from_normal(float3 n) {
+float3x3 steradian_frame_from_normal(float3 n) {
     float s = steradian_select(n.z < 0.0, -1.0, 1.0);
     float a = -1.0 / (s + n.z);
     float b = n.x * n.y * a;
@@ -155,8 +157,8 @@ float3x3 frame_from_normal(float3 n) {
 //   n, v     unit normal and view
 //
 // Degenerate: a view along the normal (closer than 1e-6) gives any x.
-float3x3 frame_from_normal_and_view(float3 n, float3 v) {
-    float3x3 other = frame_from_normal(n);
+float3x3 steradian_frame_from_normal_and_view(float3 n, float3 v) {
+    float3x3 other = steradian_frame_from_normal(n);
     float3 t = v - n * dot(n, v);
     float t2 = dot(t, t);
     float3 x = steradian_select(t2 > 1.0e-12, t * rsqrt(max(t2, 1.0e-12)), steradian_transform(other, float3(1.0, 0.0, 0.0)));
@@ -172,7 +174,7 @@ float3x3 frame_from_normal_and_view(float3 n, float3 v) {
 // Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
 //
 // Degenerate: a rule or node that there is not gives (1/2, 0).
-float2 gauss_legendre_node(int n, int j) {
+float2 steradian_gauss_legendre_node(int n, int j) {
     float2 r = float2(0.5, 0.0);
     if (n == 1) {
         if (j == 0) { r = float2(0.5, 1.0); }
@@ -229,7 +231,7 @@ float2 gauss_legendre_node(int n, int j) {
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
 
 // Degree 9, largest relative error 1.3e-08 before rounding.
-float trig_angle_over_sine_24_bits(float t) {
+float steradian_trig_angle_over_sine_24_bits(float t) {
     float p = 0.01116282422619877;
     p = p * t - 0.032591688733997218;
     p = p * t + 0.05097575847577638;
@@ -244,7 +246,7 @@ float trig_angle_over_sine_24_bits(float t) {
 }
 
 // Degree 8, largest relative error 1.8e-08 before rounding.
-float trig_atan_over_argument_24_bits(float q) {
+float steradian_trig_atan_over_argument_24_bits(float q) {
     float p = 0.002766283501762026;
     p = p * q - 0.015731249122183651;
     p = p * q + 0.042137623589193041;
@@ -263,8 +265,8 @@ float trig_atan_over_argument_24_bits(float q) {
 //   returns  1 at t = 0 to pi/2 at t = 1
 //
 // Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
-float trig_angle_over_sine_acute(float t) {
-    return trig_angle_over_sine_24_bits(t);
+float steradian_trig_angle_over_sine_acute(float t) {
+    return steradian_trig_angle_over_sine_24_bits(t);
 }
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
@@ -273,11 +275,11 @@ float trig_angle_over_sine_acute(float t) {
 //   s2       sine squared, computed on its own (a squared cross product), not as 1 - c*c, which cancels near pi
 //
 // Degenerate: towards pi the value grows like pi/sine; it stops at s2 = 1.0e-30, where products with the sine are 0.
-float trig_angle_over_sine(float c, float s2) {
-    float f = trig_angle_over_sine_acute(1.0 - abs(c));
+float steradian_trig_angle_over_sine(float c, float s2) {
+    float f = steradian_trig_angle_over_sine_acute(1.0 - abs(c));
     bool obtuse = c < 0.0;
     if (obtuse) {
-        f = steradian_select(obtuse, steradian_pi() * rsqrt(max(s2, smallest_divisor())) - f, f);
+        f = steradian_select(obtuse, steradian_pi() * rsqrt(max(s2, steradian_smallest_divisor())) - f, f);
     }
     return f;
 }
@@ -286,13 +288,13 @@ float trig_angle_over_sine(float c, float s2) {
 //
 // Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
 // Error: see docs/accuracy.md, "atan2".
-float trig_atan2(float y, float x) {
+float steradian_trig_atan2(float y, float x) {
     float ax = abs(x);
     float ay = abs(y);
     float larger = max(ax, ay);
     float t = min(ax, ay) / max(larger, 1.0e-37);
     float q = t * t;
-    float p = trig_atan_over_argument_24_bits(q);
+    float p = steradian_trig_atan_over_argument_24_bits(q);
     float angle = t * p;
     angle = steradian_select(ay > ax, 0.5 * steradian_pi() - angle, angle);
     angle = steradian_select(x < 0.0, steradian_pi() - angle, angle);
@@ -300,8 +302,8 @@ float trig_atan2(float y, float x) {
 }
 
 // The same angle, counted from -pi/2 to 3 pi/2: for angles known to lie in [0, pi], whose rounding must not wrap.
-float trig_atan2_unwrapped(float y, float x) {
-    float angle = trig_atan2(y, x);
+float steradian_trig_atan2_unwrapped(float y, float x) {
+    float angle = steradian_trig_atan2(y, x);
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
 }
 
@@ -310,7 +312,7 @@ float trig_atan2_unwrapped(float y, float x) {
 // Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
 
 // The roots of a real quartic without real roots: one of each conjugate pair, the one with positive imaginary part.
-struct QuarticPoles {
+struct SteradianQuarticPoles {
     float2 z1;
     float2 z2;
 };
@@ -322,7 +324,7 @@ struct QuarticPoles {
 // The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
 // at x = -1, where the root has infinite slope in x; then two steps of Newton.
 // Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
-float quartic_third_cosine(float x) {
+float steradian_quartic_third_cosine(float x) {
     float t = sqrt(max(0.5 + 0.5 * x, 0.0));
     float c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
     for (int i = 0; i < 2; i++) {
@@ -342,7 +344,7 @@ float quartic_third_cosine(float x) {
 // cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
 // Error: a start; float loses half the digits where pairs are nearly equal.
 // Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
-QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
+SteradianQuarticPoles steradian_quartic_poles_approximate(float c0, float c1, float c2, float c3) {
     float shift = 0.25 * c3;
     float shift2 = shift * shift;
     float p = c2 - 6.0 * shift2;
@@ -353,17 +355,19 @@ QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
     float radius2 = max(p * p + 12.0 * r, 1.0e-12);
     float radius = sqrt(radius2);
     float cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
-    float z = max(0.666666666666666667 * (radius * quartic_third_cosine(cosine) - p), 0.0);
+    float z = max(0.666666666666666667 * (radius * steradian_quartic_third_cosine(cosine) - p), 0.0);
     float s = sqrt(z);
 
     float sum = p + z;
     float root = sqrt(max(sum * sum - 4.0 * r, 0.0));
-    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, smallest_length()), steradian_select(q < 0.0, -root, root));
-    QuarticPoles poles;
+    float difference = steradian_select(z > 1.0e-3 * abs(p), q / max(s, steradian_smallest_length()), steradian_select(q < 0.0, -root, root));
+    SteradianQuarticPoles poles;
     poles.z1 = float2(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
     poles.z2 = float2(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
     return poles;
 }
+
+// ======== polygon: polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe ========
 
 // ==== polygon ====
 
@@ -376,7 +380,7 @@ QuarticPoles quartic_poles_approximate(float c0, float c1, float c2, float c3) {
 // The state of a walk.
 //   edges    sum over the edges, each clipped to the horizon, of half its angle times its plane's unit normal [rad]
 //   horizon  product of unit complex numbers: its angle is the arc of the horizon that closes the clipped outline
-struct PolygonWalk {
+struct SteradianPolygonWalk {
     float3 edges;
     float2 horizon;
 };
@@ -387,9 +391,9 @@ struct PolygonWalk {
 //
 // Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
 // square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
-float3 polygon_direction(float3 v) {
+float3 steradian_polygon_direction(float3 v) {
     float d2 = dot(v, v);
-    float scale = steradian_select(d2 < 1.0e36, rsqrt(max(d2, smallest_square())), 0.0);
+    float scale = steradian_select(d2 < 1.0e36, rsqrt(max(d2, steradian_smallest_square())), 0.0);
     return v * scale;
 }
 
@@ -402,15 +406,15 @@ float3 polygon_direction(float3 v) {
 // Error: see docs/accuracy.md, "polygon edge".
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
-float3 polygon_edge(float3 a, float3 b) {
+float3 steradian_polygon_edge(float3 a, float3 b) {
     float3 n = cross(a, b);
-    float f = trig_angle_over_sine(dot(a, b), dot(n, n));
+    float f = steradian_trig_angle_over_sine(dot(a, b), dot(n, n));
     return n * (0.5 * f);
 }
 
 // A walk before its first edge: no edges, and a horizon of angle 0.
-PolygonWalk polygon_begin() {
-    PolygonWalk walk;
+SteradianPolygonWalk steradian_polygon_begin() {
+    SteradianPolygonWalk walk;
     walk.edges = float3(0.0, 0.0, 0.0);
     walk.horizon = float2(1.0, 0.0);
     return walk;
@@ -418,13 +422,13 @@ PolygonWalk polygon_begin() {
 
 // Adds one edge, clipped to the horizon z = 0.
 //
-//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
 // counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
-PolygonWalk polygon_add_edge(PolygonWalk walk, float3 a, float3 b) {
-    PolygonWalk next = walk;
+SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, float3 a, float3 b) {
+    SteradianPolygonWalk next = walk;
     bool a_below = a.z < 0.0;
     bool b_below = b.z < 0.0;
     if (!a_below || !b_below) {
@@ -435,7 +439,7 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, float3 a, float3 b) {
             float wa = abs(b.z);
             float wb = abs(a.z);
             float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * rsqrt(max(dot(p, p), smallest_square()));
+            p = p * rsqrt(max(dot(p, p), steradian_smallest_square()));
             float3 crossing = float3(p.x, p.y, 0.0);
             start = steradian_select(a_below, crossing, a);
             end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
@@ -444,7 +448,7 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, float3 a, float3 b) {
             float2 h = walk.horizon;
             next.horizon = steradian_select(crosses, float2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
         }
-        next.edges = walk.edges + polygon_edge(start, end);
+        next.edges = walk.edges + steradian_polygon_edge(start, end);
     }
     return next;
 }
@@ -455,26 +459,26 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, float3 a, float3 b) {
 //   returns  in the shading frame; z is the irradiance, the direction is where the light is, seen on average
 //
 // Degenerate: a point in the light's plane gives 0 up to rounding.
-float3 polygon_irradiance_vector(PolygonWalk walk, bool reversed) {
+float3 steradian_polygon_irradiance_vector(SteradianPolygonWalk walk, bool reversed) {
     float facing = steradian_select(reversed, -1.0, 1.0);
     float arc = 0.0;
     if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
-        arc = trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+        arc = steradian_trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
     }
     float3 e = walk.edges * facing;
     return float3(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
 }
 
-// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
+// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See steradian_polygon_irradiance_vector.
 //
 // Error: see docs/accuracy.md, "polygon irradiance".
-float polygon_irradiance(PolygonWalk walk, bool reversed) {
-    float3 e = polygon_irradiance_vector(walk, reversed);
+float steradian_polygon_irradiance(SteradianPolygonWalk walk, bool reversed) {
+    float3 e = steradian_polygon_irradiance_vector(walk, reversed);
     return e.z;
 }
 
 // The state of a solid angle's walk: a product of complex numbers, each with half a triangle's solid angle.
-struct SolidAngleWalk {
+struct SteradianSolidAngleWalk {
     float3 first;
     float2 product;
 };
@@ -482,22 +486,22 @@ struct SolidAngleWalk {
 // A solid angle's walk before its first triangle.
 //
 //   first    unit direction of any vertex of the light
-SolidAngleWalk solid_angle_begin(float3 first) {
-    SolidAngleWalk walk;
+SteradianSolidAngleWalk steradian_solid_angle_begin(float3 first) {
+    SteradianSolidAngleWalk walk;
     walk.first = first;
     walk.product = float2(1.0, 0.0);
     return walk;
 }
 
-// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
+// Adds the triangle of the first vertex and one edge. Directions as for steradian_polygon_add_edge; no horizon here.
 //
 // Degenerate: a triangle without area has a real factor and adds nothing.
 // Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
-SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, float3 a, float3 b) {
-    SolidAngleWalk next = walk;
+SteradianSolidAngleWalk steradian_solid_angle_add_edge(SteradianSolidAngleWalk walk, float3 a, float3 b) {
+    SteradianSolidAngleWalk next = walk;
     float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
     float im = dot(walk.first, cross(a, b));
-    float scale = rsqrt(max(re * re + im * im, smallest_square()));
+    float scale = rsqrt(max(re * re + im * im, steradian_smallest_square()));
     re = re * scale;
     im = im * scale;
     float2 p = walk.product;
@@ -510,10 +514,411 @@ SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, float3 a, float3 b) {
 //   reversed true where the light is seen from behind, so that the walk ran the wrong way round
 //
 // Error: see docs/accuracy.md, "polygon solid angle".
-float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
+float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) {
     float y = steradian_select(reversed, -walk.product.y, walk.product.y);
-    return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);
+    return max(2.0 * steradian_trig_atan2_unwrapped(y, walk.product.x), 0.0);
 }
+
+// ==== horizon_clip ====
+
+// Clipping a walked outline to the horizon, for integrals along its edges.
+//
+// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
+// (steradian_polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
+// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
+// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
+// different contours, and one clip serves a whole light with its holes:
+//
+//   SteradianHorizonClip clip = steradian_horizon_clip_begin();
+//   for each edge a, b of each contour:
+//       clip = steradian_horizon_clip_edge(clip, a, b);
+//       integrate clip.start, clip.end
+//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//   clip = steradian_horizon_clip_finish(clip);
+//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//
+// Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
+
+// The state of a clip and what it last handed out.
+//   start, end          the edge's part above the horizon; equal where there is none
+//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
+//   closes              whether there is an arc
+//   leave               where the outline last went down and did not come back yet; zero: nowhere
+//   entry               where it came up without having been seen to go down; zero: nowhere
+struct SteradianHorizonClip {
+    float3 start;
+    float3 end;
+    float3 arc_start;
+    float3 arc_end;
+    bool closes;
+    float3 leave;
+    float3 entry;
+};
+
+// The state before the first edge.
+SteradianHorizonClip steradian_horizon_clip_begin() {
+    float3 nowhere = float3(0.0, 0.0, 0.0);
+    SteradianHorizonClip clip;
+    clip.start = nowhere;
+    clip.end = nowhere;
+    clip.arc_start = nowhere;
+    clip.arc_end = nowhere;
+    clip.closes = steradian_mask_none();
+    clip.leave = nowhere;
+    clip.entry = nowhere;
+    return clip;
+}
+
+// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+//
+// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
+// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
+float3 steradian_horizon_crossing(float3 a, float3 b) {
+    float wa = abs(b.z);
+    float wb = abs(a.z);
+    float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    p = p * rsqrt(max(dot(p, p), steradian_smallest_square()));
+    return float3(p.x, p.y, 0.0);
+}
+
+// Clips one edge.
+//
+//   a, b     unit directions of the edge's ends; z < 0 is below
+//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
+SteradianHorizonClip steradian_horizon_clip_edge(SteradianHorizonClip clip, float3 a, float3 b) {
+    SteradianHorizonClip next = clip;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    next.start = a;
+    next.end = b;
+    next.closes = steradian_mask_none();
+    if (a_below || b_below) {
+        float3 nowhere = float3(0.0, 0.0, 0.0);
+        float3 crossing = steradian_horizon_crossing(a, b);
+        next.start = steradian_select(a_below, crossing, a);
+        next.end = steradian_select(b_below, crossing, b);  // both below: start = end
+        bool comes_up = a_below && !b_below;
+        bool goes_down = b_below && !a_below;
+        bool was_left = dot(clip.leave, clip.leave) > 0.5;
+        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
+        bool due = goes_down && was_left;
+        next.closes = (comes_up && was_left) || due;
+        next.arc_end = steradian_select(due, clip.entry, crossing);
+        next.arc_start = steradian_select(next.closes, clip.leave, next.arc_end);
+        next.leave = steradian_select(goes_down, crossing, steradian_select(comes_up, nowhere, clip.leave));
+        next.entry = steradian_select(comes_up && !was_left, crossing, steradian_select(due, nowhere, clip.entry));
+    }
+    return next;
+}
+
+// Ends the walk: the last arc, from where the outline went down to where it had first come up.
+SteradianHorizonClip steradian_horizon_clip_finish(SteradianHorizonClip clip) {
+    SteradianHorizonClip next = clip;
+    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
+    next.start = clip.end;
+    next.arc_start = steradian_select(next.closes, clip.leave, clip.entry);
+    next.arc_end = clip.entry;
+    return next;
+}
+
+// ==== lambert ====
+
+// The diffuse surface: the same radiance to every side.
+
+// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+//
+//   irradiance  steradian_polygon_irradiance, in [0, pi]
+float steradian_lambert_radiance(float irradiance) {
+    return irradiance * steradian_inverse_pi();
+}
+
+// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
+float steradian_lambert_lobe(float3 l) {
+    return max(l.z, 0.0) * steradian_inverse_pi();
+}
+
+// ======== lobe: lobes of surfaces ========
+
+// ==== lobe_product ====
+
+// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
+//
+// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
+// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
+// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
+//
+//   SteradianLobeProduct p = steradian_lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = steradian_lobe_product_add(p, r_i, n_i);
+//   start = steradian_lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
+//   ... the same again, then
+//   SteradianCosineLobe lobe = steradian_lobe_product_isotropic(p);
+//
+// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
+// Source: this project (docs/moments.md).
+
+// A cosine lobe: scale (u.axis)^exponent.
+struct SteradianCosineLobe {
+    float3 axis;
+    float exponent;
+    float scale;
+};
+
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own frame.
+struct SteradianStretchedLobe {
+    float3x3 frame;
+    float3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
+    float exponent;
+    float scale;
+};
+
+// Sums over the lobes, seen from a direction.
+//   about      frame whose z is that direction
+//   total      sum of n_i
+//   log_scale  sum of n_i log(z.r_i)
+//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
+//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
+//   lowest     smallest z.r_i
+struct SteradianLobeProduct {
+    float3x3 about;
+    float total;
+    float log_scale;
+    float2 slope;
+    float3 curvature;
+    float lowest;
+};
+
+// The state before the first lobe.
+SteradianLobeProduct steradian_lobe_product_begin(float3 direction) {
+    SteradianLobeProduct p;
+    p.about = steradian_frame_from_normal(direction);
+    p.total = 0.0;
+    p.log_scale = 0.0;
+    p.slope = float2(0.0, 0.0);
+    p.curvature = float3(0.0, 0.0, 0.0);
+    p.lowest = 1.0;
+    return p;
+}
+
+// Adds (u.r)^n.
+SteradianLobeProduct steradian_lobe_product_add(SteradianLobeProduct p, float3 r, float n) {
+    float3 local = steradian_transform_transposed(p.about, r);
+    float z = max(local.z, 1.0e-4);
+    float x = local.x / z;
+    float y = local.y / z;
+    SteradianLobeProduct next = p;
+    next.total = p.total + n;
+    next.log_scale = p.log_scale + n * log(z);
+    next.slope = p.slope + float2(n * x, n * y);
+    next.curvature = p.curvature + float3(n * x * x, n * x * y, n * y * y);
+    next.lowest = min(p.lowest, local.z);
+    return next;
+}
+
+// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
+float3 steradian_lobe_product_newton(SteradianLobeProduct p) {
+    float xx = p.total + p.curvature.x;
+    float yy = p.total + p.curvature.z;
+    float xy = p.curvature.y;
+    float inverse = 1.0 / max(xx * yy - xy * xy, steradian_smallest_divisor());
+    float3 step_to = float3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
+    float3 u = steradian_transform(p.about, step_to);
+    return u * rsqrt(dot(u, u));
+}
+
+// Height of the product at the sums' direction; 0 where a lobe does not reach.
+float steradian_lobe_product_scale(SteradianLobeProduct p) {
+    return steradian_select(p.lowest > 1.0e-4, exp(p.log_scale), 0.0);
+}
+
+// The isotropic lobe; its exponent gives the full lobe's integral the right size.
+SteradianCosineLobe steradian_lobe_product_isotropic(SteradianLobeProduct p) {
+    float xx = p.total + p.curvature.x;
+    float yy = p.total + p.curvature.z;
+    SteradianCosineLobe lobe;
+    lobe.axis = steradian_transform(p.about, float3(0.0, 0.0, 1.0));
+    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
+    lobe.scale = steradian_lobe_product_scale(p);
+    return lobe;
+}
+
+// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
+// the integral over a light is scale times the moment of the stretched outline about z.
+SteradianStretchedLobe steradian_lobe_product_anisotropic(SteradianLobeProduct p) {
+    float xx = p.total + p.curvature.x + 3.0;
+    float yy = p.total + p.curvature.z + 3.0;
+    float xy = p.curvature.y;
+    float d = sqrt(max(xx * yy - xy * xy, steradian_smallest_divisor()));
+    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
+    float root = rsqrt((xx + yy) / d + 2.0);
+    SteradianStretchedLobe lobe;
+    lobe.frame = p.about;
+    lobe.stretch = float3(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
+    lobe.exponent = d - 3.0;
+    lobe.scale = steradian_lobe_product_scale(p);
+    return lobe;
+}
+
+// A direction in the lobe's stretched frame. It is not unit; the zero vector stays zero.
+float3 steradian_lobe_product_stretch(SteradianStretchedLobe lobe, float3 u) {
+    float3 l = steradian_transform_transposed(lobe.frame, u);
+    return float3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
+}
+
+// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
+//
+// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
+float3 steradian_lobe_product_peak_of_two(float3 r1, float n1, float3 r2, float n2) {
+    float cosine = max(dot(r1, r2), 1.0e-6);
+    float3 across = r2 - r1 * dot(r1, r2);
+    float sine2 = dot(across, across);
+    float tangent = sqrt(sine2) / cosine;
+    float sum = n1 + n2;
+    float t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
+    float3 u = r1 + across * (t * rsqrt(max(sine2, steradian_smallest_divisor())));
+    return u * rsqrt(dot(u, u));
+}
+
+// ==== microfacet ====
+
+// Microfacet terms: GGX and Beckmann distributions, height-correlated Smith shadowing, Schlick's Fresnel.
+//
+// Frame: z the surface normal, x and y the directions of the widths ax and ay (equal where isotropic). l light,
+// v view, h half vector, all unit and pointing away from the surface. Width alpha = roughness squared, at least 1.0e-4.
+
+// Half vector of light and view. Degenerate: l = -v gives the zero vector.
+float3 steradian_microfacet_half_vector(float3 l, float3 v) {
+    float3 h = l + v;
+    return h * rsqrt(max(dot(h, h), steradian_smallest_square()));
+}
+
+// Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
+//
+// In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
+// Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
+// "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
+float steradian_ggx_distribution(float3 h, float ax, float ay) {
+    float x = h.x / ax;
+    float y = h.y / ay;
+    float d = x * x + y * y + h.z * h.z;
+    return steradian_inverse_pi() / (ax * ay * d * d);
+}
+
+// Length of the direction w stretched by the surface: sqrt(w_z^2 + (ax w_x)^2 + (ay w_y)^2).
+float steradian_ggx_stretched_length(float3 w, float ax, float ay) {
+    float x = ax * w.x;
+    float y = ay * w.y;
+    return sqrt(x * x + y * y + w.z * w.z);
+}
+
+// Smith's shadowing and masking, height-correlated, in [0, 1].
+//
+// Degenerate: 0 where l or v is not above the surface.
+// Source: Heitz 2014, eq. 99, written without Lambda: 2 l_z v_z / (l_z |v|' + v_z |l|').
+float steradian_ggx_shadowing(float3 l, float3 v, float ax, float ay) {
+    float lz = max(l.z, 0.0);
+    float vz = max(v.z, 0.0);
+    float d = lz * steradian_ggx_stretched_length(v, ax, ay) + vz * steradian_ggx_stretched_length(l, ax, ay);
+    return 2.0 * lz * vz / max(d, steradian_smallest_square());
+}
+
+// Schlick's Fresnel with a free value at grazing.
+//
+//   f0, f90  reflectance along and across the normal
+//   v_dot_h  cosine between view and half vector
+//
+// Source: Schlick, "An inexpensive BRDF model for physically-based rendering", 1994, eq. 15.
+float steradian_fresnel_schlick(float f0, float f90, float v_dot_h) {
+    float x = clamp(1.0 - v_dot_h, 0.0, 1.0);
+    float x2 = x * x;
+    return f0 + (f90 - f0) * (x2 * x2 * x);
+}
+
+// Distribution of Beckmann: exp(-((h_x/ax)^2 + (h_y/ay)^2)/h_z^2) / (pi ax ay h_z^4).
+//
+// Degenerate: h_z is kept above 1.0e-5, where the exponential is 0 for any alpha up to 1.
+// Source: Walter et al. 2007, eq. 25.
+float steradian_beckmann_distribution(float3 h, float ax, float ay) {
+    float hz = max(h.z, 1.0e-5);
+    float x = h.x / (ax * hz);
+    float y = h.y / (ay * hz);
+    float z2 = hz * hz;
+    return steradian_inverse_pi() * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
+}
+
+// A microfacet lobe without shadowing and Fresnel: BRDF times cosine, D / (4 v_z).
+//
+//   d        distribution at the half vector
+//   l, v     directions; 0 where either is not above the surface
+float steradian_microfacet_lobe_unshadowed(float d, float3 l, float3 v) {
+    bool above = l.z > 0.0 && v.z > 0.0;
+    return steradian_select(above, d / (4.0 * max(v.z, 1.0e-6)), 0.0);
+}
+
+// The GGX lobe with shadowing, without Fresnel: BRDF times cosine, D G2 / (4 v_z).
+float steradian_ggx_lobe(float3 l, float3 v, float ax, float ay) {
+    float3 h = steradian_microfacet_half_vector(l, v);
+    float g = steradian_ggx_shadowing(l, v, ax, ay);
+    return steradian_microfacet_lobe_unshadowed(steradian_ggx_distribution(h, ax, ay) * g, l, v);
+}
+
+// ==== phong ====
+
+// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
+
+// The logarithm of x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
+// high exponent multiplies it.
+//
+// Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
+float steradian_phong_log(float x) {
+    float near = 0.75;
+    float result = log(x);
+    bool high = x > near;
+    if (high) {
+        // d - d^2 / (2 + d) is twice t, the first term of twice the inverse hyperbolic tangent of t: so d, which is exact, carries
+        // most of the digits. The next term is 2 t^9 / 9, relative 2e-8 at t = 1/7.
+        float d = x - 1.0;
+        float t = d / (2.0 + d);
+        float t2 = t * t;
+        float series = d - t * (d - t2 * (0.666666666666666667 + t2 * (0.4 + t2 * 0.285714285714285714)));
+        result = steradian_select(high, series, result);
+    }
+    return result;
+}
+
+// The power x^n, for x in [0, 1] and n >= 0, as exp(n log x).
+//
+// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
+// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
+float steradian_phong_power(float x, float n) {
+    return exp(n * steradian_phong_log(max(x, steradian_smallest_divisor())));
+}
+
+// The view mirrored at the surface.
+//
+//   v        view direction, shading frame
+float3 steradian_phong_mirror(float3 v) {
+    return float3(-v.x, -v.y, v.z);
+}
+
+// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
+//
+//   l        unit direction of the light, r unit axis of the lobe
+//   n        exponent, at least 0
+//
+// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
+float steradian_phong_lobe(float3 l, float3 r, float n) {
+    return (n + 1.0) * steradian_inverse_two_pi() * steradian_phong_power(dot(l, r), n);
+}
+
+// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
+//
+//   h        unit half vector, shading frame
+float steradian_blinn_phong_distribution(float3 h, float n) {
+    return (n + 2.0) * steradian_inverse_two_pi() * steradian_phong_power(h.z, n);
+}
+
+// ======== round: disks, ellipses, spheres, ellipsoids, tubes and lines ========
 
 // ==== conic ====
 
@@ -531,7 +936,7 @@ float solid_angle_finish(SolidAngleWalk walk, bool reversed) {
 //   scale       the unit: tau as the caller counted it is scale times tau here
 //   z1, z2      poles: roots of |u|^2 with positive imaginary part
 //   sweep       the angles under which the poles see the arc [rad], in [0, pi]
-struct ConicArc {
+struct SteradianConicArc {
     float3 u0;
     float3 u1;
     float3 u2;
@@ -547,7 +952,7 @@ struct ConicArc {
 // coefficients it would cost float 5 to 40 times the error.
 //
 //   z, o     a root and the root of the other pair
-float2 conic_slope(float2 z, float2 o, float d4) {
+float2 steradian_conic_slope(float2 z, float2 o, float d4) {
     float x = z.x - o.x;
     float y2 = (z.y - o.y) * (z.y + o.y);
     float s = 2.0 * d4 * z.y;
@@ -560,15 +965,15 @@ float2 conic_slope(float2 z, float2 o, float d4) {
 //   returns  the new root, with positive imaginary part
 //
 // The step is at most half the way to the other root plus the height above the axis, so that no start runs away.
-float2 conic_pole_step(ConicArc arc, float2 z, float2 o, float d4) {
+float2 steradian_conic_pole_step(SteradianConicArc arc, float2 z, float2 o, float d4) {
     float3 re = arc.u0 + arc.u1 * z.x + arc.u2 * (z.x * z.x - z.y * z.y);
     float3 im = (arc.u1 + arc.u2 * (2.0 * z.x)) * z.y;
     float2 value = float2(dot(re - im, re + im), 2.0 * dot(re, im));
-    float2 step = complex_quotient(value, conic_slope(z, o, d4));
+    float2 step = steradian_complex_quotient(value, steradian_conic_slope(z, o, d4));
     float2 apart = z - o;
     float apart2 = dot(apart, apart);
     float longest = 0.5 * sqrt(apart2) + z.y;
-    step = step * min(longest * rsqrt(max(dot(step, step), smallest_divisor())), 1.0);
+    step = step * min(longest * rsqrt(max(dot(step, step), steradian_smallest_divisor())), 1.0);
     bool free = apart2 > 1.0e-12 * (1.0 + dot(z, z));
     float2 next = z - steradian_select(free, step, float2(0.0, 0.0));
     return float2(next.x, max(abs(next.y), 1.0e-9));
@@ -579,16 +984,16 @@ float2 conic_pole_step(ConicArc arc, float2 z, float2 o, float d4) {
 // Number of sweeps: 2 or 3 at ordinary widths and views; a pole much nearer to the axis than its start comes down by half a
 // sweep, which makes up to 16 at alpha = 1.0e-4 and grazing views.
 // Error: in float, poles to 1.0e-3 of their height at least, and since steps square, mostly to rounding.
-QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
-    QuarticPoles poles = start;
+SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, SteradianQuarticPoles start) {
+    SteradianQuarticPoles poles = start;
     float d4 = dot(arc.u2, arc.u2);
     int sweeps = 16;
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
         if (moving) {
-            float2 z1 = conic_pole_step(arc, poles.z1, poles.z2, d4);
-            float2 z2 = conic_pole_step(arc, poles.z2, z1, d4);
+            float2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+            float2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
             float2 step1 = z1 - poles.z1;
             float2 step2 = z2 - poles.z2;
             poles.z1 = steradian_select(moving, z1, poles.z1);
@@ -600,8 +1005,8 @@ QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
 }
 
 // The angle under which a pole sees the arc [rad], in [0, pi].
-float conic_sweep(float2 z, float begin, float end) {
-    return trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
+float steradian_conic_sweep(float2 z, float begin, float end) {
+    return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
 // Prepares an arc.
@@ -611,12 +1016,12 @@ float conic_sweep(float2 z, float begin, float end) {
 //
 // Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
 // tau = 0 as it is.
-ConicArc conic_prepare(float3 u0, float3 u1, float3 u2, float begin, float end) {
+SteradianConicArc steradian_conic_prepare(float3 u0, float3 u1, float3 u2, float begin, float end) {
     float least = 1.0e-12;
-    float d0 = max(dot(u0, u0), smallest_divisor());
+    float d0 = max(dot(u0, u0), steradian_smallest_divisor());
     float d4 = dot(u2, u2);
     float ratio = sqrt(d0 / max(d4, least * d0));
-    ConicArc arc;
+    SteradianConicArc arc;
     arc.scale = sqrt(ratio);
     arc.u0 = u0;
     arc.u1 = u1 * arc.scale;
@@ -624,14 +1029,14 @@ ConicArc conic_prepare(float3 u0, float3 u1, float3 u2, float begin, float end) 
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
 
-    float inverse = 1.0 / max(dot(arc.u2, arc.u2), smallest_divisor());
-    QuarticPoles poles = quartic_poles_approximate(
+    float inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
+    SteradianQuarticPoles poles = steradian_quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = conic_polish_poles(arc, poles);
+    poles = steradian_conic_polish_poles(arc, poles);
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
-    arc.sweep = float2(conic_sweep(arc.z1, arc.begin, arc.end), conic_sweep(arc.z2, arc.begin, arc.end));
+    arc.sweep = float2(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
 }
 
@@ -639,7 +1044,7 @@ ConicArc conic_prepare(float3 u0, float3 u1, float3 u2, float begin, float end) 
 // wherever the arc passes.
 //   tau      between the arc's begin and end
 //   density  dC/dtau
-struct ConicNode {
+struct SteradianConicNode {
     float tau;
     float density;
 };
@@ -649,15 +1054,15 @@ struct ConicNode {
 //   share    in [0, 1]
 //
 // C(tau) is the argument of (b1 + i (tau - p1))(b2 + i (tau - p2)) with poles p + i b, so that tau is the root of a quadratic.
-ConicNode conic_node(ConicArc arc, float share) {
+SteradianConicNode steradian_conic_node(SteradianConicArc arc, float share) {
     float p1 = arc.z1.x;
     float p2 = arc.z2.x;
     float b1 = arc.z1.y;
     float b2 = arc.z2.y;
-    float2 start = complex_product(float2(b1, arc.begin - p1), float2(b2, arc.begin - p2));
+    float2 start = steradian_complex_product(float2(b1, arc.begin - p1), float2(b2, arc.begin - p2));
     float total = arc.sweep.x + arc.sweep.y;
     // The angle is in [0, 2 pi]: half a turn less, and the sign.
-    float2 turned = complex_product(complex_sign(start), -complex_unit(share * total - steradian_pi()));
+    float2 turned = steradian_complex_product(steradian_complex_sign(start), -steradian_complex_unit(share * total - steradian_pi()));
     float s = turned.y;
     float c = turned.x;
     float linear_term = c * (b1 + b2) - s * (p1 + p2);
@@ -666,9 +1071,9 @@ ConicNode conic_node(ConicArc arc, float share) {
     bool positive = linear_term >= 0.0;
     float top = steradian_select(positive, -2.0 * constant_term, root - linear_term);
     float bottom = steradian_select(positive, linear_term + root, 2.0 * s);
-    bool usable = abs(bottom) > smallest_divisor();
+    bool usable = abs(bottom) > steradian_smallest_divisor();
     float tau = steradian_select(usable, top / steradian_select(usable, bottom, 1.0), arc.begin);
-    ConicNode node;
+    SteradianConicNode node;
     node.tau = clamp(tau, arc.begin, arc.end);
     float x1 = node.tau - p1;
     float x2 = node.tau - p2;
@@ -680,7 +1085,7 @@ ConicNode conic_node(ConicArc arc, float share) {
 //
 //   z, o     a pole and the other one
 //   sweep    the angle under which z sees the arc
-float3 conic_residue(ConicArc arc, float2 z, float2 o, float sweep) {
+float3 steradian_conic_residue(SteradianConicArc arc, float2 z, float2 o, float sweep) {
     float3 n0 = cross(arc.u0, arc.u1);
     float3 n1 = cross(arc.u0, arc.u2) * 2.0;
     float3 n2 = cross(arc.u1, arc.u2);
@@ -690,21 +1095,21 @@ float3 conic_residue(ConicArc arc, float2 z, float2 o, float sweep) {
     float x1 = arc.end - z.x;
     float y2 = z.y * z.y;
     float2 logarithm = float2(0.5 * log((x1 * x1 + y2) / (x0 * x0 + y2)), sweep);
-    float2 factor = complex_quotient(logarithm, conic_slope(z, o, dot(arc.u2, arc.u2)));
+    float2 factor = steradian_complex_quotient(logarithm, steradian_conic_slope(z, o, dot(arc.u2, arc.u2)));
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
-float3 conic_vector_approximate(ConicArc arc) {
+// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+float3 steradian_conic_vector_approximate(SteradianConicArc arc) {
     float3 sum = float3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
     for (int i = 0; i < 16; i++) {
         int part = i / 8;
-        float2 rule = gauss_legendre_node(8, i - 8 * part);
-        ConicNode node = conic_node(arc, 0.5 * (rule.x + float(part)));
+        float2 rule = steradian_gauss_legendre_node(8, i - 8 * part);
+        SteradianConicNode node = steradian_conic_node(arc, 0.5 * (rule.x + float(part)));
         float3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
         float3 du = arc.u1 + arc.u2 * (2.0 * node.tau);
-        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), smallest_divisor())));
+        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), steradian_smallest_divisor())));
     }
     return sum;
 }
@@ -712,15 +1117,15 @@ float3 conic_vector_approximate(ConicArc arc) {
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
 // Error: docs/accuracy.md, "Float against double", conic vector.
-float3 conic_vector(ConicArc arc) {
-    float3 e = conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
+float3 steradian_conic_vector(SteradianConicArc arc) {
+    float3 e = steradian_conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + steradian_conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
     // quadrature, whose nearest singularity recedes as poles meet, is good to the digits that remain.
     float close = 1.0e-2;
     float2 apart = arc.z1 - arc.z2;
     bool meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
     if (meet) {
-        e = steradian_select(meet, conic_vector_approximate(arc), e);
+        e = steradian_select(meet, steradian_conic_vector_approximate(arc), e);
     }
     return e;
 }
@@ -732,10 +1137,10 @@ float3 conic_vector(ConicArc arc) {
 // An ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point, is a conic in tan(t/2): its irradiance
 // is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
 // lobe is sharp.
-// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
+// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see steradian_ellipse_prepare.
 
 // An ellipse, seen from the shading point.
-struct Ellipse {
+struct SteradianEllipse {
     float3 center;
     float3 axis_a;
     float3 axis_b;
@@ -744,8 +1149,8 @@ struct Ellipse {
 // Turns the axes so that the walk with growing t is in walk order.
 //
 //   axis_a, axis_b  any two conjugate half axes; they need not be orthogonal
-Ellipse ellipse_prepare(float3 center, float3 axis_a, float3 axis_b) {
-    Ellipse e;
+SteradianEllipse steradian_ellipse_prepare(float3 center, float3 axis_a, float3 axis_b) {
+    SteradianEllipse e;
     e.center = center;
     e.axis_a = axis_a;
     bool reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
@@ -754,22 +1159,22 @@ Ellipse ellipse_prepare(float3 center, float3 axis_a, float3 axis_b) {
 }
 
 // An arc of the ellipse about t = 0 (begin and end are tan(t/2)).
-ConicArc ellipse_arc(Ellipse e, float begin, float end) {
-    return conic_prepare(e.center + e.axis_a, e.axis_b * 2.0, e.center - e.axis_a, begin, end);
+SteradianConicArc steradian_ellipse_arc(SteradianEllipse e, float begin, float end) {
+    return steradian_conic_prepare(e.center + e.axis_a, e.axis_b * 2.0, e.center - e.axis_a, begin, end);
 }
 
 // Irradiance vector of the part of the ellipse above the horizon [rad]; z is the irradiance for radiance 1, in [0, pi].
 //
-//   e        of ellipse_prepare; the shading point is not in its plane
+//   e        of steradian_ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
 // Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
-float3 ellipse_irradiance_vector(Ellipse e) {
+float3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     float2 up = float2(e.axis_a.z, e.axis_b.z);
     float rise = sqrt(dot(up, up));
-    float2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, smallest_divisor())), float2(1.0, 0.0));
-    Ellipse level;
+    float2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, steradian_smallest_divisor())), float2(1.0, 0.0));
+    SteradianEllipse level;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
     level.axis_b = e.axis_b * turn.x - e.axis_a * turn.y;
@@ -779,19 +1184,19 @@ float3 ellipse_irradiance_vector(Ellipse e) {
     float bottom = rise - e.center.z;
     bool shows = top > 0.0;
     bool cut = bottom > 0.0 && shows;
-    float limit = sqrt(max(top, 0.0) / max(bottom, smallest_divisor()));
+    float limit = sqrt(max(top, 0.0) / max(bottom, steradian_smallest_divisor()));
     limit = steradian_select(cut, limit, steradian_select(shows, 1.0e15, 0.0));
     float upper = min(limit, 1.0);
-    float3 sum = conic_vector(ellipse_arc(level, -upper, upper));
+    float3 sum = steradian_conic_vector(steradian_ellipse_arc(level, -upper, upper));
     bool more = limit > 1.0;
     if (more) {
-        Ellipse back;
+        SteradianEllipse back;
         back.center = level.center;
         back.axis_a = -level.axis_a;
         back.axis_b = -level.axis_b;
         float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
         lower = steradian_select(limit > 1.0e14, 0.0, lower);
-        float3 far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
+        float3 far_side = steradian_conic_vector(steradian_ellipse_arc(back, -1.0, -lower)) + steradian_conic_vector(steradian_ellipse_arc(back, lower, 1.0));
         sum = steradian_select(more, sum + far_side, sum);
     }
     if (cut) {
@@ -801,7 +1206,7 @@ float3 ellipse_irradiance_vector(Ellipse e) {
         float3 aside = level.axis_b * (2.0 * limit * inverse);
         float3 down = middle + aside;
         float3 back_up = middle - aside;
-        float angle = trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
+        float angle = steradian_trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
         sum = steradian_select(cut, sum + float3(0.0, 0.0, 0.5 * angle), sum);
     }
     return float3(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
@@ -811,15 +1216,15 @@ float3 ellipse_irradiance_vector(Ellipse e) {
 //   ellipse  prepared
 //   turn     (cos, sin) of the t of the corner nearest to the lobe
 //   beta     1: corners at equal steps of t; below, they gather about that corner
-struct EllipseFan {
-    Ellipse ellipse;
+struct SteradianEllipseFan {
+    SteradianEllipse ellipse;
     float2 turn;
     float beta;
 };
 
 // The polygon whose corners stand at equal steps of t.
-EllipseFan ellipse_fan(Ellipse e) {
-    EllipseFan fan;
+SteradianEllipseFan steradian_ellipse_fan(SteradianEllipse e) {
+    SteradianEllipseFan fan;
     fan.ellipse = e;
     fan.turn = float2(1.0, 0.0);
     fan.beta = 1.0;
@@ -834,9 +1239,9 @@ EllipseFan ellipse_fan(Ellipse e) {
 // A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
 // the lobe's width over the rim's size say.
 // Source: this project; table of errors in docs/ggx.md.
-EllipseFan ellipse_fan_concentrated(Ellipse e, float3 r, float width) {
+SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, float3 r, float width) {
     float3 normal = cross(e.axis_a, e.axis_b);
-    float n2 = max(dot(normal, normal), smallest_divisor());
+    float n2 = max(dot(normal, normal), steradian_smallest_divisor());
     float height = dot(e.center, normal);  // > 0 in walk order
     float along = dot(r, normal);
     // Where the axis meets the plane, in units of the half axes: (x, y) / along.
@@ -844,31 +1249,31 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, float3 r, float width) {
     float2 place = float2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     float size2 = dot(place, place);
     bool off_centre = size2 > 1.0e-20;
-    EllipseFan fan;
+    SteradianEllipseFan fan;
     fan.ellipse = e;
     fan.turn = steradian_select(off_centre, place * rsqrt(max(size2, 1.0e-20)), float2(1.0, 0.0));
     float3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
     float3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
     float reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
-    float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), smallest_divisor()));
+    float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), steradian_smallest_divisor()));
     float beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
     fan.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
     return fan;
 }
 
 // (cos t, sin t) of corner k of count, counted from the middle one.
-float2 ellipse_corner(EllipseFan fan, int k, int count) {
+float2 steradian_ellipse_corner(SteradianEllipseFan fan, int k, int count) {
     float half_angle = steradian_pi() * (float(k) / float(count) - 0.5);
-    float2 u = complex_unit(half_angle);
-    float2 w = complex_sign(float2(u.x, fan.beta * u.y));
-    return complex_product(complex_product(w, w), fan.turn);
+    float2 u = steradian_complex_unit(half_angle);
+    float2 w = steradian_complex_sign(float2(u.x, fan.beta * u.y));
+    return steradian_complex_product(steradian_complex_product(w, w), fan.turn);
 }
 
 // The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
-float ellipse_gap(float2 from_corner, float2 to_corner) {
+float steradian_ellipse_gap(float2 from_corner, float2 to_corner) {
     float c = dot(from_corner, to_corner);
     float s = from_corner.x * to_corner.y - from_corner.y * to_corner.x;
-    float angle = trig_atan2_unwrapped(s, c);
+    float angle = steradian_trig_atan2_unwrapped(s, c);
     angle = clamp(angle, 0.0, 2.6);
     float sine = steradian_select(c > -0.856888753368947234 && s > 0.0, s, 0.515501371821464235);
     return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
@@ -878,12 +1283,12 @@ float ellipse_gap(float2 from_corner, float2 to_corner) {
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 // Error: docs/accuracy.md, "Float against double", ellipse.
-float3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
-    float2 before = ellipse_corner(fan, k - 1, count);
-    float2 here = ellipse_corner(fan, k, count);
-    float2 after = ellipse_corner(fan, k + 1, count);
-    float radius = sqrt(0.5 * (ellipse_gap(before, here) + ellipse_gap(here, after)));
-    Ellipse e = fan.ellipse;
+float3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
+    float2 before = steradian_ellipse_corner(fan, k - 1, count);
+    float2 here = steradian_ellipse_corner(fan, k, count);
+    float2 after = steradian_ellipse_corner(fan, k + 1, count);
+    float radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
+    SteradianEllipse e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
 }
 
@@ -906,7 +1311,7 @@ float3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
 //   at_a, at_b    places of the ends along the line, counted from there; span their distance
 //   height        distance of the line
 //   outside       whether the point is; inside there is no light
-struct Capsule {
+struct SteradianCapsule {
     float3 end_a;
     float3 end_b;
     float3 along;
@@ -925,31 +1330,31 @@ struct Capsule {
 //   radius        not negative
 //
 // Degenerate: ends that meet make a sphere. A point inside gives finite members.
-Capsule capsule_prepare(float3 end_a, float3 end_b, float radius) {
+SteradianCapsule steradian_capsule_prepare(float3 end_a, float3 end_b, float radius) {
     float3 difference = end_b - end_a;
     float span2 = dot(difference, difference);
     float a2 = dot(end_a, end_a);
     float b2 = dot(end_b, end_b);
     float3 nearer = steradian_select(a2 < b2, end_a, end_b);
     float nearer2 = min(a2, b2);
-    float3 along = difference * rsqrt(max(span2, smallest_square()));
+    float3 along = difference * rsqrt(max(span2, steradian_smallest_square()));
     float3 moment = cross(nearer, along);
     float height2 = dot(moment, moment);
     float at_a = dot(end_a, along);
     float at_b = dot(end_b, along);
     float radius2 = radius * radius;
     // From within the endless cylinder, the nearer ball hides the other.
-    bool tube = height2 > radius2 && span2 > smallest_divisor();
-    bool beside = at_a < 0.0 && at_b > 0.0 && span2 > smallest_divisor();
+    bool tube = height2 > radius2 && span2 > steradian_smallest_divisor();
+    bool beside = at_a < 0.0 && at_b > 0.0 && span2 > steradian_smallest_divisor();
 
     float nearest = sqrt(nearer2);
-    float3 direction = steradian_select(nearer2 > smallest_square(), nearer * rsqrt(max(nearer2, smallest_square())), float3(0.0, 0.0, 1.0));
-    float3x3 across = frame_from_normal(direction);
-    Capsule c;
+    float3 direction = steradian_select(nearer2 > steradian_smallest_square(), nearer * rsqrt(max(nearer2, steradian_smallest_square())), float3(0.0, 0.0, 1.0));
+    float3x3 across = steradian_frame_from_normal(direction);
+    SteradianCapsule c;
     c.end_a = steradian_select(tube, end_a, nearer);
     c.end_b = steradian_select(tube, end_b, nearer);
     c.along = steradian_select(tube, along, steradian_transform(across, float3(1.0, 0.0, 0.0)));
-    c.toward = steradian_select(tube, cross(along, moment) * rsqrt(max(height2, smallest_square())), direction);
+    c.toward = steradian_select(tube, cross(along, moment) * rsqrt(max(height2, steradian_smallest_square())), direction);
     c.at_a = steradian_select(tube, at_a, 0.0);
     c.at_b = steradian_select(tube, at_b, 0.0);
     c.span = steradian_select(tube, sqrt(span2), 0.0);
@@ -960,7 +1365,7 @@ Capsule capsule_prepare(float3 end_a, float3 end_b, float radius) {
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
-float capsule_touch(Capsule c) {
+float steradian_capsule_touch(SteradianCapsule c) {
     return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
 }
 
@@ -969,8 +1374,8 @@ float capsule_touch(Capsule c) {
 //
 //   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
 //   distance  of the end's centre
-float capsule_half_angle(Capsule c, float place, float distance) {
-    return trig_atan2(capsule_touch(c), c.radius * place / max(distance, smallest_length()));
+float steradian_capsule_half_angle(SteradianCapsule c, float place, float distance) {
+    return steradian_trig_atan2(steradian_capsule_touch(c), c.radius * place / max(distance, steradian_smallest_length()));
 }
 
 // Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
@@ -979,10 +1384,10 @@ float capsule_half_angle(Capsule c, float place, float distance) {
 //   share    of the chords' length in the width: sqrt(1 - (radius / height)^2), 1 for a line; the others as in Capsule
 //
 // The chords' parts nearly cancel for a short or distant light; their difference is formed on paper.
-float3 capsule_straight_part(float3 along, float3 toward, float at_a, float at_b, float span, float height, float angle, float share) {
+float3 steradian_capsule_straight_part(float3 along, float3 toward, float at_a, float at_b, float span, float height, float angle, float share) {
     float h2 = height * height;
     float both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
-    float chords = share * span * height / max(both, smallest_square());
+    float chords = share * span * height / max(both, steradian_smallest_square());
     return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
 }
 
@@ -993,20 +1398,20 @@ float3 capsule_straight_part(float3 along, float3 toward, float at_a, float at_b
 // Degenerate: radius 0 gives 0.
 // Error: relative to the value, but for what height and at_a, at_b lose of a capsule seen end-on.
 // Source: this project; Stokes' theorem as in conic.glsl. Small circles: Lambert 1760.
-float3 capsule_whole_vector(Capsule c) {
-    float touch = capsule_touch(c);
-    float angle = trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
-    float share = touch / max(c.height, smallest_length());
-    float slope = c.radius / max(c.height, smallest_length());
-    float3 e = capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
-    float a2 = max(dot(c.end_a, c.end_a), smallest_square());
-    float b2 = max(dot(c.end_b, c.end_b), smallest_square());
+float3 steradian_capsule_whole_vector(SteradianCapsule c) {
+    float touch = steradian_capsule_touch(c);
+    float angle = steradian_trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
+    float share = touch / max(c.height, steradian_smallest_length());
+    float slope = c.radius / max(c.height, steradian_smallest_length());
+    float3 e = steradian_capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
+    float a2 = max(dot(c.end_a, c.end_a), steradian_smallest_square());
+    float b2 = max(dot(c.end_b, c.end_b), steradian_smallest_square());
     float ia = rsqrt(a2);
     float ib = rsqrt(b2);
     float sine_a = c.radius * ia;
     float sine_b = c.radius * ib;
-    e = e + c.end_a * (sine_a * sine_a * ia * capsule_half_angle(c, -c.at_a, sqrt(a2)));
-    return e + c.end_b * (sine_b * sine_b * ib * capsule_half_angle(c, c.at_b, sqrt(b2)));
+    e = e + c.end_a * (sine_a * sine_a * ia * steradian_capsule_half_angle(c, -c.at_a, sqrt(a2)));
+    return e + c.end_b * (sine_b * sine_b * ib * steradian_capsule_half_angle(c, c.at_b, sqrt(b2)));
 }
 
 // Adds the arc of an end to a walk, clipped to the horizon z = 0.
@@ -1016,29 +1421,29 @@ float3 capsule_whole_vector(Capsule c) {
 //   half_angle  of the arc [rad], in [0, pi]
 //   start, finish  unit directions of its ends, in walk order
 //
-// Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
+// Where the arc crosses is decided by the ends' signs alone, as for straight edges (steradian_polygon_add_edge), so that both agree at
 // the joints; an arc between two ends on one side crosses twice or not at all.
-PolygonWalk capsule_add_arc(PolygonWalk walk, float3 center, float radius, float3 middle, float half_angle, float3 start, float3 finish) {
-    float d2 = max(dot(center, center), smallest_square());
+SteradianPolygonWalk steradian_capsule_add_arc(SteradianPolygonWalk walk, float3 center, float radius, float3 middle, float half_angle, float3 start, float3 finish) {
+    float d2 = max(dot(center, center), steradian_smallest_square());
     float distance = sqrt(d2);
     float inverse = 1.0 / distance;
     float tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
     float root = sqrt(max((radius - center.z) * (radius + center.z), 0.0));
 
     // Angles about the cap's centre, from its highest point: of the horizon and of the arc's middle (mirrored: >= 0).
-    float horizon = trig_atan2(distance * root, -tangent * center.z);
+    float horizon = steradian_trig_atan2(distance * root, -tangent * center.z);
     horizon = steradian_select(root > 0.0, horizon, steradian_select(center.z > 0.0, steradian_pi(), 0.0));
-    float turn = trig_atan2(abs(middle.x * center.y - middle.y * center.x) * inverse, middle.z);
+    float turn = steradian_trig_atan2(abs(middle.x * center.y - middle.y * center.x) * inverse, middle.z);
     float low = turn - half_angle;
     float high = turn + half_angle;
     float seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
     // Where the cap's rim crosses: azimuths left and right of the cap's own.
-    float flat2 = max(center.x * center.x + center.y * center.y, smallest_square());
+    float flat2 = max(center.x * center.x + center.y * center.y, steradian_smallest_square());
     float2 azimuth = float2(center.x, center.y) * rsqrt(flat2);
-    float2 tilt = complex_sign(float2(tangent, root));
-    float2 comes = complex_product(azimuth, tilt);
-    float2 goes = complex_product(azimuth, float2(tilt.x, -tilt.y));
+    float2 tilt = steradian_complex_sign(float2(tangent, root));
+    float2 comes = steradian_complex_product(azimuth, tilt);
+    float2 goes = steradian_complex_product(azimuth, float2(tilt.x, -tilt.y));
 
     bool start_below = start.z < 0.0;
     bool finish_below = finish.z < 0.0;
@@ -1052,48 +1457,48 @@ PolygonWalk capsule_add_arc(PolygonWalk walk, float3 center, float radius, float
     chord = chord - steradian_select(goes_down, float3(goes.x, goes.y, 0.0), nowhere);
 
     float sine = radius * inverse;
-    PolygonWalk next = walk;
+    SteradianPolygonWalk next = walk;
     next.edges = walk.edges + center * (0.5 * sine * sine * inverse * seen) -
                  cross(center, chord) * (0.5 * tangent * inverse * inverse);
     float2 up = steradian_select(comes_up, comes, float2(1.0, 0.0));
     float2 down = steradian_select(goes_down, float2(goes.x, -goes.y), float2(1.0, 0.0));
-    next.horizon = complex_product(walk.horizon, complex_product(up, down));
+    next.horizon = steradian_complex_product(walk.horizon, steradian_complex_product(up, down));
     return next;
 }
 
 // Irradiance vector of the part of the capsule above the horizon [sr]; z is the irradiance for radiance 1, in [0, pi].
 //
-//   c        of capsule_prepare
+//   c        of steradian_capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
 // Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
-float3 capsule_irradiance_vector(Capsule c) {
-    float3 e = capsule_whole_vector(c);
+float3 steradian_capsule_irradiance_vector(SteradianCapsule c) {
+    float3 e = steradian_capsule_whole_vector(c);
     bool cut = min(c.end_a.z, c.end_b.z) < c.radius;
     if (cut) {
         float a2 = dot(c.end_a, c.end_a);
         float b2 = dot(c.end_b, c.end_b);
         float r2 = c.radius * c.radius;
         float3 side = cross(c.toward, c.along);
-        float3 inward = c.toward * (r2 / max(c.height, smallest_length()));
-        float3 aside = side * (c.radius * capsule_touch(c) / max(c.height, smallest_length()));
-        float ia = rsqrt(max(a2 - r2, smallest_square()));
-        float ib = rsqrt(max(b2 - r2, smallest_square()));
+        float3 inward = c.toward * (r2 / max(c.height, steradian_smallest_length()));
+        float3 aside = side * (c.radius * steradian_capsule_touch(c) / max(c.height, steradian_smallest_length()));
+        float ia = rsqrt(max(a2 - r2, steradian_smallest_square()));
+        float ib = rsqrt(max(b2 - r2, steradian_smallest_square()));
         float3 a_left = (c.end_a - inward + aside) * ia;
         float3 a_right = (c.end_a - inward - aside) * ia;
         float3 b_left = (c.end_b - inward + aside) * ib;
         float3 b_right = (c.end_b - inward - aside) * ib;
-        float da = sqrt(max(a2, smallest_square()));
-        float db = sqrt(max(b2, smallest_square()));
+        float da = sqrt(max(a2, steradian_smallest_square()));
+        float db = sqrt(max(b2, steradian_smallest_square()));
         float3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
         float3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
-        PolygonWalk walk = polygon_begin();
-        walk = capsule_add_arc(walk, c.end_a, c.radius, a_middle, capsule_half_angle(c, -c.at_a, da), a_left, a_right);
-        walk = polygon_add_edge(walk, a_right, b_right);
-        walk = capsule_add_arc(walk, c.end_b, c.radius, b_middle, capsule_half_angle(c, c.at_b, db), b_right, b_left);
-        walk = polygon_add_edge(walk, b_left, a_left);
+        SteradianPolygonWalk walk = steradian_polygon_begin();
+        walk = steradian_capsule_add_arc(walk, c.end_a, c.radius, a_middle, steradian_capsule_half_angle(c, -c.at_a, da), a_left, a_right);
+        walk = steradian_polygon_add_edge(walk, a_right, b_right);
+        walk = steradian_capsule_add_arc(walk, c.end_b, c.radius, b_middle, steradian_capsule_half_angle(c, c.at_b, db), b_right, b_left);
+        walk = steradian_polygon_add_edge(walk, b_left, a_left);
         bool shows = max(c.end_a.z, c.end_b.z) > -c.radius;
-        float3 above = polygon_irradiance_vector(walk, mask_none());
+        float3 above = steradian_polygon_irradiance_vector(walk, steradian_mask_none());
         e = steradian_select(cut, steradian_select(shows, above, float3(0.0, 0.0, 0.0)), e);
     }
     e = float3(e.x, e.y, clamp(e.z, 0.0, steradian_pi()));
@@ -1106,25 +1511,25 @@ float3 capsule_irradiance_vector(Capsule c) {
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
 // Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
-// Source: as for any linear light; here the limit of capsule_whole_vector.
-float3 line_irradiance_vector(float3 end_a, float3 end_b) {
+// Source: as for any linear light; here the limit of steradian_capsule_whole_vector.
+float3 steradian_line_irradiance_vector(float3 end_a, float3 end_b) {
     float wa = abs(end_a.z);
     float wb = abs(end_b.z);
-    float3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, smallest_square()));
+    float3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, steradian_smallest_square()));
     float3 a = steradian_select(end_a.z < 0.0, crossing, end_a);
     float3 b = steradian_select(end_b.z < 0.0, crossing, end_b);
     float3 difference = b - a;
     float span2 = dot(difference, difference);
-    float3 along = difference * rsqrt(max(span2, smallest_square()));
+    float3 along = difference * rsqrt(max(span2, steradian_smallest_square()));
     float3 moment = cross(steradian_select(dot(a, a) < dot(b, b), a, b), along);
-    float height2 = max(dot(moment, moment), smallest_square());
+    float height2 = max(dot(moment, moment), steradian_smallest_square());
     float height = sqrt(height2);
     float3 toward = cross(along, moment) * (1.0 / height);
     float span = sqrt(span2);
     float at_a = dot(a, along);
     float at_b = dot(b, along);
-    float angle = trig_atan2_unwrapped(span * height, height2 + at_a * at_b);
-    float3 e = capsule_straight_part(along, toward, at_a, at_b, span, height, angle, 1.0) * (1.0 / height);
+    float angle = steradian_trig_atan2_unwrapped(span * height, height2 + at_a * at_b);
+    float3 e = steradian_capsule_straight_part(along, toward, at_a, at_b, span, height, angle, 1.0) * (1.0 / height);
     e = float3(e.x, e.y, max(e.z, 0.0));
     return steradian_select(end_a.z <= 0.0 && end_b.z <= 0.0, float3(0.0, 0.0, 0.0), e);
 }
@@ -1136,7 +1541,7 @@ float3 line_irradiance_vector(float3 end_a, float3 end_b) {
 //   turn                  (cos, sin) of the place nearest to the lobe
 //   beta                  1: equal steps; below, corners gather there
 //   first, step           of the arc's parameter, half a turn a corner
-struct CapsuleEnd {
+struct SteradianCapsuleEnd {
     float3 center;
     float3 middle;
     float3 side;
@@ -1149,25 +1554,25 @@ struct CapsuleEnd {
 };
 
 // A polygon about a capsule's outline: straight edges stay straight, each arc becomes a chain of corners.
-struct CapsuleFan {
-    CapsuleEnd a;
-    CapsuleEnd b;
+struct SteradianCapsuleFan {
+    SteradianCapsuleEnd a;
+    SteradianCapsuleEnd b;
 };
 
-// Prepares the arc of one end as a single step; capsule_fan divides it.
+// Prepares the arc of one end as a single step; steradian_capsule_fan divides it.
 //
 //   center      of the ball
 //   middle      unit, across `center`, where the arc's middle lies
-//   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
-CapsuleEnd capsule_end(float3 center, float radius, float3 middle, float half_angle, float3 r, float width) {
-    float d2 = max(dot(center, center), smallest_square());
+//   r, width    the lobe's unit axis and width [rad], as for steradian_ellipse_fan_concentrated
+SteradianCapsuleEnd steradian_capsule_end(float3 center, float radius, float3 middle, float half_angle, float3 r, float width) {
+    float d2 = max(dot(center, center), steradian_smallest_square());
     float inverse = rsqrt(d2);
-    float sine = max(radius * inverse, smallest_length());
-    float cosine2 = max(1.0 - sine * sine, smallest_length());
+    float sine = max(radius * inverse, steradian_smallest_length());
+    float cosine2 = max(1.0 - sine * sine, steradian_smallest_length());
     float cosine = sqrt(cosine2);
     float3 axis = center * inverse;
     float3 side = cross(axis, middle);
-    CapsuleEnd end;
+    SteradianCapsuleEnd end;
     end.center = center * cosine2;
     end.middle = middle * (radius * cosine);
     end.side = side * (radius * cosine);
@@ -1176,17 +1581,17 @@ CapsuleEnd capsule_end(float3 center, float radius, float3 middle, float half_an
     // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
     float along = dot(r, axis);
     float2 place = float2(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
-    float nearest = clamp(trig_atan2(place.y, place.x), -half_angle, half_angle);
-    end.turn = complex_unit(nearest);
+    float nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
+    end.turn = steradian_complex_unit(nearest);
     float2 apart = place - end.turn;
     float blur = min(1.6 * width / sine, 1.0e3);
     float beta = sqrt(min(0.5 * dot(apart, apart), 1.0e6) + blur * blur);
     end.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
 
-    float2 low = complex_unit(-0.5 * (half_angle + nearest));
-    float2 high = complex_unit(0.5 * (half_angle - nearest));
-    end.first = trig_atan2(low.y, end.beta * low.x);
-    end.step = trig_atan2(high.y, end.beta * high.x) - end.first;
+    float2 low = steradian_complex_unit(-0.5 * (half_angle + nearest));
+    float2 high = steradian_complex_unit(0.5 * (half_angle - nearest));
+    end.first = steradian_trig_atan2(low.y, end.beta * low.x);
+    end.step = steradian_trig_atan2(high.y, end.beta * high.x) - end.first;
     end.corners = 1.0;
     return end;
 }
@@ -1195,17 +1600,17 @@ CapsuleEnd capsule_end(float3 center, float radius, float3 middle, float half_an
 //
 // The outer ones lie on the straight edges' continuation and keep within 0.35 of the arc's ends: of 0.35, 0.5 and 0.7 the one
 // with the smallest errors in the test CapsulePolygons.
-float2 capsule_corner(CapsuleEnd end, float j) {
-    float2 u = complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
-    float2 w = complex_sign(float2(u.x, end.beta * u.y));
-    float2 corner = complex_product(complex_product(w, w), end.turn);
-    float2 last = complex_unit(end.half_angle);
+float2 steradian_capsule_corner(SteradianCapsuleEnd end, float j) {
+    float2 u = steradian_complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
+    float2 w = steradian_complex_sign(float2(u.x, end.beta * u.y));
+    float2 corner = steradian_complex_product(steradian_complex_product(w, w), end.turn);
+    float2 last = steradian_complex_unit(end.half_angle);
     float2 limit = float2(0.939372712847378920, 0.342897807455451364);  // (cos, sin) of 0.35
     bool outer_low = j < 0.5;
     bool outer_high = j > end.corners - 1.5;
     float2 low = float2(last.x, -last.y);
-    corner = steradian_select(outer_low && dot(corner, low) < limit.x, complex_product(low, limit), corner);
-    corner = steradian_select(outer_high && dot(corner, last) < limit.x, complex_product(last, float2(limit.x, -limit.y)), corner);
+    corner = steradian_select(outer_low && dot(corner, low) < limit.x, steradian_complex_product(low, limit), corner);
+    corner = steradian_select(outer_high && dot(corner, last) < limit.x, steradian_complex_product(last, float2(limit.x, -limit.y)), corner);
     return steradian_select(outer_low && outer_high, float2(1.0, 0.0), corner);
 }
 
@@ -1213,28 +1618,28 @@ float2 capsule_corner(CapsuleEnd end, float j) {
 // continuation where `outer`: that one's radius is given, and so is the area that it adds.
 //
 //   joint    (cos, sin) of the arc's end behind the neighbour
-float capsule_gap(float2 corner, float2 neighbour, float2 joint, bool outer) {
+float steradian_capsule_gap(float2 corner, float2 neighbour, float2 joint, bool outer) {
     float cosine = dot(corner, neighbour);
     float sine = abs(corner.x * neighbour.y - corner.y * neighbour.x);
-    float angle = clamp(trig_atan2(sine, cosine), 0.0, 2.6);
+    float angle = clamp(steradian_trig_atan2(sine, cosine), 0.0, 2.6);
     sine = steradian_select(cosine > -0.856888753368947234, sine, 0.515501371821464235);
     float even = steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
     float c = max(dot(neighbour, joint), 0.5);
     float s = abs(neighbour.x * joint.y - neighbour.y * joint.x);
-    float given = (even + (trig_atan2(s, c) - s / c) / max(sine, 1.0e-4)) * c;
+    float given = (even + (steradian_trig_atan2(s, c) - s / c) / max(sine, 1.0e-4)) * c;
     given = steradian_select(angle < 1.0e-3, 1.0, max(given, 0.5));
     return steradian_select(outer, given * given, even);
 }
 
 // Corner j of an end, as a vector from the shading point.
-float3 capsule_end_corner(CapsuleEnd end, float j) {
-    float2 here = capsule_corner(end, j);
-    float2 last = complex_unit(end.half_angle);
+float3 steradian_capsule_end_corner(SteradianCapsuleEnd end, float j) {
+    float2 here = steradian_capsule_corner(end, j);
+    float2 last = steradian_complex_unit(end.half_angle);
     float2 low = float2(last.x, -last.y);
     bool outer_low = j < 0.5;
     bool outer_high = j > end.corners - 1.5;
-    float before = capsule_gap(here, capsule_corner(end, j - 1.0), low, j < 1.5);
-    float after = capsule_gap(here, capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
+    float before = steradian_capsule_gap(here, steradian_capsule_corner(end, j - 1.0), low, j < 1.5);
+    float after = steradian_capsule_gap(here, steradian_capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
     float even = sqrt(0.5 * (before + after));
     float outer = 1.0 / max(dot(here, steradian_select(outer_low, low, last)), 0.5);
     float radius = steradian_select(outer_low || outer_high, outer, even);
@@ -1247,17 +1652,17 @@ float3 capsule_end_corner(CapsuleEnd end, float j) {
 //   r        unit axis of the lobe
 //   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
 //   count    of all corners, 6 or more; each end has its share of the steps, at least one
-CapsuleFan capsule_fan(Capsule c, float3 r, float width, int count) {
-    float da = sqrt(max(dot(c.end_a, c.end_a), smallest_square()));
-    float db = sqrt(max(dot(c.end_b, c.end_b), smallest_square()));
-    float angle_a = capsule_half_angle(c, -c.at_a, da);
-    float angle_b = capsule_half_angle(c, c.at_b, db);
+SteradianCapsuleFan steradian_capsule_fan(SteradianCapsule c, float3 r, float width, int count) {
+    float da = sqrt(max(dot(c.end_a, c.end_a), steradian_smallest_square()));
+    float db = sqrt(max(dot(c.end_b, c.end_b), steradian_smallest_square()));
+    float angle_a = steradian_capsule_half_angle(c, -c.at_a, da);
+    float angle_b = steradian_capsule_half_angle(c, c.at_b, db);
     float3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
     float3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
-    CapsuleFan fan;
-    fan.a = capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
-    fan.b = capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
-    float share = fan.a.step / max(fan.a.step + fan.b.step, smallest_length());
+    SteradianCapsuleFan fan;
+    fan.a = steradian_capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
+    fan.b = steradian_capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
+    float share = fan.a.step / max(fan.a.step + fan.b.step, steradian_smallest_length());
     fan.a.corners = 1.0 + floor(0.5 + float(count - 2) * share);
     fan.b.corners = float(count) - fan.a.corners;
     fan.a.step = fan.a.step / fan.a.corners;
@@ -1269,9 +1674,9 @@ CapsuleFan capsule_fan(Capsule c, float3 r, float width, int count) {
 // corners of the two ends lie in different planes.
 //
 // Error: see docs/ggx.md, "Round lights".
-float3 capsule_fan_corner(CapsuleFan fan, int k) {
+float3 steradian_capsule_fan_corner(SteradianCapsuleFan fan, int k) {
     bool first = float(k) < fan.a.corners;
-    CapsuleEnd end;
+    SteradianCapsuleEnd end;
     end.center = steradian_select(first, fan.a.center, fan.b.center);
     end.middle = steradian_select(first, fan.a.middle, fan.b.middle);
     end.side = steradian_select(first, fan.a.side, fan.b.side);
@@ -1281,7 +1686,7 @@ float3 capsule_fan_corner(CapsuleFan fan, int k) {
     end.beta = steradian_select(first, fan.a.beta, fan.b.beta);
     end.first = steradian_select(first, fan.a.first, fan.b.first);
     end.step = steradian_select(first, fan.a.step, fan.b.step);
-    return capsule_end_corner(end, steradian_select(first, float(k), float(k) - fan.a.corners));
+    return steradian_capsule_end_corner(end, steradian_select(first, float(k), float(k) - fan.a.corners));
 }
 
 // ==== ellipsoid ====
@@ -1289,7 +1694,7 @@ float3 capsule_fan_corner(CapsuleFan fan, int k) {
 // Spheres and ellipsoids as lights: their outline, seen from a point, is a planar ellipse.
 
 // The ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point [m], and whether it can be seen.
-struct EllipsoidOutline {
+struct SteradianEllipsoidOutline {
     float3 center;
     float3 axis_a;
     float3 axis_b;
@@ -1305,17 +1710,17 @@ struct EllipsoidOutline {
 // Degenerate: a point inside or on the ellipsoid gives outside = false and a finite outline.
 // Source: the unit sphere's outline from distance d is the circle of radius sqrt(1 - 1/d^2) at height 1/d above the
 // centre; S maps it.
-EllipsoidOutline ellipsoid_outline(float3 to_center, float3x3 s, float3x3 inverse) {
+SteradianEllipsoidOutline steradian_ellipsoid_outline(float3 to_center, float3x3 s, float3x3 inverse) {
     float3 p = -steradian_transform(inverse, to_center);
     float d2 = dot(p, p);
     float safe = max(d2, 1.000001);
     float inverse_d = rsqrt(safe);
-    float3 k = p * rsqrt(max(d2, smallest_divisor()));
+    float3 k = p * rsqrt(max(d2, steradian_smallest_divisor()));
     float rho = sqrt(1.0 - 1.0 / safe);
-    float3x3 frame = frame_from_normal(k);
+    float3x3 frame = steradian_frame_from_normal(k);
     float3 a = steradian_transform(frame, float3(rho, 0.0, 0.0));
     float3 b = steradian_transform(frame, float3(0.0, rho, 0.0));
-    EllipsoidOutline outline;
+    SteradianEllipsoidOutline outline;
     outline.center = to_center + steradian_transform(s, k * inverse_d);
     outline.axis_a = steradian_transform(s, a);
     outline.axis_b = steradian_transform(s, b);
@@ -1323,683 +1728,7 @@ EllipsoidOutline ellipsoid_outline(float3 to_center, float3x3 s, float3x3 invers
     return outline;
 }
 
-// ==== horizon_clip ====
-
-// Clipping a walked outline to the horizon, for integrals along its edges.
-//
-// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
-// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
-// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
-// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
-// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
-// different contours, and one clip serves a whole light with its holes:
-//
-//   HorizonClip clip = horizon_clip_begin();
-//   for each edge a, b of each contour:
-//       clip = horizon_clip_edge(clip, a, b);
-//       integrate clip.start, clip.end
-//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//   clip = horizon_clip_finish(clip);
-//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//
-// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
-
-// The state of a clip and what it last handed out.
-//   start, end          the edge's part above the horizon; equal where there is none
-//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
-//   closes              whether there is an arc
-//   leave               where the outline last went down and did not come back yet; zero: nowhere
-//   entry               where it came up without having been seen to go down; zero: nowhere
-struct HorizonClip {
-    float3 start;
-    float3 end;
-    float3 arc_start;
-    float3 arc_end;
-    bool closes;
-    float3 leave;
-    float3 entry;
-};
-
-// The state before the first edge.
-HorizonClip horizon_clip_begin() {
-    float3 nowhere = float3(0.0, 0.0, 0.0);
-    HorizonClip clip;
-    clip.start = nowhere;
-    clip.end = nowhere;
-    clip.arc_start = nowhere;
-    clip.arc_end = nowhere;
-    clip.closes = mask_none();
-    clip.leave = nowhere;
-    clip.entry = nowhere;
-    return clip;
-}
-
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
-//
-// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
-// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
-float3 horizon_crossing(float3 a, float3 b) {
-    float wa = abs(b.z);
-    float wb = abs(a.z);
-    float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    p = p * rsqrt(max(dot(p, p), smallest_square()));
-    return float3(p.x, p.y, 0.0);
-}
-
-// Clips one edge.
-//
-//   a, b     unit directions of the edge's ends; z < 0 is below
-//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
-HorizonClip horizon_clip_edge(HorizonClip clip, float3 a, float3 b) {
-    HorizonClip next = clip;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    next.start = a;
-    next.end = b;
-    next.closes = mask_none();
-    if (a_below || b_below) {
-        float3 nowhere = float3(0.0, 0.0, 0.0);
-        float3 crossing = horizon_crossing(a, b);
-        next.start = steradian_select(a_below, crossing, a);
-        next.end = steradian_select(b_below, crossing, b);  // both below: start = end
-        bool comes_up = a_below && !b_below;
-        bool goes_down = b_below && !a_below;
-        bool was_left = dot(clip.leave, clip.leave) > 0.5;
-        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
-        bool due = goes_down && was_left;
-        next.closes = (comes_up && was_left) || due;
-        next.arc_end = steradian_select(due, clip.entry, crossing);
-        next.arc_start = steradian_select(next.closes, clip.leave, next.arc_end);
-        next.leave = steradian_select(goes_down, crossing, steradian_select(comes_up, nowhere, clip.leave));
-        next.entry = steradian_select(comes_up && !was_left, crossing, steradian_select(due, nowhere, clip.entry));
-    }
-    return next;
-}
-
-// Ends the walk: the last arc, from where the outline went down to where it had first come up.
-HorizonClip horizon_clip_finish(HorizonClip clip) {
-    HorizonClip next = clip;
-    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
-    next.start = clip.end;
-    next.arc_start = steradian_select(next.closes, clip.leave, clip.entry);
-    next.arc_end = clip.entry;
-    return next;
-}
-
-// ==== lambert ====
-
-// The diffuse surface: the same radiance to every side.
-
-// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
-//
-//   irradiance  polygon_irradiance, in [0, pi]
-float lambert_radiance(float irradiance) {
-    return irradiance * inverse_pi();
-}
-
-// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
-float lambert_lobe(float3 l) {
-    return max(l.z, 0.0) * inverse_pi();
-}
-
-// ==== lobe_product ====
-
-// The product of cosine lobes as one lobe: peak-matched, isotropic or anisotropic.
-//
-// P(u) = product of (u.r_i)^n_i is replaced by a lobe that has its maximum, at the same place, and its curvature
-// there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
-// Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
-//
-//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
-//   for each lobe: p = lobe_product_add(p, r_i, n_i);
-//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
-//   ... the same again, then
-//   CosineLobe lobe = lobe_product_isotropic(p);
-//
-// Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
-
-// A cosine lobe: scale (u.axis)^exponent.
-struct CosineLobe {
-    float3 axis;
-    float exponent;
-    float scale;
-};
-
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
-struct StretchedLobe {
-    float3x3 frame;
-    float3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
-    float exponent;
-    float scale;
-};
-
-// Sums over the lobes, seen from a direction.
-//   about      frame whose z is that direction
-//   total      sum of n_i
-//   log_scale  sum of n_i log(z.r_i)
-//   slope      sum of n_i tau_i, tau_i = (r_i.x, r_i.y)/(r_i.z) in the frame
-//   curvature  sum of n_i tau_i tau_i^T: xx, xy, yy
-//   lowest     smallest z.r_i
-struct LobeProduct {
-    float3x3 about;
-    float total;
-    float log_scale;
-    float2 slope;
-    float3 curvature;
-    float lowest;
-};
-
-// The state before the first lobe.
-LobeProduct lobe_product_begin(float3 direction) {
-    LobeProduct p;
-    p.about = frame_from_normal(direction);
-    p.total = 0.0;
-    p.log_scale = 0.0;
-    p.slope = float2(0.0, 0.0);
-    p.curvature = float3(0.0, 0.0, 0.0);
-    p.lowest = 1.0;
-    return p;
-}
-
-// Adds (u.r)^n.
-LobeProduct lobe_product_add(LobeProduct p, float3 r, float n) {
-    float3 local = steradian_transform_transposed(p.about, r);
-    float z = max(local.z, 1.0e-4);
-    float x = local.x / z;
-    float y = local.y / z;
-    LobeProduct next = p;
-    next.total = p.total + n;
-    next.log_scale = p.log_scale + n * log(z);
-    next.slope = p.slope + float2(n * x, n * y);
-    next.curvature = p.curvature + float3(n * x * x, n * x * y, n * y * y);
-    next.lowest = min(p.lowest, local.z);
-    return next;
-}
-
-// A direction nearer to the maximum: one Newton step on the logarithm, whose Hessian is -(total + curvature).
-float3 lobe_product_newton(LobeProduct p) {
-    float xx = p.total + p.curvature.x;
-    float yy = p.total + p.curvature.z;
-    float xy = p.curvature.y;
-    float inverse = 1.0 / max(xx * yy - xy * xy, smallest_divisor());
-    float3 step_to = float3(inverse * (yy * p.slope.x - xy * p.slope.y), inverse * (xx * p.slope.y - xy * p.slope.x), 1.0);
-    float3 u = steradian_transform(p.about, step_to);
-    return u * rsqrt(dot(u, u));
-}
-
-// Height of the product at the sums' direction; 0 where a lobe does not reach.
-float lobe_product_scale(LobeProduct p) {
-    return steradian_select(p.lowest > 1.0e-4, exp(p.log_scale), 0.0);
-}
-
-// The isotropic lobe; its exponent gives the full lobe's integral the right size.
-CosineLobe lobe_product_isotropic(LobeProduct p) {
-    float xx = p.total + p.curvature.x;
-    float yy = p.total + p.curvature.z;
-    CosineLobe lobe;
-    lobe.axis = steradian_transform(p.about, float3(0.0, 0.0, 1.0));
-    lobe.exponent = sqrt(max(xx * yy - p.curvature.y * p.curvature.y, 0.0));
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// The anisotropic lobe. A linear map of determinant 1 turns it into an isotropic one and polygons into polygons:
-// the integral over a light is scale times the moment of the stretched outline about z.
-StretchedLobe lobe_product_anisotropic(LobeProduct p) {
-    float xx = p.total + p.curvature.x + 3.0;
-    float yy = p.total + p.curvature.z + 3.0;
-    float xy = p.curvature.y;
-    float d = sqrt(max(xx * yy - xy * xy, smallest_divisor()));
-    // The root of a symmetric matrix M of determinant 1 is (M + 1)/sqrt(trace M + 2).
-    float root = rsqrt((xx + yy) / d + 2.0);
-    StretchedLobe lobe;
-    lobe.frame = p.about;
-    lobe.stretch = float3(root * (xx / d + 1.0), root * xy / d, root * (yy / d + 1.0));
-    lobe.exponent = d - 3.0;
-    lobe.scale = lobe_product_scale(p);
-    return lobe;
-}
-
-// A direction in the lobe's stretched frame. It is not unit; the zero vector stays zero.
-float3 lobe_product_stretch(StretchedLobe lobe, float3 u) {
-    float3 l = steradian_transform_transposed(lobe.frame, u);
-    return float3(lobe.stretch.x * l.x + lobe.stretch.y * l.y, lobe.stretch.y * l.x + lobe.stretch.z * l.y, l.z);
-}
-
-// The maximum of (u.r1)^n1 (u.r2)^n2, in closed form: it lies in the plane of the two axes.
-//
-// Degenerate: axes 90 degrees apart and more give a direction where the product is about 0; equal axes give r1.
-float3 lobe_product_peak_of_two(float3 r1, float n1, float3 r2, float n2) {
-    float cosine = max(dot(r1, r2), 1.0e-6);
-    float3 across = r2 - r1 * dot(r1, r2);
-    float sine2 = dot(across, across);
-    float tangent = sqrt(sine2) / cosine;
-    float sum = n1 + n2;
-    float t = 2.0 * n2 * tangent / (sum + sqrt(sum * sum + 4.0 * n1 * n2 * tangent * tangent));
-    float3 u = r1 + across * (t * rsqrt(max(sine2, smallest_divisor())));
-    return u * rsqrt(dot(u, u));
-}
-
-// ==== microfacet ====
-
-// Microfacet terms: GGX and Beckmann distributions, height-correlated Smith shadowing, Schlick's Fresnel.
-//
-// Frame: z the surface normal, x and y the directions of the widths ax and ay (equal where isotropic). l light,
-// v view, h half vector, all unit and pointing away from the surface. Width alpha = roughness squared, at least 1.0e-4.
-
-// Half vector of light and view. Degenerate: l = -v gives the zero vector.
-float3 microfacet_half_vector(float3 l, float3 v) {
-    float3 h = l + v;
-    return h * rsqrt(max(dot(h, h), smallest_square()));
-}
-
-// Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
-//
-// In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
-// Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
-// "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
-float ggx_distribution(float3 h, float ax, float ay) {
-    float x = h.x / ax;
-    float y = h.y / ay;
-    float d = x * x + y * y + h.z * h.z;
-    return inverse_pi() / (ax * ay * d * d);
-}
-
-// Length of the direction w stretched by the surface: sqrt(w_z^2 + (ax w_x)^2 + (ay w_y)^2).
-float ggx_stretched_length(float3 w, float ax, float ay) {
-    float x = ax * w.x;
-    float y = ay * w.y;
-    return sqrt(x * x + y * y + w.z * w.z);
-}
-
-// Smith's shadowing and masking, height-correlated, in [0, 1].
-//
-// Degenerate: 0 where l or v is not above the surface.
-// Source: Heitz 2014, eq. 99, written without Lambda: 2 l_z v_z / (l_z |v|' + v_z |l|').
-float ggx_shadowing(float3 l, float3 v, float ax, float ay) {
-    float lz = max(l.z, 0.0);
-    float vz = max(v.z, 0.0);
-    float d = lz * ggx_stretched_length(v, ax, ay) + vz * ggx_stretched_length(l, ax, ay);
-    return 2.0 * lz * vz / max(d, smallest_square());
-}
-
-// Schlick's Fresnel with a free value at grazing.
-//
-//   f0, f90  reflectance along and across the normal
-//   v_dot_h  cosine between view and half vector
-//
-// Source: Schlick, "An inexpensive BRDF model for physically-based rendering", 1994, eq. 15.
-float fresnel_schlick(float f0, float f90, float v_dot_h) {
-    float x = clamp(1.0 - v_dot_h, 0.0, 1.0);
-    float x2 = x * x;
-    return f0 + (f90 - f0) * (x2 * x2 * x);
-}
-
-// Distribution of Beckmann: exp(-((h_x/ax)^2 + (h_y/ay)^2)/h_z^2) / (pi ax ay h_z^4).
-//
-// Degenerate: h_z is kept above 1.0e-5, where the exponential is 0 for any alpha up to 1.
-// Source: Walter et al. 2007, eq. 25.
-float beckmann_distribution(float3 h, float ax, float ay) {
-    float hz = max(h.z, 1.0e-5);
-    float x = h.x / (ax * hz);
-    float y = h.y / (ay * hz);
-    float z2 = hz * hz;
-    return inverse_pi() * exp(-(x * x + y * y)) / (ax * ay * z2 * z2);
-}
-
-// A microfacet lobe without shadowing and Fresnel: BRDF times cosine, D / (4 v_z).
-//
-//   d        distribution at the half vector
-//   l, v     directions; 0 where either is not above the surface
-float microfacet_lobe_unshadowed(float d, float3 l, float3 v) {
-    bool above = l.z > 0.0 && v.z > 0.0;
-    return steradian_select(above, d / (4.0 * max(v.z, 1.0e-6)), 0.0);
-}
-
-// The GGX lobe with shadowing, without Fresnel: BRDF times cosine, D G2 / (4 v_z).
-float ggx_lobe(float3 l, float3 v, float ax, float ay) {
-    float3 h = microfacet_half_vector(l, v);
-    float g = ggx_shadowing(l, v, ax, ay);
-    return microfacet_lobe_unshadowed(ggx_distribution(h, ax, ay) * g, l, v);
-}
-
-// ==== phong ====
-
-// Lobes that are a power of a cosine: Phong about the mirrored view, Blinn-Phong about the normal.
-
-// The logarithm of x for x in (0, 1], with small relative error up to 1: near 1 a GPU's own log promises 5e-7 of absolute error, and a
-// high exponent multiplies it.
-//
-// Error: relative 1e-7 in float for x above 0.75, 3e-16 in double; below as the built-in log.
-float phong_log(float x) {
-    float near = 0.75;
-    float result = log(x);
-    bool high = x > near;
-    if (high) {
-        // d - d^2 / (2 + d) is twice t, the first term of twice the inverse hyperbolic tangent of t: so d, which is exact, carries
-        // most of the digits. The next term is 2 t^9 / 9, relative 2e-8 at t = 1/7.
-        float d = x - 1.0;
-        float t = d / (2.0 + d);
-        float t2 = t * t;
-        float series = d - t * (d - t2 * (0.666666666666666667 + t2 * (0.4 + t2 * 0.285714285714285714)));
-        result = steradian_select(high, series, result);
-    }
-    return result;
-}
-
-// The power x^n, for x in [0, 1] and n >= 0, as exp(n log x).
-//
-// Degenerate: x <= 1.0e-30 counts as 1.0e-30 (0 for any n of use; n = 0 gives 1).
-// Error: relative, n |log x| roundings of the logarithm: where the power is not small, a few units of 1.0e-7 in float.
-float phong_power(float x, float n) {
-    return exp(n * phong_log(max(x, smallest_divisor())));
-}
-
-// The view mirrored at the surface.
-//
-//   v        view direction, shading frame
-float3 phong_mirror(float3 v) {
-    return float3(-v.x, -v.y, v.z);
-}
-
-// The Phong lobe: (n + 1) / (2 pi) max(l.r, 0)^n. Its integral over the sphere is 1; it has no foreshortening.
-//
-//   l        unit direction of the light, r unit axis of the lobe
-//   n        exponent, at least 0
-//
-// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017, eq. 10.
-float phong_lobe(float3 l, float3 r, float n) {
-    return (n + 1.0) * inverse_two_pi() * phong_power(dot(l, r), n);
-}
-
-// Distribution of half vectors of Blinn-Phong: (n + 2) / (2 pi) h_z^n, normalised over projected solid angle.
-//
-//   h        unit half vector, shading frame
-float blinn_phong_distribution(float3 h, float n) {
-    return (n + 2.0) * inverse_two_pi() * phong_power(h.z, n);
-}
-
-// ==== ggx_closed_form ====
-
-// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
-// Fresnel (ggx_cubature.glsl adds both).
-//
-// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
-// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
-// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
-//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
-//
-//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
-//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
-//
-// docs/ggx.md has the derivation.
-// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
-
-// What the lobe's integrals need of the view and the surface.
-//   v        unit view, z > 0
-//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
-//   ax, ay   widths: roughness squared, at least 1.0e-4
-//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
-struct GgxView {
-    float3 v;
-    float3 w;
-    float ax;
-    float ay;
-    float masking;
-};
-
-// Prepares a view.
-//
-// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
-GgxView ggx_view(float3 v, float ax, float ay) {
-    GgxView view;
-    float z = max(v.z, 1.0e-6);
-    view.v = float3(v.x, v.y, z);
-    view.w = float3(ax * v.x, ay * v.y, z);
-    view.ax = ax;
-    view.ay = ay;
-    view.masking = sqrt(dot(view.w, view.w)) / z;
-    return view;
-}
-
-// One edge of a light as an arc in stretched half vector space.
-//
-//   a, b     unit directions of the ends, in walk order, not below the horizon
-//
-// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
-// is further from it.
-// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-ConicArc ggx_edge(GgxView view, float3 a, float3 b) {
-    float3 chord = b - a;
-    float3 sum = a + b;
-    float chord2 = dot(chord, chord);
-    float sum2 = dot(sum, sum);
-    bool usable = chord2 > smallest_divisor() && sum2 > 1.0e-12;
-    float3 middle = sum * rsqrt(max(sum2, smallest_divisor()));
-    float3 along = chord * rsqrt(max(chord2, smallest_square()));
-    float half_sine = 0.5 * sqrt(chord2);
-    float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
-
-    bool from_end = dot(middle, view.v) > 0.9;
-    float side = steradian_select(from_end, steradian_select(dot(chord, view.v) > 0.0, -1.0, 1.0), 0.0);
-    float turn_cosine = steradian_select(from_end, half_cosine, 1.0);
-    float3 base = middle * turn_cosine + along * (side * half_sine);
-    float3 q = along * turn_cosine - middle * (side * half_sine);
-    float reach = steradian_select(usable, half_sine / (half_cosine + steradian_select(from_end, 0.0, 1.0)), 0.0);
-
-    float x = 1.0 / view.ax;
-    float y = 1.0 / view.ay;
-    float3 u0 = view.v + base;
-    float3 u2 = view.v - base;
-    return conic_prepare(
-        float3(u0.x * x, u0.y * y, u0.z), float3(q.x * x, q.y * y, q.z) * 2.0, float3(u2.x * x, u2.y * y, u2.z),
-        steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
-}
-
-// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
-//
-//   e        sum over the edges of conic_vector, negated where the light is seen from behind
-//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
-float ggx_unshadowed(GgxView view, float3 e) {
-    return max(dot(view.w, e), 0.0) * inverse_pi() / view.v.z;
-}
-
-// ==== ggx_cubature ====
-
-// Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
-//
-// Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
-//   GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
-//   for each edge: c = ggx_cubature_edge(c, edge, extra_nodes);
-//   vec2 r = ggx_cubature_finish(c);         // or, without the second walk: ggx_draft(view, e, smith, facing)
-//   radiance = ggx_radiance(r, f0, f90)      // per channel
-//
-// In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
-// equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
-// The measure itself is exact; only the smooth factor G2 F is sampled.
-
-// The state of the second walk.
-//   centre          us
-//   amount          what the distribution alone sends (ggx_unshadowed)
-//   extent          the length of E
-//   smith           1 with shadowing, 0 without
-//   facing          -1 where the light is seen from behind
-//   weight          sum of the weights; weighted: of weight times (G2, G2 (1 - v.h)^5)
-//   centre_weight   share of the weights that belongs to the centre
-//   at_centre       (G2, G2 (1 - v.h)^5) there
-//   lowest, highest of all values with weight
-struct GgxCubature {
-    GgxView view;
-    float3 centre;
-    float amount;
-    float extent;
-    float smith;
-    float facing;
-    float weight;
-    float centre_weight;
-    float2 weighted;
-    float2 at_centre;
-    float2 lowest;
-    float2 highest;
-};
-
-// Shadowing, and shadowing times Schlick's (1 - v.h)^5, at a direction of stretched half vector space.
-//
-//   u        unit
-//   smith    1 with shadowing, 0 without
-//   returns  (0, 0) where the mirrored light is not above the surface
-float2 ggx_shadowing_and_fresnel(GgxView view, float3 u, float smith) {
-    float3 h = float3(view.ax * u.x, view.ay * u.y, u.z);
-    h = h * rsqrt(max(dot(h, h), smallest_divisor()));
-    float v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
-    float3 l = h * (2.0 * v_dot_h) - view.v;
-    float lz = max(l.z, 0.0);
-    float shadowing = 2.0 * lz / max(lz * view.masking + ggx_stretched_length(l, view.ax, view.ay), smallest_divisor());
-    float g = steradian_select(l.z > 0.0, 1.0 + smith * (shadowing - 1.0), 0.0);
-    float x = 1.0 - v_dot_h;
-    float x2 = x * x;
-    return float2(g, g * (x2 * x2 * x));
-}
-
-// Starts the second walk.
-//
-//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
-//   smith    1.0: height-correlated shadowing; 0.0: none
-//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
-GgxCubature ggx_cubature_begin(GgxView view, float3 e, float smith, float facing) {
-    GgxCubature c;
-    float3 inward = e * facing;
-    float length2 = dot(inward, inward);
-    bool usable = length2 > smallest_square();
-    c.view = view;
-    c.centre = steradian_select(usable, inward * rsqrt(max(length2, smallest_square())), float3(0.0, 0.0, 1.0));
-    c.amount = steradian_select(usable, ggx_unshadowed(view, inward), 0.0);
-    c.extent = sqrt(length2);
-    c.smith = smith;
-    c.facing = facing;
-    c.weight = 0.0;
-    c.centre_weight = 0.0;
-    c.weighted = float2(0.0, 0.0);
-    c.at_centre = ggx_shadowing_and_fresnel(view, c.centre, smith);
-    c.lowest = c.at_centre;
-    c.highest = c.at_centre;
-    return c;
-}
-
-// Adds one node.
-//
-//   u        unit direction in stretched half vector space
-//   weight   0 for a lane that does not have this node
-GgxCubature ggx_cubature_add(GgxCubature c, float3 u, float weight) {
-    GgxCubature next = c;
-    float o = weight * max(dot(c.view.w, u), 0.0);
-    float2 g = ggx_shadowing_and_fresnel(c.view, u, c.smith);
-    bool counts = abs(o) > 0.0;
-    next.weight = c.weight + o;
-    next.weighted = c.weighted + g * o;
-    next.lowest = steradian_select(counts, float2(min(c.lowest.x, g.x), min(c.lowest.y, g.y)), c.lowest);
-    next.highest = steradian_select(counts, float2(max(c.highest.x, g.x), max(c.highest.y, g.y)), c.highest);
-    return next;
-}
-
-// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
-float2 ggx_rule(float n, int j) {
-    float2 r = gauss_legendre_node(1, j);
-    for (int k = 2; k <= 6; k++) {
-        r = steradian_select(n > float(k) - 0.5, gauss_legendre_node(k, j), r);
-    }
-    return r;
-}
-
-// Adds the nodes of one edge.
-//
-//   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
-//
-// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
-// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
-GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
-    GgxCubature next = c;
-    float total = edge.sweep.x + edge.sweep.y;
-    float n = 1.0 + steradian_select(total < 0.25, 0.0, 1.0) + steradian_select(total < 0.8, 0.0, 1.0) + steradian_select(total < 1.6, 0.0, 1.0) + float(extra);
-    bool fine = total >= 0.5;
-    if (extra > 0) {
-        fine = total > -1.0;
-    }
-    for (int j = 0; j < 4 + extra; j++) {
-        bool present = n > float(j) + 0.5 && total > 0.0;
-        if (present) {
-            float2 rule = ggx_rule(n, j);
-            ConicNode node = conic_node(edge, rule.x);
-            float3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
-            float3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            float inverse2 = 1.0 / max(dot(u, u), smallest_divisor());
-            float3 rim = u * sqrt(inverse2);
-            float rim_cosine = dot(rim, c.centre);
-            float3 out_of_centre = rim - c.centre * rim_cosine;
-            float3 outward = out_of_centre * rsqrt(max(dot(out_of_centre, out_of_centre), smallest_divisor()));
-            float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
-                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
-            om = steradian_select(present, om, 0.0);
-
-            float first = steradian_select(fine, 0.355051025721682190, 0.666666666666666667);
-            float first_weight = steradian_select(fine, 0.512485826188421615, 0.75);
-            float centre_weight = steradian_select(fine, 0.111111111111111111, 0.25);
-            float cosine = 1.0 - (1.0 - rim_cosine) * first;
-            float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-            next = ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
-            next.centre_weight = next.centre_weight + om * centre_weight;
-            if (fine && present) {
-                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
-                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-                om = steradian_select(fine, om * 0.376403062700467274, 0.0);
-                next = ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
-            }
-        }
-    }
-    return next;
-}
-
-// Limits what leaves: with shadowing no lobe sends more than it gets.
-//
-//   mean     means of (G2, G2 (1 - v.h)^5)
-float2 ggx_limited(float amount, float2 mean, float smith) {
-    float whole = amount * mean.x;
-    whole = steradian_select(smith > 0.5, min(whole, 1.0), whole);
-    return float2(whole, clamp(amount * mean.y, 0.0, whole));
-}
-
-// Ends the second walk.
-//
-//   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
-//
-// Degenerate: weights that cancel leave the centre's value.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
-float2 ggx_cubature_finish(GgxCubature c) {
-    // The centre's values are known all along, its weight only now.
-    float o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
-    float weight = c.weight + o;
-    bool usable = weight > 1.0e-9 * c.extent;
-    float scale = 1.0 / steradian_select(usable, weight, 1.0);
-    float2 mean = (c.weighted + c.at_centre * o) * scale;
-    mean = float2(clamp(mean.x, c.lowest.x, c.highest.x), clamp(mean.y, c.lowest.y, c.highest.y));
-    mean = steradian_select(usable, mean, c.at_centre);
-    return ggx_limited(c.amount, mean, c.smith);
-}
-
-// Shadowing and Fresnel at the centre only: one walk. Arguments as ggx_cubature_begin, result as ggx_cubature_finish.
-float2 ggx_draft(GgxView view, float3 e, float smith, float facing) {
-    GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
-    return ggx_limited(c.amount, c.at_centre, smith);
-}
-
-// Radiance of one channel, for radiance 1.
-//
-//   r        of ggx_cubature_finish or ggx_draft
-//   f0, f90  Schlick's reflectances
-float ggx_radiance(float2 r, float f0, float f90) {
-    return f0 * (r.x - r.y) + f90 * r.y;
-}
+// ======== phong: Phong's lobe over polygons, exactly and by a series ========
 
 // ==== moment ====
 
@@ -2013,7 +1742,7 @@ float ggx_radiance(float2 r, float f0, float f90) {
 // y = c sin phi. The edge's share is
 //     sign(s) * ( |s| * integral of (1 - x^m)/(1 - x^2) dphi  over the part in front of the lobe's equator
 //                 + the azimuth that the part behind sweeps ).
-// moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
+// steradian_moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
 //
 // Frame: any; r is the unit axis. Edges in walk order (kernels/outline/polygon.glsl), clipped to the surface's horizon
 // (kernels/outline/horizon_clip.glsl) before, so that -r cannot be inside a light.
@@ -2027,7 +1756,7 @@ float ggx_radiance(float2 r, float f0, float f90) {
 //   x0, y0, x1, y1  the ends of the part in front, (c cos phi, c sin phi); equal where there is none
 //   log_c           -log(c^2), accurate for c near 1
 //   swept           azimuth that the part behind sweeps, positive [rad]
-struct MomentEdge {
+struct SteradianMomentEdge {
     float side;
     float s;
     float c;
@@ -2040,7 +1769,7 @@ struct MomentEdge {
 };
 
 // log(1 + z) for z >= 0. Error: relative 3e-7 in float, 1e-13 in double.
-float moment_log_1_plus(float z) {
+float steradian_moment_log_1_plus(float z) {
     float near = 0.25;
     // Twice the inverse hyperbolic tangent of t; the next term is t^10 / 11.
     float t = z / (2.0 + z);
@@ -2050,7 +1779,7 @@ float moment_log_1_plus(float z) {
 }
 
 // 1 - exp(-x) for x >= 0. Error: relative 3e-7 in float, 1e-13 in double.
-float moment_1_minus_exp(float x) {
+float steradian_moment_1_minus_exp(float x) {
     float near = 0.25;
     float result = 1.0 - exp(-x);
     bool small = x < near;
@@ -2063,12 +1792,12 @@ float moment_1_minus_exp(float x) {
 }
 
 // Angle in [0, pi] from the direction (w x0, y0) to (w x1, y1): the definite integral of atan(tan(phi) / w).
-float moment_angle(float w, float x0, float y0, float x1, float y1) {
-    return trig_atan2_unwrapped(w * (x0 * y1 - x1 * y0), w * w * x0 * x1 + y0 * y1);
+float steradian_moment_angle(float w, float x0, float y0, float x1, float y1) {
+    return steradian_trig_atan2_unwrapped(w * (x0 * y1 - x1 * y0), w * w * x0 * x1 + y0 * y1);
 }
 
 // -log(1 - s2), from s2 where it is small and from c2 = 1 - s2 where that is. Error: relative 3e-6 in float, 1e-13.
-float moment_minus_log_cosine2(float s2, float c2) {
+float steradian_moment_minus_log_cosine2(float s2, float c2) {
     float near = 0.05;
     float result = -log(c2);
     bool small = s2 < near;
@@ -2087,23 +1816,23 @@ float moment_minus_log_cosine2(float s2, float c2) {
 //
 // Degenerate: a = b, a = -b or a zero vector gives an edge that adds nothing. An axis within 1e-3 of the normal of
 // the edge's plane sees the whole edge near its equator, where the integrand is 1: all of it counts as swept.
-MomentEdge moment_edge(float3 a, float3 b, float3 r) {
+SteradianMomentEdge steradian_moment_edge(float3 a, float3 b, float3 r) {
     float pole2 = 1.0e-6;
     float3 n = cross(a, b);
     float n2 = dot(n, n);
-    bool has_length = n2 > smallest_divisor();
-    n = n * rsqrt(max(n2, smallest_divisor()));
+    bool has_length = n2 > steradian_smallest_divisor();
+    n = n * rsqrt(max(n2, steradian_smallest_divisor()));
     float s = dot(n, r);
     float3 q = cross(n, r);
     // The share vanishes with s, like s sqrt(n/2) in the highlight: a floor of 1e-10 would show there.
-    float s2 = clamp(s * s, smallest_divisor(), 1.0);
+    float s2 = clamp(s * s, steradian_smallest_divisor(), 1.0);
     float c2 = clamp(dot(q, q), pole2, 1.0);
 
-    MomentEdge edge;
+    SteradianMomentEdge edge;
     edge.side = steradian_select(has_length, steradian_select(s < 0.0, -1.0, 1.0), 0.0);
     edge.s = s2 * rsqrt(s2);
     edge.c = c2 * rsqrt(c2);
-    edge.log_c = moment_minus_log_cosine2(s2, c2);
+    edge.log_c = steradian_moment_minus_log_cosine2(s2, c2);
     float x0 = dot(a, r);
     float y0 = dot(a, q);
     float x1 = dot(b, r);
@@ -2123,11 +1852,11 @@ MomentEdge moment_edge(float3 a, float3 b, float3 r) {
         edge.y0 = steradian_select(none, edge.c, steradian_select(behind0, -edge.c, y0));
         edge.x1 = steradian_select(behind1 || none, 0.0, x1);
         edge.y1 = steradian_select(behind1 || none, edge.c, y1);
-        float whole = moment_angle(edge.s, x0, y0, x1, y1);
-        float in_front = moment_angle(edge.s, edge.x0, edge.y0, edge.x1, edge.y1);
+        float whole = steradian_moment_angle(edge.s, x0, y0, x1, y1);
+        float in_front = steradian_moment_angle(edge.s, edge.x0, edge.y0, edge.x1, edge.y1);
         float swept = steradian_select(none, whole, max(whole - in_front, 0.0));
         if (pole) {
-            float arc = trig_atan2(sqrt(n2), dot(a, b));
+            float arc = steradian_trig_atan2(sqrt(n2), dot(a, b));
             swept = steradian_select(pole, arc, swept);
         }
         edge.swept = steradian_select(behind0 || behind1 || pole, swept, 0.0);
@@ -2138,7 +1867,7 @@ MomentEdge moment_edge(float3 a, float3 b, float3 r) {
 // The edge's share of m times the moment.
 //
 //   front    |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, by any method
-float moment_edge_share(MomentEdge edge, float front) {
+float steradian_moment_edge_share(SteradianMomentEdge edge, float front) {
     return edge.side * (front + edge.swept);
 }
 
@@ -2148,8 +1877,8 @@ float moment_edge_share(MomentEdge edge, float front) {
 //   reversed true where the light is seen from behind, so that the walk ran the wrong way round
 //
 // Source: Lecocq et al. 2017, eq. 10: (n + 1)/(2 pi) times the moment; without foreshortening.
-float moment_phong_radiance(float sum, bool reversed) {
-    return clamp(steradian_select(reversed, -sum, sum) * inverse_two_pi(), 0.0, 1.0);
+float steradian_moment_phong_radiance(float sum, bool reversed) {
+    return clamp(steradian_select(reversed, -sum, sum) * steradian_inverse_two_pi(), 0.0, 1.0);
 }
 
 // ==== moment_quadrature ====
@@ -2157,14 +1886,14 @@ float moment_phong_radiance(float sum, bool reversed) {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides moment_quadrature_piece until it converges (source/moment/exact_moment.cpp); moment_quadrature_front
+// subdivides steradian_moment_quadrature_piece until it converges (source/moment/exact_moment.cpp); steradian_moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
 // What the integrand needs of an edge and a lobe.
 //   t0, t1   ends of the part in front
-struct MomentQuadrature {
+struct SteradianMomentQuadrature {
     float m;
     float s2;
     float c2;
@@ -2175,34 +1904,34 @@ struct MomentQuadrature {
 };
 
 // The parameter t = tan(u/2) of the direction (w x, y), x >= 0, whose angle is u.
-float moment_quadrature_parameter(float w, float x, float y) {
+float steradian_moment_quadrature_parameter(float w, float x, float y) {
     float wx = w * x;
-    return clamp(y / max(wx + sqrt(wx * wx + y * y), smallest_length()), -1.0, 1.0);
+    return clamp(y / max(wx + sqrt(wx * wx + y * y), steradian_smallest_length()), -1.0, 1.0);
 }
 
 // Prepares the integrand of one edge for a lobe of exponent n.
-MomentQuadrature moment_quadrature_prepare(MomentEdge edge, float n) {
-    MomentQuadrature q;
+SteradianMomentQuadrature steradian_moment_quadrature_prepare(SteradianMomentEdge edge, float n) {
+    SteradianMomentQuadrature q;
     q.m = n + 1.0;
     q.s2 = edge.s * edge.s;
     q.c2 = edge.c * edge.c;
-    q.kap = sqrt(moment_1_minus_exp(0.5 * q.m * edge.log_c));
+    q.kap = sqrt(steradian_moment_1_minus_exp(0.5 * q.m * edge.log_c));
     q.w = edge.s / q.kap;
-    q.t0 = moment_quadrature_parameter(q.w, edge.x0, edge.y0);
-    q.t1 = moment_quadrature_parameter(q.w, edge.x1, edge.y1);
+    q.t0 = steradian_moment_quadrature_parameter(q.w, edge.x0, edge.y0);
+    q.t1 = steradian_moment_quadrature_parameter(q.w, edge.x1, edge.y1);
     return q;
 }
 
 // Both integrands at t, with du/dt included.
 //   moment   |s| (1 - x^m)/(1 - x^2) dphi = kap E du, E = w^2 (1 - x^m)/Q, Q = s^2 cos^2 u + w^2 sin^2 u
 //   power    x^m dphi
-struct MomentIntegrands {
+struct SteradianMomentIntegrands {
     float moment;
     float power;
 };
 
 // The integrands at one t.
-MomentIntegrands moment_quadrature_integrands(MomentQuadrature q, float t) {
+SteradianMomentIntegrands steradian_moment_quadrature_integrands(SteradianMomentQuadrature q, float t) {
     float t2 = t * t;
     float d = 1.0 / (1.0 + t2);
     float cos_u = max((1.0 - t2) * d, 1.0e-15);
@@ -2210,37 +1939,37 @@ MomentIntegrands moment_quadrature_integrands(MomentQuadrature q, float t) {
     float cos2 = cos_u * cos_u;
     float wsin2 = q.w * q.w * sin_u * sin_u;
     float Q = q.s2 * cos2 + wsin2;
-    float exponent = 0.5 * q.m * moment_log_1_plus(Q / (q.c2 * cos2));  // -log(x^m)
-    MomentIntegrands result;
-    result.moment = 2.0 * d * q.kap * q.w * q.w * moment_1_minus_exp(exponent) / Q;
+    float exponent = 0.5 * q.m * steradian_moment_log_1_plus(Q / (q.c2 * cos2));  // -log(x^m)
+    SteradianMomentIntegrands result;
+    result.moment = 2.0 * d * q.kap * q.w * q.w * steradian_moment_1_minus_exp(exponent) / Q;
     result.power = 2.0 * d * q.w * exp(-exponent) / (cos2 + wsin2);
     return result;
 }
 
 // Adds one pair of nodes at mid - offset and mid + offset.
-MomentIntegrands moment_quadrature_pair(MomentIntegrands sum, MomentQuadrature q, float mid, float offset, float weight) {
-    MomentIntegrands a = moment_quadrature_integrands(q, mid - offset);
-    MomentIntegrands b = moment_quadrature_integrands(q, mid + offset);
-    MomentIntegrands next;
+SteradianMomentIntegrands steradian_moment_quadrature_pair(SteradianMomentIntegrands sum, SteradianMomentQuadrature q, float mid, float offset, float weight) {
+    SteradianMomentIntegrands a = steradian_moment_quadrature_integrands(q, mid - offset);
+    SteradianMomentIntegrands b = steradian_moment_quadrature_integrands(q, mid + offset);
+    SteradianMomentIntegrands next;
     next.moment = sum.moment + weight * (a.moment + b.moment);
     next.power = sum.power + weight * (a.power + b.power);
     return next;
 }
 
 // Both integrals from t = low to t = high.
-MomentIntegrands moment_quadrature_piece(MomentQuadrature q, float low, float high) {
+SteradianMomentIntegrands steradian_moment_quadrature_piece(SteradianMomentQuadrature q, float low, float high) {
     float mid = 0.5 * (low + high);
     float h = 0.5 * (high - low);
-    MomentIntegrands sum;
+    SteradianMomentIntegrands sum;
     sum.moment = 0.0;
     sum.power = 0.0;
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.986283808696812339, h * 0.035119460331751863);
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.928434883663573517, h * 0.080158087159760210);
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.827201315069764993, h * 0.121518570687903185);
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.687292904811685470, h * 0.157203167158193535);
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.515248636358154092, h * 0.185538397477937814);
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.319112368927889760, h * 0.205198463721295604);
-    sum = moment_quadrature_pair(sum, q, mid, h * 0.108054948707343662, h * 0.215263853463157790);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.986283808696812339, h * 0.035119460331751863);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.928434883663573517, h * 0.080158087159760210);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.827201315069764993, h * 0.121518570687903185);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.687292904811685470, h * 0.157203167158193535);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.515248636358154092, h * 0.185538397477937814);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.319112368927889760, h * 0.205198463721295604);
+    sum = steradian_moment_quadrature_pair(sum, q, mid, h * 0.108054948707343662, h * 0.215263853463157790);
     return sum;
 }
 
@@ -2249,11 +1978,11 @@ MomentIntegrands moment_quadrature_piece(MomentQuadrature q, float low, float hi
 //   power    the integral of x^m dphi
 //
 // Error: see docs/accuracy.md, "phong quadrature".
-MomentIntegrands moment_quadrature_front(MomentEdge edge, float n) {
-    MomentQuadrature q = moment_quadrature_prepare(edge, n);
-    MomentIntegrands to0 = moment_quadrature_piece(q, 0.0, q.t0);
-    MomentIntegrands to1 = moment_quadrature_piece(q, 0.0, q.t1);
-    MomentIntegrands result;
+SteradianMomentIntegrands steradian_moment_quadrature_front(SteradianMomentEdge edge, float n) {
+    SteradianMomentQuadrature q = steradian_moment_quadrature_prepare(edge, n);
+    SteradianMomentIntegrands to0 = steradian_moment_quadrature_piece(q, 0.0, q.t0);
+    SteradianMomentIntegrands to1 = steradian_moment_quadrature_piece(q, 0.0, q.t1);
+    SteradianMomentIntegrands result;
     result.moment = max(to1.moment - to0.moment, 0.0);
     result.power = max(to1.power - to0.power, 0.0);
     return result;
@@ -2273,7 +2002,7 @@ MomentIntegrands moment_quadrature_front(MomentEdge edge, float n) {
 // Source: this project (docs/moments.md).
 
 // A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
-struct MomentSeries {
+struct SteradianMomentSeries {
     float m;
     float4 b0;
     float4 b1;
@@ -2282,7 +2011,7 @@ struct MomentSeries {
 };
 
 // The series of high quality: two harmonics more, each a quintic; low holds its first three coefficients.
-struct MomentSeriesHigh {
+struct SteradianMomentSeriesHigh {
     float m;
     float3 low0;
     float3 high0;
@@ -2300,9 +2029,9 @@ struct MomentSeriesHigh {
 
 // The series of the lobe of exponent n. Prepare once per lobe.
 // Largest error 2.7e-04 of the full lobe for a piece of an edge that begins at the foot.
-MomentSeries moment_series_prepare(float n) {
+SteradianMomentSeries steradian_moment_series_prepare(float n) {
     float g = 1.0 / (n + 1.0);
-    MomentSeries series;
+    SteradianMomentSeries series;
     series.m = n + 1.0;
     series.b0 = float4(
         0.12391 + g * (-0.25888 + g * 0.02078),
@@ -2328,9 +2057,9 @@ MomentSeries moment_series_prepare(float n) {
 }
 
 // Largest error 5.2e-05 of the full lobe for a piece of an edge that begins at the foot.
-MomentSeriesHigh moment_series_high_prepare(float n) {
+SteradianMomentSeriesHigh steradian_moment_series_high_prepare(float n) {
     float g = 1.0 / (n + 1.0);
-    MomentSeriesHigh series;
+    SteradianMomentSeriesHigh series;
     series.m = n + 1.0;
     series.low0 = float3(
         0.12669 + g * (-0.27819 + g * 0.04967),
@@ -2384,12 +2113,12 @@ MomentSeriesHigh moment_series_high_prepare(float n) {
 }
 
 // A harmonic's amplitude over 1 - kap2, at t = kap2.
-float moment_series_cubic(float4 b, float t) {
+float steradian_moment_series_cubic(float4 b, float t) {
     return ((b.w * t + b.z) * t + b.y) * t + b.x;
 }
 
 // A harmonic's amplitude over 1 - kap2 in high quality, at t = kap2.
-float moment_series_quintic(float3 low, float3 high, float t) {
+float steradian_moment_series_quintic(float3 low, float3 high, float t) {
     return ((((high.z * t + high.y) * t + high.x) * t + low.z) * t + low.y) * t + low.x;
 }
 
@@ -2398,7 +2127,7 @@ float moment_series_quintic(float3 low, float3 high, float t) {
 //   du         angle from end to end [rad]
 //   cosine     twice the cosine of 2u at end 0 and end 1
 //   sine       the sine of 2u
-struct MomentWarp {
+struct SteradianMomentWarp {
     float kap;
     float kap2;
     float du;
@@ -2407,19 +2136,19 @@ struct MomentWarp {
 };
 
 // Finds the ellipsoid of one edge for a lobe of exponent m - 1.
-MomentWarp moment_warp(MomentEdge edge, float m) {
-    MomentWarp warp;
-    warp.kap2 = moment_1_minus_exp(0.5 * m * edge.log_c);
+SteradianMomentWarp steradian_moment_warp(SteradianMomentEdge edge, float m) {
+    SteradianMomentWarp warp;
+    warp.kap2 = steradian_moment_1_minus_exp(0.5 * m * edge.log_c);
     float over_kap = rsqrt(warp.kap2);
     warp.kap = warp.kap2 * over_kap;
     float w = edge.s * over_kap;
     float wx0 = w * edge.x0;
     float wx1 = w * edge.x1;
-    warp.du = trig_atan2_unwrapped(wx0 * edge.y1 - wx1 * edge.y0, wx0 * wx1 + edge.y0 * edge.y1);
+    warp.du = steradian_trig_atan2_unwrapped(wx0 * edge.y1 - wx1 * edge.y0, wx0 * wx1 + edge.y0 * edge.y1);
     // One division for both ends: they are at least c^2 w^2, 1e-10 where the pole begins.
     float d0 = wx0 * wx0 + edge.y0 * edge.y0;
     float d1 = wx1 * wx1 + edge.y1 * edge.y1;
-    float over_both = 2.0 / max(d0 * d1, smallest_divisor());
+    float over_both = 2.0 / max(d0 * d1, steradian_smallest_divisor());
     float scale0 = over_both * d1;
     float scale1 = over_both * d0;
     warp.cosine = float2(scale0 * (wx0 * wx0 - edge.y0 * edge.y0), scale1 * (wx1 * wx1 - edge.y1 * edge.y1));
@@ -2429,39 +2158,39 @@ MomentWarp moment_warp(MomentEdge edge, float m) {
 
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
 //
-//   edge     by moment_edge
-//   series   by moment_series_prepare, n >= 1
+//   edge     by steradian_moment_edge
+//   series   by steradian_moment_series_prepare, n >= 1
 //
 // Error: see docs/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
-float moment_series_front(MomentEdge edge, MomentSeries series) {
-    MomentWarp warp = moment_warp(edge, series.m);
+float steradian_moment_series_front(SteradianMomentEdge edge, SteradianMomentSeries series) {
+    SteradianMomentWarp warp = steradian_moment_warp(edge, series.m);
     float t = warp.kap2;
     // sin(2(k + 1)u) = 2 cos(2u) sin(2ku) - sin(2(k - 1)u), at both ends.
     float2 s1 = warp.sine;
     float2 s2 = float2(warp.cosine.x * s1.x, warp.cosine.y * s1.y);
     float2 s3 = float2(warp.cosine.x * s2.x - s1.x, warp.cosine.y * s2.y - s1.y);
-    float bump = moment_series_cubic(series.b0, t) * warp.du
-              + moment_series_cubic(series.b1, t) * (s1.y - s1.x) * 0.5
-              + moment_series_cubic(series.b2, t) * (s2.y - s2.x) * 0.25
-              + moment_series_cubic(series.b3, t) * (s3.y - s3.x) * 0.166666666666666667;
+    float bump = steradian_moment_series_cubic(series.b0, t) * warp.du
+              + steradian_moment_series_cubic(series.b1, t) * (s1.y - s1.x) * 0.5
+              + steradian_moment_series_cubic(series.b2, t) * (s2.y - s2.x) * 0.25
+              + steradian_moment_series_cubic(series.b3, t) * (s3.y - s3.x) * 0.166666666666666667;
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// What moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
-float moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
-    MomentWarp warp = moment_warp(edge, series.m);
+// What steradian_moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+float steradian_moment_series_high_front(SteradianMomentEdge edge, SteradianMomentSeriesHigh series) {
+    SteradianMomentWarp warp = steradian_moment_warp(edge, series.m);
     float t = warp.kap2;
     float2 s1 = warp.sine;
     float2 s2 = float2(warp.cosine.x * s1.x, warp.cosine.y * s1.y);
     float2 s3 = float2(warp.cosine.x * s2.x - s1.x, warp.cosine.y * s2.y - s1.y);
     float2 s4 = float2(warp.cosine.x * s3.x - s2.x, warp.cosine.y * s3.y - s2.y);
     float2 s5 = float2(warp.cosine.x * s4.x - s3.x, warp.cosine.y * s4.y - s3.y);
-    float bump = moment_series_quintic(series.low0, series.high0, t) * warp.du
-              + moment_series_quintic(series.low1, series.high1, t) * (s1.y - s1.x) * 0.5
-              + moment_series_quintic(series.low2, series.high2, t) * (s2.y - s2.x) * 0.25
-              + moment_series_quintic(series.low3, series.high3, t) * (s3.y - s3.x) * 0.166666666666666667
-              + moment_series_quintic(series.low4, series.high4, t) * (s4.y - s4.x) * 0.125
-              + moment_series_quintic(series.low5, series.high5, t) * (s5.y - s5.x) * 0.1;
+    float bump = steradian_moment_series_quintic(series.low0, series.high0, t) * warp.du
+              + steradian_moment_series_quintic(series.low1, series.high1, t) * (s1.y - s1.x) * 0.5
+              + steradian_moment_series_quintic(series.low2, series.high2, t) * (s2.y - s2.x) * 0.25
+              + steradian_moment_series_quintic(series.low3, series.high3, t) * (s3.y - s3.x) * 0.166666666666666667
+              + steradian_moment_series_quintic(series.low4, series.high4, t) * (s4.y - s4.x) * 0.125
+              + steradian_moment_series_quintic(series.low5, series.high5, t) * (s5.y - s5.x) * 0.1;
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
@@ -2478,9 +2207,9 @@ float moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
 //
 // Error: relative to the integral up to pi/2, 7e-5 at n = 4, 7e-6 at n = 8, 3e-6 at n = 10, 2e-7 at n = 20.
 // Source of the error function: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
-float moment_cosine_from_foot(float x, float y, float n) {
+float steradian_moment_cosine_from_foot(float x, float y, float n) {
     float a = n + 0.5;
-    float v2 = moment_log_1_plus(y * y / max(x * x, smallest_divisor()));
+    float v2 = steradian_moment_log_1_plus(y * y / max(x * x, steradian_smallest_divisor()));
     float t = 0.5 * a * v2;
     float v = sqrt(v2);
     float decay = exp(-t);
@@ -2501,18 +2230,18 @@ float moment_cosine_from_foot(float x, float y, float n) {
 //   low      1 for n < 8, else 0; the same for every lane
 //
 // Error: at most 9e-5 of the integral over a half circle for n >= 0, 4e-5 for n >= 1, 7e-6 for n >= 5.
-float moment_cosine_front(MomentEdge edge, float n, int low) {
+float steradian_moment_cosine_front(SteradianMomentEdge edge, float n, int low) {
     float order = n;
     if (low == 1) {
         order = n + 4.0;
     }
-    float cosines = moment_cosine_from_foot(edge.x1, edge.y1, order) - moment_cosine_from_foot(edge.x0, edge.y0, order);
+    float cosines = steradian_moment_cosine_from_foot(edge.x1, edge.y1, order) - steradian_moment_cosine_from_foot(edge.x0, edge.y0, order);
     float result = exp(-0.5 * order * edge.log_c) * cosines;
     if (low == 1) {
         // (n + 1) c^2 int x^n = (n + 2) int x^(n+2) - [x^(n+1) y], twice.
         float c2 = edge.c * edge.c;
-        float p0 = phong_power(edge.x0, n + 1.0) * edge.y0;
-        float p1 = phong_power(edge.x1, n + 1.0) * edge.y1;
+        float p0 = steradian_phong_power(edge.x0, n + 1.0) * edge.y0;
+        float p1 = steradian_phong_power(edge.x1, n + 1.0) * edge.y1;
         result = ((n + 4.0) * result - (p1 * edge.x1 * edge.x1 - p0 * edge.x0 * edge.x0)) / ((n + 3.0) * c2);
         result = ((n + 2.0) * result - (p1 - p0)) / ((n + 1.0) * c2);
     }
@@ -2523,28 +2252,996 @@ float moment_cosine_front(MomentEdge edge, float n, int low) {
 //
 //   n        exponent, in [0, 1)
 //   raised   the series of exponent n + 2: (1 - x^m)/(1 - x^2) = (1 - x^(m+2))/(1 - x^2) - x^m
-float moment_series_low_front(MomentEdge edge, MomentSeries raised, float n) {
-    return max(moment_series_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
+float steradian_moment_series_low_front(SteradianMomentEdge edge, SteradianMomentSeries raised, float n) {
+    return max(steradian_moment_series_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// What moment_series_low_front returns, in high quality; the error is then that of the cosines.
-float moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, float n) {
-    return max(moment_series_high_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
+// What steradian_moment_series_low_front returns, in high quality; the error is then that of the cosines.
+float steradian_moment_series_high_low_front(SteradianMomentEdge edge, SteradianMomentSeriesHigh raised, float n) {
+    return max(steradian_moment_series_high_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
 // One edge's share of (n + 2) times the double-axis moment, the integral of max(u.r, 0)^n (u.v) over a light.
 //
-//   a, b     as for moment_edge, r unit axis of the power, v the other axis, of any length
-//   share    moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
+//   a, b     as for steradian_moment_edge, r unit axis of the power, v the other axis, of any length
+//   share    steradian_moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
 //   cosines  the integral of x^n dphi over the part in front, by any method
 //
 // Exact as far as share and cosines are: foreshortening (v the normal) and the v.h of half-vector space need no
 // product of lobes.
-float moment_double_axis_share(float3 a, float3 b, float3 r, float3 v, float share, float cosines) {
+float steradian_moment_double_axis_share(float3 a, float3 b, float3 r, float3 v, float share, float cosines) {
     float3 n = cross(a, b);
     float n2 = dot(n, n);
-    float inward = dot(n, v) * rsqrt(max(n2, smallest_divisor()));
-    return dot(r, v) * share + steradian_select(n2 > smallest_divisor(), inward * cosines, 0.0);
+    float inward = dot(n, v) * rsqrt(max(n2, steradian_smallest_divisor()));
+    return dot(r, v) * share + steradian_select(n2 > steradian_smallest_divisor(), inward * cosines, 0.0);
+}
+
+// ======== ltc: linearly transformed cosines over polygons, textured ones too ========
+
+// ==== ltc ====
+
+// Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
+//
+// A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
+// the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
+// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/ltc.md.
+// Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+struct SteradianLtcMatrix {
+    float xx;
+    float xz;
+    float yy;
+    float zx;
+    float zz;
+};
+
+// The place where a table is read: both coordinates are in [0, 1], and the outer nodes stand on the ends.
+//
+//   roughness  perceptual: the square root of alpha
+//   n_dot_v    cosine of the view
+float2 steradian_ltc_coordinates(float roughness, float n_dot_v) {
+    return float2(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
+}
+
+// The matrix as the literature's texture stores it.
+//
+//   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
+SteradianLtcMatrix steradian_ltc_from_classic(float4 t) {
+    SteradianLtcMatrix m;
+    m.xx = t.x;
+    m.xz = t.z;
+    m.yy = 1.0;
+    m.zx = t.y;
+    m.zz = t.w;
+    return m;
+}
+
+// The matrix from the compact table, in which it is stored about the mirror direction and divided by alpha.
+//
+//   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
+//            R turns z into the mirror direction (-s, 0, c)
+//   alpha    roughness squared, at least 1.0e-4
+//   view     unit, in the shading frame: (s, 0, c). Take s from the frame, not from sqrt(1 - c*c), which
+//            loses half the digits near the normal, where a narrow lobe needs them
+//
+// A lobe that is stored about the normal (diffuse, sheen) passes alpha = 1 and view = (0, 0, 1).
+SteradianLtcMatrix steradian_ltc_from_compact(float4 e, float alpha, float3 view) {
+    float tilt = alpha * e.z;
+    float shear = alpha * e.w;
+    float width = alpha * e.x;
+    SteradianLtcMatrix m;
+    m.xx = view.z + tilt * view.x;
+    m.xz = view.x - tilt * view.z;
+    m.yy = (e.x - tilt * e.w) / e.y;
+    m.zx = -(shear * view.z + width * view.x);
+    m.zz = width * view.z - shear * view.x;
+    return m;
+}
+
+// The vector M^-1 v, up to the matrix' factor, for any vector v of the shading frame.
+float3 steradian_ltc_transform(SteradianLtcMatrix m, float3 v) {
+    return float3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
+}
+
+// The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
+float steradian_ltc_lobe(SteradianLtcMatrix m, float3 l) {
+    float3 w = steradian_ltc_transform(m, l);
+    float d2 = max(dot(w, w), steradian_smallest_length());
+    float determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
+    return determinant * max(w.z, 0.0) * steradian_inverse_pi() / (d2 * d2);
+}
+
+// The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
+//
+// Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
+float steradian_ltc_energy_above_horizon(SteradianLtcMatrix m) {
+    return 0.5 + 0.5 * m.xx * rsqrt(max(m.xx * m.xx + m.zx * m.zx, steradian_smallest_square()));
+}
+
+// The state of a walk along a light's outline under M^-1.
+//   lobe      what the clipped edges add up to
+//   anchor    where the outline first crossed the real horizon, under M^-1
+//   anchored  whether it did
+struct SteradianLtcWalk {
+    SteradianPolygonWalk lobe;
+    float3 anchor;
+    bool anchored;
+};
+
+// A walk with no edge yet.
+SteradianLtcWalk steradian_ltc_begin() {
+    SteradianLtcWalk walk;
+    walk.lobe = steradian_polygon_begin();
+    walk.anchor = float3(0.0, 0.0, 0.0);
+    walk.anchored = steradian_mask_none();
+    return walk;
+}
+
+// Unit direction of a vertex under M^-1.
+//
+//   v        vertex or direction in the shading frame
+float3 steradian_ltc_direction(SteradianLtcMatrix m, float3 v) {
+    return steradian_polygon_direction(steradian_ltc_transform(m, v));
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's.
+//
+//   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
+//   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
+//
+// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
+// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
+// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+//
+// Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
+SteradianLtcWalk steradian_ltc_add_edge(SteradianLtcWalk walk, SteradianLtcMatrix m, float3 a, float3 b, float3 ta, float3 tb) {
+    SteradianLtcWalk next = walk;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    if (!a_below || !b_below) {
+        float3 start = ta;
+        float3 end = tb;
+        if (a_below || b_below) {
+            float3 none = float3(0.0, 0.0, 0.0);
+            bool crosses = (a_below && !b_below) || (b_below && !a_below);
+            float wa = abs(b.z);
+            float wb = abs(a.z);
+            float3 horizon = float3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+            float3 crossing = steradian_select(crosses, steradian_ltc_direction(m, horizon), none);
+            start = steradian_select(a_below, crossing, ta);
+            end = steradian_select(b_below, crossing, tb);
+            // The first crossing is its own anchor: an edge of no length.
+            if (crosses && walk.anchored) {
+                bool closes = crosses && walk.anchored;
+                float3 departure = steradian_select(a_below, walk.anchor, crossing);
+                float3 arrival = steradian_select(a_below, crossing, walk.anchor);
+                next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
+            }
+            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
+            next.anchored = walk.anchored || crosses;
+        }
+        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+    }
+    return next;
+}
+
+// Integral of the lobe over the part of the light above the real horizon, in [0, 1].
+//
+//   reversed true where the light is seen from behind
+float steradian_ltc_integral(SteradianLtcWalk walk, bool reversed) {
+    return steradian_polygon_irradiance(walk.lobe, reversed) * steradian_inverse_pi();
+}
+
+// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+//
+//   n_a      magnitude of the lobe without Fresnel
+//   f_a      of the lobe times (1 - v.h)^5
+float steradian_ltc_specular_scale(float f0, float f90, float n_a, float f_a) {
+    return f0 * n_a + (f90 - f0) * f_a;
+}
+
+// The specular radiance where the lobe times (1 - v.h)^5 has a matrix of its own (table of fit --fresnel-lobe).
+//
+//   integral, grazing  steradian_ltc_integral with the lobe's and with the Fresnel lobe's matrix
+float steradian_ltc_specular_with_fresnel_lobe(float f0, float f90, float n_a, float integral, float f_a, float grazing) {
+    return f0 * n_a * integral + (f90 - f0) * f_a * grazing;
+}
+
+// Factor on the specular radiance that returns what single scattering loses between the facets.
+//
+//   f0       reflectance along the normal
+//   albedo   of the lobe with F = 1: n_a times steradian_ltc_energy_above_horizon, in (0, 1]
+//
+// Source: Turquin, "Practical multiple scattering compensation for microfacet models", 2019, eq. 16.
+float steradian_ltc_multiple_scattering(float f0, float albedo) {
+    float a = clamp(albedo, 1.0e-2, 1.0);
+    return 1.0 + f0 * (1.0 - a) / a;
+}
+
+// A surface under a clear coat of glTF: the coat reflects its share and dims what lies below.
+//
+//   base       radiance of the surface below
+//   coat       radiance of the coat's lobe with its own Fresnel (f0 0.04) in it
+//   clearcoat  strength in [0, 1]
+//   n_dot_v    cosine of the view to the coat's normal
+float steradian_ltc_clear_coat(float base, float coat, float clearcoat, float n_dot_v) {
+    float f = steradian_fresnel_schlick(0.04, 1.0, n_dot_v);
+    return base * (1.0 - clearcoat * f) + clearcoat * coat;
+}
+
+// A surface under sheen of glTF: what the cloth's fibres reflect does not reach what lies below.
+//
+//   base      radiance of the surface below
+//   sheen     radiance of the sheen lobe, its colour included
+//   strongest largest component of the sheen's colour
+//   albedo    of the sheen lobe at this view: n_a times steradian_ltc_energy_above_horizon
+float steradian_ltc_sheen(float base, float sheen, float strongest, float albedo) {
+    return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
+}
+
+// ==== ltc_texture ====
+
+// Textured lights: where on a light a lobe looks, and how widely.
+//
+// The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
+// point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
+// cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
+// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+//
+//   SteradianLtcTextureFootprint f = steradian_ltc_texture_footprint(m, phi, normal, height);            // once
+//   SteradianLtcTextureEllipse e = steradian_ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   SteradianLtcTextureEllipse g = steradian_ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   vec2 at = centroid + steradian_ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
+//
+// A diffuse surface passes the identity for M^-1 (steradian_ltc_texture_diffuse).
+// Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// An ellipse on the light's plane, in the shading frame.
+//   center   relative to the shading point
+//   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
+//   valid    false where the light sends nothing
+struct SteradianLtcTextureFootprint {
+    float3 center;
+    float3 axis_a;
+    float3 axis_b;
+    bool valid;
+};
+
+// The vector M w, up to a positive factor: the inverse of steradian_ltc_transform.
+float3 steradian_ltc_texture_transform_back(SteradianLtcMatrix m, float3 w) {
+    float determinant = m.xx * m.zz - m.xz * m.zx;
+    return float3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
+}
+
+// The matrix of a diffuse lobe: none.
+SteradianLtcMatrix steradian_ltc_texture_diffuse() {
+    SteradianLtcMatrix m;
+    m.xx = 1.0;
+    m.xz = 0.0;
+    m.yy = 1.0;
+    m.zx = 0.0;
+    m.zz = 1.0;
+    return m;
+}
+
+// Irradiance vector, under M^-1, of the part of the light above both horizons.
+//
+//   reversed true where the light is seen from behind
+float3 steradian_ltc_texture_irradiance_vector(SteradianLtcWalk walk, bool reversed) {
+    return steradian_polygon_irradiance_vector(walk.lobe, reversed);
+}
+
+// Where a lobe looks on a light's plane.
+//
+//   m        M^-1
+//   phi      irradiance vector of the light under M^-1 (steradian_ltc_texture_irradiance_vector)
+//   normal   unit normal of the light's plane, in the shading frame, either sign
+//   height   dot(normal, any point of the plane relative to the shading point)
+//
+// A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
+//
+// Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
+// Error: docs/ltc.md, "Textured lights".
+SteradianLtcTextureFootprint steradian_ltc_texture_footprint(SteradianLtcMatrix m, float3 phi, float3 normal, float height) {
+    float p2 = dot(phi, phi);
+    bool lit = p2 > steradian_smallest_divisor();
+    float3 w = steradian_select(lit, phi * rsqrt(max(p2, steradian_smallest_divisor())), float3(0.0, 0.0, 1.0));
+    float3x3 across = steradian_frame_from_normal(w);
+    float3 l = steradian_ltc_texture_transform_back(m, w);
+    float along = dot(normal, l);
+    bool meets = lit && along * height > 0.0;
+    float inverse = steradian_select(meets, 1.0 / steradian_select(meets, along, 1.0), 0.0);
+    float t = height * inverse;
+    float3 a = steradian_ltc_texture_transform_back(m, steradian_transform(across, float3(1.0, 0.0, 0.0)));
+    float3 b = steradian_ltc_texture_transform_back(m, steradian_transform(across, float3(0.0, 1.0, 0.0)));
+    SteradianLtcTextureFootprint f;
+    f.center = l * t;
+    f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
+    f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
+    f.valid = meets;
+    return f;
+}
+
+// An ellipse on the light's plane: its long half axis, and the length of the short one.
+struct SteradianLtcTextureEllipse {
+    float2 major;
+    float minor;
+};
+
+// Principal axes of the ellipse of two conjugate radii.
+//
+//   a, b     in the plane's own coordinates [m]
+//
+// Degenerate: a circle has any major axis.
+SteradianLtcTextureEllipse steradian_ltc_texture_axes(float2 a, float2 b) {
+    float xx = a.x * a.x + b.x * b.x;
+    float yy = a.y * a.y + b.y * b.y;
+    float xy2 = a.x * a.y + b.x * b.y;
+    float half_difference = 0.5 * (xx - yy);
+    float spread = sqrt(half_difference * half_difference + xy2 * xy2);
+    // An eigenvector of the larger eigenvalue, from the row that does not cancel.
+    float2 v = steradian_select(half_difference > 0.0, float2(half_difference + spread, xy2), float2(xy2, spread - half_difference));
+    float v2 = dot(v, v);
+    float2 direction = steradian_select(v2 > steradian_smallest_square(), v * rsqrt(max(v2, steradian_smallest_square())), float2(1.0, 0.0));
+    float longest = sqrt(0.5 * (xx + yy) + spread);
+    SteradianLtcTextureEllipse e;
+    e.major = direction * longest;
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, steradian_smallest_length());
+    return e;
+}
+
+// A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
+SteradianLtcTextureEllipse steradian_ltc_texture_gaussian(SteradianLtcTextureEllipse e, float width, float widest) {
+    float longest = width * sqrt(dot(e.major, e.major));
+    SteradianLtcTextureEllipse g;
+    g.major = e.major * (width * (widest / max(longest, widest)));
+    g.minor = min(width * e.minor, widest);
+    return g;
+}
+
+// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+//
+// A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
+// Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
+// inverts that. The irradiance vector also lacks the lobe's cosine; it moves the centroid to the largest value of the
+// product of (V^-1 + S^-1)^-1's Gaussian and the cosine, along the cosine's slope.
+//
+//   g        the Gaussian: its standard deviations
+//   aside    where the irradiance vector meets the plane, from the light's centroid
+//   slope    of the logarithm of z under M^-1 along the plane, there
+//   light    covariance of the light's area: xx, xy, yy
+//   returns  from the light's centroid
+//
+// It stands at most 2.5 of its standard deviations away from there: further out, next to nothing of the light is under it.
+//
+// Degenerate: a light without width counts as a thousandth as wide as long.
+float2 steradian_ltc_texture_place(SteradianLtcTextureEllipse g, float2 aside, float2 slope, float3 light) {
+    float major2 = dot(g.major, g.major);
+    float minor2 = g.minor * g.minor;
+    float2 u = g.major * rsqrt(max(major2, steradian_smallest_square()));
+    float along = major2 - minor2;
+    float sxx = minor2 + along * u.x * u.x;
+    float sxy = along * u.x * u.y;
+    float syy = minor2 + along * u.y * u.y;
+    float least = 1.0e-6 * (light.x + light.z) + steradian_smallest_divisor();
+    float vxx = light.x + least;
+    float vyy = light.z + least;
+    // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
+    float txx = vxx + sxx;
+    float txy = light.y + sxy;
+    float tyy = vyy + syy;
+    float t_inverse = 1.0 / max(txx * tyy - txy * txy, steradian_smallest_square());
+    float2 p = float2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
+    p = float2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
+    p = float2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
+    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    float q = max(dot(slope, p), 0.0);
+    float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
+    float2 d = aside + p * share;
+    float v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, steradian_smallest_square());
+    float2 e = float2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
+    float2 push = float2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+    float pushed2 = max(dot(push, e), 0.0);
+    return d + push * (2.5 * rsqrt(max(pushed2, 6.25)));
+}
+
+// ======== ltc_tables: the tables of linearly transformed cosines, 4 KB each, and how they are read ========
+
+// Two half floats in a word, the first in the low bits.
+float2 steradian_halves(uint word) { return float2(f16tof32(word), f16tof32(word >> 16)); }
+
+static const uint steradian_ltc_ggx_shape_words[512] = {
+    0x40004000u, 0x14cf0182u, 0x40014000u, 0xa0378318u, 0x40003fffu, 0xa1200dc5u, 0x40024001u, 0x26159618u,
+    0x40054006u, 0x21a19280u, 0x40074008u, 0x1c078e1cu, 0x40024002u, 0x24c8983au, 0x3fe93fedu, 0x21251653u,
+    0x3fb63fc4u, 0x96d81bd5u, 0x3f6b3f7cu, 0x9e741d86u, 0x3f093f18u, 0x9b491c84u, 0x3e933ea0u, 0x98211b85u,
+    0x3e113e1bu, 0x9ce81b2fu, 0x3d893d91u, 0x96951870u, 0x3d063d0bu, 0x89521396u, 0x3c863c8au, 0x1412141du,
+    0x3ff84000u, 0x9ab08009u, 0x3ff94000u, 0x9fe00088u, 0x3ff73fffu, 0x131906cbu, 0x3ffb4002u, 0x97ec90fcu,
+    0x40014007u, 0xa57212d5u, 0x40024007u, 0xa96b1594u, 0x3ffe4000u, 0xa8c21b9cu, 0x3fe13fe9u, 0xac1521feu,
+    0x3faf3fbdu, 0xad7d25feu, 0x3f653f75u, 0xaf302924u, 0x3f033f12u, 0xafbf2b19u, 0x3e923e9du, 0xb0012c80u,
+    0x3e113e17u, 0xb0002d43u, 0x3d8c3d90u, 0xafc22db8u, 0x3d093d0au, 0xaf5a2e0eu, 0x3c8b3c8cu, 0xaed42e18u,
+    0x3fdd4000u, 0x0c5a0039u, 0x3fdd4000u, 0xa1ce009du, 0x3fdc3fffu, 0x9cbd0c5cu, 0x3fde4001u, 0x9eed90a7u,
+    0x3fe64006u, 0xab0716acu, 0x3fe94005u, 0xaca71af7u, 0x3fe33ffcu, 0xad4d2100u, 0x3fc93fe0u, 0xb014260bu,
+    0x3f993fb1u, 0xb19e29ebu, 0x3f513f68u, 0xb2f82ce8u, 0x3ef53f06u, 0xb3952eddu, 0x3e883e90u, 0xb3f0306au,
+    0x3e0f3e0fu, 0xb3ef3131u, 0x3d923d8cu, 0xb3bf31c0u, 0x3d143d08u, 0xb3553204u, 0x3c9c3c8du, 0xb2e6321du,
+    0x3fb04000u, 0xa8e6000du, 0x3fb04000u, 0xa49c0524u, 0x3faf3fffu, 0xa53910d6u, 0x3fb14001u, 0xa7401516u,
+    0x3fb84005u, 0xab281b1eu, 0x3fbc4004u, 0xae921fd0u, 0x3fb63ff7u, 0xb027244fu, 0x3f9e3fd6u, 0xb22128f1u,
+    0x3f723fa1u, 0xb4322c8bu, 0x3f303f54u, 0xb5222f6eu, 0x3edc3ef2u, 0xb5bc3135u, 0x3e7b3e80u, 0xb5f732a8u,
+    0x3e103e02u, 0xb5ef33cdu, 0x3d9e3d83u, 0xb5d23456u, 0x3d2b3d04u, 0xb5903493u, 0x3cba3c90u, 0xb54834abu,
+    0x3f704000u, 0xa9a501bfu, 0x3f704000u, 0xa60c06c2u, 0x3f6f3fffu, 0xab251535u, 0x3f724001u, 0xac831c02u,
+    0x3f774006u, 0xae751efbu, 0x3f7a4003u, 0xb065230eu, 0x3f763ff2u, 0xb1fc273du, 0x3f623fcau, 0xb4422b42u,
+    0x3f3c3f8eu, 0xb5b62e83u, 0x3f033f3bu, 0xb6ec3125u, 0x3ebc3ed7u, 0xb7a8332au, 0x3e6b3e69u, 0xb8023487u,
+    0x3e103df0u, 0xb806354eu, 0x3db03d79u, 0xb7e335e2u, 0x3d4a3d01u, 0xb7a1363bu, 0x3ce63c93u, 0xb740365du,
+    0x3f1e4000u, 0xaf7e871bu, 0x3f1e4000u, 0xb0661220u, 0x3f1d3fffu, 0xb00319e3u, 0x3f214002u, 0xb0531f29u,
+    0x3f254004u, 0xb18e22e4u, 0x3f284002u, 0xb2f32655u, 0x3f253fe9u, 0xb46c29e6u, 0x3f133fbbu, 0xb5ac2d4fu,
+    0x3ef73f75u, 0xb7443072u, 0x3ecd3f1du, 0xb86b32d7u, 0x3e963eb6u, 0xb8dd34abu, 0x3e593e4au, 0xb91435d7u,
+    0x3e143ddbu, 0xb91c36ceu, 0x3dc93d6bu, 0xb90d378du, 0x3d793cffu, 0xb8e23802u, 0x3d243c98u, 0xb8bb3820u,
+    0x3eba4000u, 0xb23902efu, 0x3eba4000u, 0xafa1106bu, 0x3eb93fffu, 0xb28a1cf2u, 0x3ebc4002u, 0xb3ed22bau,
+    0x3ec24003u, 0xb4832609u, 0x3ec63ffbu, 0xb5502947u, 0x3ec33fdcu, 0xb63c2c92u, 0x3eb93fa8u, 0xb7732f8du,
+    0x3ea53f59u, 0xb8963206u, 0x3e8d3ef8u, 0xb970346eu, 0x3e6d3e8eu, 0xb9fb35ecu, 0x3e463e26u, 0xba323749u,
+    0x3e1d3dbfu, 0xba453838u, 0x3dec3d5bu, 0xba3c38adu, 0x3db43cfau, 0xba2238fcu, 0x3d763c9cu, 0xb9ec3929u,
+    0x3e444000u, 0xb4798915u, 0x3e444000u, 0xb47915feu, 0x3e433fffu, 0xb58e206au, 0x3e474003u, 0xb66a2576u,
+    0x3e4d4001u, 0xb6a628deu, 0x3e513ff3u, 0xb76d2c1eu, 0x3e543fccu, 0xb82c2ebfu, 0x3e513f8fu, 0xb8c73154u,
+    0x3e4e3f37u, 0xb9a03402u, 0x3e4a3ecbu, 0xba9335aeu, 0x3e423e5fu, 0xbb2f3764u, 0x3e393dfcu, 0xbb6d3877u,
+    0x3e2e3d9fu, 0xbb893924u, 0x3e1c3d44u, 0xbb8b39acu, 0x3e063cf3u, 0xbb833a1bu, 0x3dea3ca5u, 0xbb643a63u,
+    0x3dbb4000u, 0xb62782c5u, 0x3dbb4000u, 0xb67b1713u, 0x3dbb3fffu, 0xb8882327u, 0x3dbf4001u, 0xb8912821u,
+    0x3dc44000u, 0xb8bc2b4du, 0x3dcb3feau, 0xb90a2e1cu, 0x3dd33fbbu, 0xb98130edu, 0x3ddd3f74u, 0xba1a336bu,
+    0x3dee3f11u, 0xbada3551u, 0x3e053e9au, 0xbbd23735u, 0x3e1b3e27u, 0xbc3d388fu, 0x3e313dc9u, 0xbc64396du,
+    0x3e493d75u, 0xbc7b3a2fu, 0x3e5f3d2cu, 0xbc863ad5u, 0x3e743ce8u, 0xbc903b60u, 0x3e813cb2u, 0xbc913bd0u,
+    0x3d204000u, 0xb8f58b5du, 0x3d214000u, 0xb92c1a85u, 0x3d203fffu, 0xb9af249du, 0x3d224001u, 0xba672996u,
+    0x3d293ff7u, 0xba6b2d3cu, 0x3d323fddu, 0xbb083067u, 0x3d453fa2u, 0xbb6a3308u, 0x3d633f50u, 0xbbce3521u,
+    0x3d8b3ee3u, 0xbc323700u, 0x3dc13e60u, 0xbca73892u, 0x3dfa3de8u, 0xbcfb399au, 0x3e353d8eu, 0xbd253a8cu,
+    0x3e753d43u, 0xbd4b3b68u, 0x3ebe3d0au, 0xbd6d3c1au, 0x3f063cdbu, 0xbd893c74u, 0x3f5c3cbdu, 0xbdb43cd0u,
+    0x3c734000u, 0xbb21902fu, 0x3c734000u, 0xbbdd1d0au, 0x3c733ffeu, 0xbc7a273au, 0x3c7d3ff9u, 0xbc762c4fu,
+    0x3c853fe9u, 0xbc792fffu, 0x3c933fc1u, 0xbcb83271u, 0x3cb33f74u, 0xbd10350bu, 0x3ce73f1cu, 0xbd12370fu,
+    0x3d2d3ea6u, 0xbd3638a5u, 0x3d873e1eu, 0xbd8339cbu, 0x3de63d9eu, 0xbdd73ae2u, 0x3e4c3d44u, 0xbe0c3beau,
+    0x3ebf3d07u, 0xbe3f3c71u, 0x3f413cdfu, 0xbe813cefu, 0x3fde3ccbu, 0xbece3d70u, 0x40483cceu, 0xbf353dfeu,
+    0x3b6b4000u, 0xbe8e9275u, 0x3b6a4000u, 0xbe062031u, 0x3b6e3ffeu, 0xbe6329b6u, 0x3b813ff5u, 0xbe642e8bu,
+    0x3baf3fd2u, 0xbe2a320cu, 0x3be53f9bu, 0xbe4f34c9u, 0x3c1f3f32u, 0xbea93738u, 0x3c733ecdu, 0xbe9538e2u,
+    0x3cdd3e5bu, 0xbe763a2cu, 0x3d5b3dc7u, 0xbea53b60u, 0x3dea3d42u, 0xbee23c3fu, 0x3e813cebu, 0xbf243cceu,
+    0x3f323cbau, 0xbf733d5fu, 0x40033ca7u, 0xbfe63dfcu, 0x40883cb0u, 0xc03c3eb4u, 0x41423ce9u, 0xc0bb3fb3u,
+    0x39bf4000u, 0xbbbf9592u, 0x39c04000u, 0xc0842123u, 0x39b93fffu, 0xc0422a49u, 0x39d33fd4u, 0xc07c3078u,
+    0x3a353fb9u, 0xc032349bu, 0x3a953f66u, 0xc03d3743u, 0x3b333edbu, 0xc04b3946u, 0x3c113e6bu, 0xc0453adcu,
+    0x3ca63df1u, 0xc0103c23u, 0x3d523d55u, 0xc00f3cbfu, 0x3e0f3cceu, 0xc01e3d4du, 0x3ee93c72u, 0xc0463de8u,
+    0x3feb3c54u, 0xc0843e90u, 0x409c3c54u, 0xc0e93f6fu, 0x41853c8bu, 0xc187404fu, 0x42e43d04u, 0xc2814132u,
+    0x380f4001u, 0xc55e9c43u, 0x38103ffbu, 0xc4272774u, 0x38203ffbu, 0xc28e30b3u, 0x38254006u, 0xc1fd343bu,
+    0x387f3f7bu, 0xc22b3789u, 0x399b3f0cu, 0xc1d039f4u, 0x3a7c3e66u, 0xc1b83bf6u, 0x3ba03db3u, 0xc1ae3cefu,
+    0x3ca93d43u, 0xc1423dacu, 0x3d8b3cabu, 0xc1113e3du, 0x3e863c23u, 0xc10c3ec2u, 0x3fb03b9au, 0xc13d3f68u,
+    0x409b3b67u, 0xc1b64033u, 0x41a23bc3u, 0xc26e40c5u, 0x43263c42u, 0xc36d41aau, 0x45113d55u, 0xc507439du,
+    0x33b93ffdu, 0x453495aau, 0x33b34005u, 0xc42b1bc9u, 0x335a400eu, 0xc44aab3fu, 0x342d3eeeu, 0xc54434f1u,
+    0x352c3f42u, 0xc4a23b59u, 0x38623eb2u, 0xc4523d32u, 0x3ab53d7cu, 0xc3fb3e9cu, 0x3bfa3d06u, 0xc3563f56u,
+    0x3d1b3c70u, 0xc2b63ff0u, 0x3e373ba5u, 0xc26c4029u, 0x3f763a56u, 0xc266406au, 0x409a39b6u, 0xc2b840d8u,
+    0x41c339cfu, 0xc37d4161u, 0x439b39fcu, 0xc48242a4u, 0x45a63b52u, 0xc63c4484u, 0x48a63d3cu, 0xc8a646e8u,
+    0x24d34002u, 0xd40ca6b9u, 0x25843fe4u, 0xccf33393u, 0x2a973eb4u, 0xcca43c45u, 0x31f940f9u, 0xc9204052u,
+    0x35774002u, 0xc8424158u, 0x3ad93d1du, 0xc6e641d6u, 0x3c9b3ca3u, 0xc59641bbu, 0x3d4d3a86u, 0xc52b41d7u,
+    0x3eba38f7u, 0xc4c041ddu, 0x4021364au, 0xc48e41fau, 0x411c343bu, 0xc4934245u, 0x4293330du, 0xc4ff42eeu,
+    0x447d30f6u, 0xc623443cu, 0x468832f2u, 0xc8024552u, 0x491a3635u, 0xc9994777u, 0x4bc03c5au, 0xcbd848d8u};
+
+static const uint steradian_ltc_ggx_magnitude_words[484] = {
+    0x00003c00u, 0x00003c00u, 0x00013c00u, 0x00063bffu, 0x00113bfdu, 0x00283bf9u, 0x004e3bf1u, 0x00863be3u,
+    0x00d13bcbu, 0x012c3ba8u, 0x01923b75u, 0x01fc3b30u, 0x025f3ad8u, 0x02b33a6du, 0x02f139f2u, 0x0313396du,
+    0x031a38e1u, 0x03093855u, 0x02e3379bu, 0x02ae369eu, 0x027135b6u, 0x023134e7u, 0x00003c00u, 0x00003c00u,
+    0x00013c00u, 0x00063bffu, 0x00123bfdu, 0x002c3bf9u, 0x00563bf1u, 0x00943be3u, 0x00e53bcbu, 0x01493ba8u,
+    0x01b83b75u, 0x022b3b30u, 0x02963ad8u, 0x02ef3a6du, 0x032e39f2u, 0x0350396cu, 0x035438e1u, 0x033d3855u,
+    0x0312379cu, 0x02d8369fu, 0x029535b8u, 0x024f34e9u, 0x00003c00u, 0x00003c00u, 0x00023c00u, 0x00073bffu,
+    0x00183bfdu, 0x003a3bf9u, 0x00713bf1u, 0x00c43be3u, 0x012f3bcbu, 0x01b13ba8u, 0x02403b75u, 0x02d13b2fu,
+    0x03543ad7u, 0x03bc3a6cu, 0x040039f1u, 0x041f396cu, 0x041738e1u, 0x03f03856u, 0x03b237a0u, 0x036336a4u,
+    0x030d35bdu, 0x02b534efu, 0x00003c00u, 0x00003c00u, 0x00023c00u, 0x000a3bffu, 0x00233bfdu, 0x00573bf9u,
+    0x00ab3bf1u, 0x01263be3u, 0x01c43bcbu, 0x02833ba7u, 0x03503b74u, 0x04193b2eu, 0x04c63ad5u, 0x05473a6au,
+    0x059039f0u, 0x05a3396bu, 0x058238e2u, 0x053a3858u, 0x04d537a5u, 0x046036abu, 0x03e535c5u, 0x036d34f8u,
+    0x00013c00u, 0x00003c00u, 0x00043c00u, 0x00133bffu, 0x00393bfdu, 0x00923bf9u, 0x011a3bf1u, 0x01de3be3u,
+    0x02dd3bcbu, 0x04073ba7u, 0x053d3b73u, 0x06613b2du, 0x074e3ad3u, 0x07ee3a68u, 0x081b39eeu, 0x0815396bu,
+    0x07d738e2u, 0x0751385au, 0x06aa37acu, 0x05f436b5u, 0x053c35d1u, 0x048d3505u, 0x00083c00u, 0x00063c00u,
+    0x000e3c00u, 0x00283bffu, 0x006f3bfdu, 0x01073bf9u, 0x01f23bf1u, 0x03413be3u, 0x04e73bcbu, 0x06c53ba6u,
+    0x08543b72u, 0x092a3b2au, 0x09cb3ad0u, 0x0a283a65u, 0x0a3f39ecu, 0x0a18396au, 0x09bf38e3u, 0x0946385du,
+    0x08ba37b7u, 0x082b36c2u, 0x073e35e1u, 0x063b3516u, 0x00323c00u, 0x00313c00u, 0x003e3c00u, 0x00793bffu,
+    0x00fc3bfdu, 0x020c3bf9u, 0x03b33bf1u, 0x05f53be2u, 0x085f3bcbu, 0x09e23ba5u, 0x0b573b70u, 0x0c463b27u,
+    0x0caf3acdu, 0x0cdc3a61u, 0x0cd439e9u, 0x0c9c3969u, 0x0c4538e5u, 0x0bb43861u, 0x0acf37c3u, 0x09ec36d3u,
+    0x091635f5u, 0x0856352cu, 0x00f63c00u, 0x00f53c00u, 0x010e3c00u, 0x01873bffu, 0x028e3bfdu, 0x04763bf9u,
+    0x077d3bf1u, 0x09b53be2u, 0x0c063bcau, 0x0d3c3ba4u, 0x0e553b6du, 0x0f293b24u, 0x0fa33ac8u, 0x0fbb3a5du,
+    0x0f8039e6u, 0x0f043968u, 0x0e6038e7u, 0x0da93866u, 0x0cef37d4u, 0x0c3d36e8u, 0x0b35360du, 0x0a173546u,
+    0x03c93c00u, 0x03c63c00u, 0x04023c00u, 0x04ec3bffu, 0x06e73bfdu, 0x09423bf9u, 0x0bed3bf1u, 0x0da93be2u,
+    0x0f933bc8u, 0x10ba3ba1u, 0x11833b6au, 0x12093b1fu, 0x123e3ac3u, 0x12283a58u, 0x11d439e3u, 0x11573968u,
+    0x10c438eau, 0x1029386du, 0x0f2937e8u, 0x0e153702u, 0x0d20362bu, 0x0c4c3566u, 0x0a4b3c00u, 0x0a483c00u,
+    0x0a8c3c00u, 0x0b5a3bffu, 0x0cab3bfdu, 0x0e4a3bf9u, 0x104d3bf0u, 0x11b53be1u, 0x13383bc6u, 0x144c3b9eu,
+    0x14d03b65u, 0x15163b19u, 0x15183abdu, 0x14e23a52u, 0x148339e0u, 0x140d3968u, 0x131938eeu, 0x121c3875u,
+    0x11313800u, 0x105e3720u, 0x0f4c364eu, 0x0e14358du, 0x10963c00u, 0x10953c00u, 0x10b53c00u, 0x111a3bffu,
+    0x11fc3bfdu, 0x13633bf9u, 0x14a73bf0u, 0x15c43bdfu, 0x16e23bc4u, 0x17ce3b9au, 0x18303b5fu, 0x18433b12u,
+    0x18223ab5u, 0x17b43a4cu, 0x16f239dcu, 0x161c3969u, 0x154438f4u, 0x14793880u, 0x1384380fu, 0x12443745u,
+    0x11333678u, 0x104e35bau, 0x16053c00u, 0x16053c00u, 0x16203c00u, 0x167c3bffu, 0x17363bfdu, 0x18323bf9u,
+    0x18f13befu, 0x19c33bddu, 0x1a813bc0u, 0x1b063b94u, 0x1b393b58u, 0x1b143b0au, 0x1aa63aadu, 0x1a053a46u,
+    0x194e39dau, 0x1893396bu, 0x17c538fcu, 0x1685388du, 0x156d3821u, 0x147e3771u, 0x136936aau, 0x121d35f0u,
+    0x1b403c00u, 0x1b413c00u, 0x1b573c00u, 0x1ba33bffu, 0x1c1e3bfdu, 0x1c8e3bf8u, 0x1d183beeu, 0x1da13bdau,
+    0x1e0b3bbbu, 0x1e3a3b8cu, 0x1e243b4eu, 0x1dcd3b00u, 0x1d463aa4u, 0x1ca63a40u, 0x1c0239d8u, 0x1acd3970u,
+    0x19b23906u, 0x18bb389eu, 0x17d13837u, 0x166f37a5u, 0x154936e5u, 0x14593630u, 0x20113c00u, 0x20113c00u,
+    0x201a3c00u, 0x20363bffu, 0x206e3bfdu, 0x20bb3bf7u, 0x21113bebu, 0x21593bd6u, 0x217b3bb3u, 0x21683b81u,
+    0x211f3b41u, 0x20ac3af3u, 0x201f3a9au, 0x1f173a3au, 0x1dff39d9u, 0x1d033977u, 0x1c263915u, 0x1ad638b3u,
+    0x199d3851u, 0x189b37e4u, 0x178c372cu, 0x1633367cu, 0x244a3c00u, 0x244a3c00u, 0x24503c00u, 0x24643bffu,
+    0x24873bfcu, 0x24b43bf6u, 0x24dc3be8u, 0x24ed3bcfu, 0x24d63ba7u, 0x24933b72u, 0x242c3b31u, 0x235e3ae5u,
+    0x22543a90u, 0x21553a37u, 0x206f39ddu, 0x1f513983u, 0x1e023928u, 0x1cec38cdu, 0x1c073872u, 0x1a983818u,
+    0x19673781u, 0x187036d7u, 0x284b3c00u, 0x284b3c00u, 0x284f3c00u, 0x285a3bffu, 0x286c3bfcu, 0x287c3bf3u,
+    0x287d3be3u, 0x28623bc6u, 0x28223b98u, 0x27843b5eu, 0x269f3b1eu, 0x25ad3ad6u, 0x24c43a88u, 0x23e23a37u,
+    0x227939e6u, 0x214b3995u, 0x20533943u, 0x1f1038efu, 0x1dc6389bu, 0x1cba3847u, 0x1bc237e8u, 0x1a643746u,
+    0x2c1c3c00u, 0x2c1c3c00u, 0x2c1e3c00u, 0x2c213bfeu, 0x2c233bfau, 0x2c1b3befu, 0x2bfb3bdbu, 0x2b833bb7u,
+    0x2ad03b83u, 0x29f93b48u, 0x29183b08u, 0x28433ac8u, 0x27063a84u, 0x25bc3a3du, 0x24ac39f7u, 0x239a39afu,
+    0x22323966u, 0x210f391bu, 0x202538cfu, 0x1ece3881u, 0x1d9a3834u, 0x1ca237cfu, 0x2f8e3c00u, 0x2f8d3c00u,
+    0x2f8c3c00u, 0x2f883bfeu, 0x2f753bf9u, 0x2f3a3be9u, 0x2ecf3bcdu, 0x2e2d3ba2u, 0x2d623b67u, 0x2c913b2eu,
+    0x2b943af3u, 0x2a3a3abfu, 0x29103a88u, 0x281b3a4du, 0x26aa3a13u, 0x256b39d6u, 0x246c3997u, 0x233f3955u,
+    0x21f63910u, 0x20ec38cbu, 0x20153884u, 0x1ecd383du, 0x32b83c00u, 0x32b83c00u, 0x32b63bffu, 0x32a23bfbu,
+    0x326f3bf1u, 0x32193bdcu, 0x318b3bb5u, 0x30d13b7fu, 0x300f3b49u, 0x2eac3b12u, 0x2d713ae7u, 0x2c6c3ac3u,
+    0x2b293a9bu, 0x29cd3a70u, 0x28b63a41u, 0x27b23a0fu, 0x265039dau, 0x253639a2u, 0x24523967u, 0x2332392au,
+    0x220638ecu, 0x211238acu, 0x35c13c00u, 0x35bf3c00u, 0x35b43c00u, 0x35a03c01u, 0x35693bf8u, 0x34e03bc3u,
+    0x34333b85u, 0x330b3b59u, 0x31c13b2eu, 0x30a73b0cu, 0x2f8c3af9u, 0x2e1e3ae6u, 0x2cf73acdu, 0x2c0a3aaeu,
+    0x2a9d3a8bu, 0x29723a64u, 0x28833a3au, 0x27873a0du, 0x265239ddu, 0x255639abu, 0x24883977u, 0x23c03943u,
+    0x38e03c00u, 0x38e23c00u, 0x38df3bfcu, 0x389c3bceu, 0x38093b77u, 0x37093b70u, 0x35e23b6cu, 0x34c83b57u,
+    0x33be3b4cu, 0x32523b52u, 0x31253b4eu, 0x30313b42u, 0x2ee03b34u, 0x2da53b1bu, 0x2cae3b03u, 0x2bd23ae9u,
+    0x2a953accu, 0x29953aaeu, 0x28c43a8du, 0x281a3a6au, 0x271a3a46u, 0x26303a20u, 0x3bab3c00u, 0x3ba03bfdu,
+    0x3b243bfbu, 0x3a5b3c13u, 0x39d23c6du, 0x38983c3au, 0x377d3c29u, 0x35fc3c09u, 0x34fc3c13u, 0x340e3c05u,
+    0x32aa3bf9u, 0x31843beeu, 0x30983be1u, 0x2fb73bd8u, 0x2e8c3bd1u, 0x2d9b3bcbu, 0x2cd93bc4u, 0x2c3c3bbdu,
+    0x2b793bb6u, 0x2aa93bafu, 0x29fd3ba7u, 0x29733ba4u};
+
+// The table ggx at a place that steradian_ltc_coordinates gives: GGX; the shape is what steradian_ltc_from_compact takes.
+float4 steradian_ltc_ggx_shape_at(int k) {
+    return float4(steradian_halves(steradian_ltc_ggx_shape_words[2 * k]), steradian_halves(steradian_ltc_ggx_shape_words[2 * k + 1]));
+}
+float4 steradian_ltc_ggx_shape(float2 place) {
+    float2 x = clamp(place, 0.0, 1.0) * 15.0;
+    float2 node = min(floor(x), float2(14.0, 14.0));
+    float2 f = x - node;
+    int k = int(node.y) * 16 + int(node.x);
+    float4 low = lerp(steradian_ltc_ggx_shape_at(k), steradian_ltc_ggx_shape_at(k + 1), f.x);
+    float4 high = lerp(steradian_ltc_ggx_shape_at(k + 16), steradian_ltc_ggx_shape_at(k + 17), f.x);
+    return lerp(low, high, f.y);
+}
+
+// The magnitudes of the table ggx at such a place: what steradian_ltc_specular_scale takes.
+float2 steradian_ltc_ggx_magnitude_at(int k) { return steradian_halves(steradian_ltc_ggx_magnitude_words[k]); }
+float2 steradian_ltc_ggx_magnitude(float2 place) {
+    float2 x = clamp(place, 0.0, 1.0) * 21.0;
+    float2 node = min(floor(x), float2(20.0, 20.0));
+    float2 f = x - node;
+    int k = int(node.y) * 22 + int(node.x);
+    float2 low = lerp(steradian_ltc_ggx_magnitude_at(k), steradian_ltc_ggx_magnitude_at(k + 1), f.x);
+    float2 high = lerp(steradian_ltc_ggx_magnitude_at(k + 22), steradian_ltc_ggx_magnitude_at(k + 23), f.x);
+    return lerp(low, high, f.y);
+}
+
+static const uint steradian_ltc_charlie_shape_words[512] = {
+    0x3b7137b5u, 0x9ee5b491u, 0x3e423cc4u, 0x99e2b415u, 0xb8debcf5u, 0xa41fb5bdu, 0x47354781u, 0x2806231au,
+    0x46ad46c6u, 0x9ab42c50u, 0x44aa44aau, 0xa61fa4fau, 0x4325431au, 0xa452a8cdu, 0x41d541c6u, 0xa16ba90bu,
+    0x410040eeu, 0x9ceaa8afu, 0x4072405eu, 0x936da838u, 0x400f3ff7u, 0x9022a73cu, 0x3f8e3f68u, 0x1258a645u,
+    0x3f213efcu, 0x109ba55du, 0x3ecb3ea8u, 0x1033a4a8u, 0x3e833e62u, 0x1234a40du, 0x3e423e23u, 0x12a8a303u,
+    0x388d3f71u, 0x23d43978u, 0x3cc1406du, 0x24f13c62u, 0xbb743c05u, 0x1db7b502u, 0x46b14559u, 0x2b0744c0u,
+    0x45a344e1u, 0x2fb24146u, 0x444343f6u, 0x31533d8fu, 0x42d0428au, 0x31433a7eu, 0x41ae417cu, 0x30783827u,
+    0x40ea40c1u, 0x2f6535b4u, 0x40634041u, 0x2e293426u, 0x40043fccu, 0x2d283253u, 0x3f7c3f46u, 0x2c5f30fau,
+    0x3f133ee2u, 0x2b793009u, 0x3ebe3e92u, 0x2a6d2eb2u, 0x3e773e4fu, 0x29982da5u, 0x3e373e14u, 0x28e22cd5u,
+    0x46a9419cu, 0xb6c54677u, 0x469c419au, 0xb6c1466au, 0x46ca419fu, 0xb6cf4698u, 0x4625418du, 0xb69e45f2u,
+    0x445d41a6u, 0xae0a4252u, 0x43184167u, 0x2c263ff3u, 0x4206410fu, 0x30c53d39u, 0x413c40a1u, 0x31883b2fu,
+    0x40a64038u, 0x314a3933u, 0x40373fc7u, 0x30c837dbu, 0x3fcc3f45u, 0x30393627u, 0x3f503ee1u, 0x2f6834f2u,
+    0x3eef3e92u, 0x2e7b3411u, 0x3ea13e51u, 0x2dae32d0u, 0x3e5f3e1au, 0x2d0031cbu, 0x3e223de6u, 0x2c6e30fcu,
+    0x45b83dabu, 0xb9bd4654u, 0x45b63db9u, 0xb9bd464du, 0x45be3d8au, 0xb9be4664u, 0x45a23e33u, 0xb9b94612u,
+    0x43c63fb4u, 0xb5024287u, 0x42483fe7u, 0xad81403du, 0x41653fb7u, 0x20db3df7u, 0x40c53f66u, 0x2c773c60u,
+    0x40523f1au, 0x2eff3a9fu, 0x3ff93ecfu, 0x2fe4392du, 0x3f753e8bu, 0x2fe03828u, 0x3f0f3e51u, 0x2f7736d0u,
+    0x3ebd3e20u, 0x2ee235b0u, 0x3e793df5u, 0x2e4434d1u, 0x3e3d3dcdu, 0x2dad3420u, 0x3e063da6u, 0x2d223323u,
+    0x45b23aa3u, 0xbb81465du, 0x45ad3ab5u, 0xbb804657u, 0x45be3a76u, 0xbb81466cu, 0x45833b5au, 0xbb7e4622u,
+    0x43503de6u, 0xb75c4278u, 0x41d63e48u, 0xb3364047u, 0x41003e49u, 0xadee3e1bu, 0x40723e29u, 0xa2cd3c9eu,
+    0x400e3e06u, 0x27673b46u, 0x3f8a3deau, 0x2b7b39ddu, 0x3f1f3dd2u, 0x2ccd38d3u, 0x3ec93dbbu, 0x2d473807u,
+    0x3e853da4u, 0x2d4d36d2u, 0x3e4c3d8eu, 0x2d1f35d8u, 0x3e183d76u, 0x2cd8350cu, 0x3de83d5cu, 0x2c813466u,
+    0x45a33831u, 0xbc61463bu, 0x459c3841u, 0xbc5e4636u, 0x45b4380bu, 0xbc6a4647u, 0x455f38cdu, 0xbc3d4608u,
+    0x43073d09u, 0xb85f423cu, 0x41953d63u, 0xb5184035u, 0x40c03d68u, 0xb1dd3e0cu, 0x40383d5cu, 0xadbd3ca5u,
+    0x3fba3d53u, 0xa7ca3b6fu, 0x3f383d4au, 0x19c13a20u, 0x3ed83d43u, 0x25a13924u, 0x3e8f3d3du, 0x287f385eu,
+    0x3e543d37u, 0x2987377fu, 0x3e233d30u, 0x2a08367eu, 0x3df73d25u, 0x2a3235a9u, 0x3dcc3d16u, 0x2a1d34f8u,
+    0x456837a7u, 0xbc7945d5u, 0x456137c3u, 0xbc7445d0u, 0x45793764u, 0xbc8545e0u, 0x4523385du, 0xbc4945a8u,
+    0x42c63ca9u, 0xb89a41eau, 0x41683ce6u, 0xb5fa4010u, 0x40953ceau, 0xb3a13de1u, 0x40113ce0u, 0xb0b33c92u,
+    0x3f733cddu, 0xad883b66u, 0x3efb3cddu, 0xaa133a29u, 0x3ea43ce0u, 0xa5643938u, 0x3e623ce2u, 0x9c0f387cu,
+    0x3e2f3ce5u, 0x1f1537c9u, 0x3e033ce5u, 0x234136cfu, 0x3ddc3ce3u, 0x24d335fcu, 0x3db63cdcu, 0x2576354au,
+    0x450f38d6u, 0xbc284547u, 0x450938e2u, 0xbc234542u, 0x451e38b9u, 0xbc334552u, 0x44d4394au, 0xbbf4451bu,
+    0x42893c90u, 0xb87c418cu, 0x41433cb1u, 0xb6303fb5u, 0x40773caau, 0xb4323da3u, 0x3fef3ca0u, 0xb1bd3c6eu,
+    0x3f453c9cu, 0xaffc3b3bu, 0x3ed23c9cu, 0xad9b3a0fu, 0x3e803ca0u, 0xabc3392cu, 0x3e433ca6u, 0xa9443879u,
+    0x3e143cacu, 0xa6f137cfu, 0x3dec3cb1u, 0xa44a36e0u, 0x3dc93cb3u, 0xa0df3615u, 0x3da73cb1u, 0x9caa3568u,
+    0x44b53a4eu, 0xbb5544b3u, 0x44b13a57u, 0xbb4f44afu, 0x44c03a39u, 0xbb6444bcu, 0x448c3aa6u, 0xbb17448eu,
+    0x42563ca2u, 0xb82f4129u, 0x41233ca7u, 0xb5ed3f3au, 0x40613c95u, 0xb42b3d5au, 0x3fcb3c87u, 0xb2113c3eu,
+    0x3f293c7eu, 0xb09e3af7u, 0x3eb93c7du, 0xaf3739dfu, 0x3e6a3c80u, 0xad993908u, 0x3e303c85u, 0xac68385eu,
+    0x3e033c8cu, 0xaaf637abu, 0x3ddd3c92u, 0xa99836c7u, 0x3dbd3c96u, 0xa8883606u, 0x3d9d3c96u, 0xa77a3561u,
+    0x44663bfbu, 0xba324424u, 0x44633c01u, 0xba2d4421u, 0x446e3bebu, 0xba40442cu, 0x44463c1du, 0xb9fb4405u,
+    0x42283cd8u, 0xb75e40beu, 0x41093cbcu, 0xb5533eb7u, 0x40503c9du, 0xb3ad3d09u, 0x3fb63c88u, 0xb1e53c06u,
+    0x3f1a3c7cu, 0xb0bc3aa3u, 0x3ead3c77u, 0xafca399du, 0x3e603c77u, 0xae8538d4u, 0x3e273c7cu, 0xad713834u,
+    0x3dfc3c82u, 0xaca03765u, 0x3dd73c87u, 0xabde368du, 0x3db83c8cu, 0xaaca35d7u, 0x3d9a3c8du, 0xa9f3353au,
+    0x44213cdfu, 0xb8ec433bu, 0x441f3ce0u, 0xb8e94337u, 0x44263cdbu, 0xb8f34346u, 0x440d3cf0u, 0xb8ce430fu,
+    0x42033d24u, 0xb61c4051u, 0x40f63ce7u, 0xb4783e31u, 0x40473cbau, 0xb2a73cb4u, 0x3fad3c9du, 0xb1523b90u,
+    0x3f163c8cu, 0xb0723a43u, 0x3eac3c84u, 0xaf9e394eu, 0x3e603c82u, 0xaea23893u, 0x3e283c84u, 0xadbc37f8u,
+    0x3dfd3c89u, 0xad0c3705u, 0x3dd93c8eu, 0xac7c363bu, 0x3dbb3c92u, 0xabf6358fu, 0x3d9e3c93u, 0xab2434fcu,
+    0x43df3dbau, 0xb7534247u, 0x43dc3dbbu, 0xb74f4244u, 0x43e63db8u, 0xb75d4250u, 0x43c33dc1u, 0xb7284226u,
+    0x41e93d83u, 0xb4ae3fc9u, 0x40ea3d25u, 0xb2f43da8u, 0x40423ce8u, 0xb15d3c59u, 0x3fae3cc2u, 0xb0733b08u,
+    0x3f1b3cacu, 0xafbc39d8u, 0x3eb33ca0u, 0xaede38f6u, 0x3e693c9bu, 0xae193846u, 0x3e313c9cu, 0xad6d3775u,
+    0x3e063c9eu, 0xacee3692u, 0x3de33ca2u, 0xac7735d5u, 0x3dc53ca5u, 0xac0f3535u, 0x3daa3ca7u, 0xab5d34acu,
+    0x43b03e9bu, 0xb50a4173u, 0x43af3e9bu, 0xb5084171u, 0x43b53e9bu, 0xb5104178u, 0x439e3e9cu, 0xb4f3415eu,
+    0x41e03dfau, 0xb26a3ef4u, 0x40eb3d7bu, 0xb0d93d24u, 0x404a3d2du, 0xafa63bfau, 0x3fc23cfdu, 0xaea83a7bu,
+    0x3f323ce0u, 0xae0e3967u, 0x3ecd3cd0u, 0xad803897u, 0x3e833cc8u, 0xad0d37e9u, 0x3e4a3cc6u, 0xacaf36e6u,
+    0x3e1e3cc6u, 0xac4a3613u, 0x3dfb3cc9u, 0xabe33563u, 0x3ddd3ccbu, 0xab3934cfu, 0x3dc23ccdu, 0xaa9e3450u,
+    0x43ba3fb6u, 0xb15f40b2u, 0x43b93fb6u, 0xb15c40b1u, 0x43be3fb8u, 0xb16640b7u, 0x43aa3fb0u, 0xb13f40a2u,
+    0x41f83ea6u, 0xaea63e2eu, 0x41063e01u, 0xad163ca0u, 0x40673d9au, 0xac653b40u, 0x3ffd3d5cu, 0xac2839ecu,
+    0x3f6e3d37u, 0xabea38f2u, 0x3f073d21u, 0xab953835u, 0x3eba3d15u, 0xab2a3740u, 0x3e803d0fu, 0xaac93651u,
+    0x3e523d0du, 0xaa5c358eu, 0x3e2d3d0du, 0xa9ee34ecu, 0x3e0e3d0eu, 0xa9843464u, 0x3df33d0eu, 0xa92a33e1u,
+    0x43f14086u, 0xa8a43ff8u, 0x43ef4086u, 0xa89c3ff5u, 0x43f54088u, 0xa8b83ffeu, 0x43e14081u, 0xa8543fdfu,
+    0x422d3f91u, 0x9e3d3d65u, 0x413b3ebeu, 0x9c7c3c18u, 0x409b3e3bu, 0x9ed13a77u, 0x40323decu, 0xa2b7394cu,
+    0x3fd13dbau, 0xa4bf3870u, 0x3f663d9cu, 0xa5c8378fu, 0x3f163d8au, 0xa6583685u, 0x3ed73d7fu, 0xa67b35adu,
+    0x3ea63d79u, 0xa68934fdu, 0x3e7f3d76u, 0xa664346bu, 0x3e5f3d74u, 0xa62a33e3u, 0x3e433d73u, 0xa5f03316u,
+    0x449d4292u, 0x32f43e4au, 0x449c4291u, 0x32f63e48u, 0x44a04295u, 0x32f13e4eu, 0x44944286u, 0x33023e39u,
+    0x43284132u, 0x321c3c69u, 0x420e407au, 0x30b53adcu, 0x41534008u, 0x2f133988u, 0x40d73f84u, 0x2d3d389au,
+    0x40813f2du, 0x2beb37c6u, 0x40423ef2u, 0x29ce36aeu, 0x40123eccu, 0x284c35ccu, 0x3fd93eb2u, 0x26323518u,
+    0x3fa03e9fu, 0x24ab3483u, 0x3f703e93u, 0x22e43407u, 0x3f493e89u, 0x211b333cu, 0x3f293e82u, 0x1f37328bu};
+
+static const uint steradian_ltc_charlie_magnitude_words[484] = {
+    0x00000009u, 0x00000004u, 0x0000001bu, 0x00000000u, 0x0000018au, 0x00000174u, 0x00060fd8u, 0x00161896u,
+    0x00301e43u, 0x00512269u, 0x0077257eu, 0x009e282du, 0x00c529d4u, 0x00eb2ba4u, 0x010f2cc6u, 0x01312dbdu,
+    0x01502eb0u, 0x016c2f9au, 0x0185303au, 0x0198309du, 0x01a730f5u, 0x01b0313eu, 0x00000000u, 0x00000000u,
+    0x00000000u, 0x00000000u, 0x0000018cu, 0x000001d9u, 0x00061048u, 0x001618d5u, 0x00301e7eu, 0x00522295u,
+    0x0079259bu, 0x00a2283eu, 0x00cb29e7u, 0x00f22bb9u, 0x01182cd1u, 0x013c2dc8u, 0x015d2ebcu, 0x017b2fa6u,
+    0x01953040u, 0x01aa30a3u, 0x01b930fau, 0x01c33143u, 0x0000007au, 0x0000007au, 0x00000079u, 0x0000007cu,
+    0x0000006eu, 0x00010349u, 0x0006116cu, 0x00161999u, 0x00321f35u, 0x0057231fu, 0x008125f5u, 0x00af2874u,
+    0x00dd2a24u, 0x010b2bfbu, 0x01372cf3u, 0x01612decu, 0x01882ee0u, 0x01ab2fcau, 0x01c93052u, 0x01e330b5u,
+    0x01f6310cu, 0x02023154u, 0x00000116u, 0x00000117u, 0x00000111u, 0x00000130u, 0x000000a3u, 0x0001068bu,
+    0x00061391u, 0x00171ae7u, 0x0034202bu, 0x005d23f2u, 0x008e267eu, 0x00c428c7u, 0x00fb2a83u, 0x01342c31u,
+    0x016b2d2au, 0x019f2e25u, 0x01d12f1bu, 0x01fe3003u, 0x02253070u, 0x024730d3u, 0x02613129u, 0x02723170u,
+    0x00000253u, 0x00000258u, 0x00000244u, 0x0000029cu, 0x0000010du, 0x00010a8eu, 0x00071597u, 0x00181c79u,
+    0x00382106u, 0x00662492u, 0x00a02740u, 0x00e12939u, 0x01272b04u, 0x016f2c78u, 0x01b62d76u, 0x01fc2e74u,
+    0x023d2f6bu, 0x027a302cu, 0x02b03099u, 0x02de30fbu, 0x03023151u, 0x031b3198u, 0x000004f8u, 0x00000502u,
+    0x000004dau, 0x0000058eu, 0x0000025du, 0x00010e51u, 0x00081837u, 0x001b1dfbu, 0x003e223bu, 0x00742565u,
+    0x00b92823u, 0x010a29d1u, 0x01632badu, 0x01c12cd3u, 0x021f2dd6u, 0x027c2ed8u, 0x02d52fd3u, 0x03283060u,
+    0x037330ceu, 0x03b43130u, 0x03e83185u, 0x040d31cau, 0x0000093au, 0x00000943u, 0x0000091eu, 0x000009c2u,
+    0x000005bbu, 0x000211dcu, 0x000a1a5eu, 0x001f200du, 0x004823deu, 0x0088267cu, 0x00dd28ccu, 0x01422a94u,
+    0x01b42c42u, 0x022e2d46u, 0x02ac2e4fu, 0x03292f55u, 0x03a33029u, 0x041730a1u, 0x0480310fu, 0x04db3171u,
+    0x052731c5u, 0x055e3209u, 0x00010d55u, 0x00010d5cu, 0x00010d3fu, 0x00010dc5u, 0x00000acbu, 0x0002153au,
+    0x000d1cc8u, 0x00272182u, 0x00582502u, 0x00a527e1u, 0x010e29a2u, 0x018f2b86u, 0x02222cc6u, 0x02c22dd3u,
+    0x03692ee3u, 0x04132feeu, 0x04b93077u, 0x055930f0u, 0x05ec315eu, 0x066e31c0u, 0x06db3213u, 0x072c3255u,
+    0x00011148u, 0x0001114du, 0x00011136u, 0x000111a0u, 0x00010f85u, 0x00041882u, 0x00121f17u, 0x0033237au,
+    0x00712665u, 0x00d228d0u, 0x01552aa8u, 0x01f92c56u, 0x02b72d66u, 0x03892e7du, 0x04682f94u, 0x054d3052u,
+    0x063130d4u, 0x070c314eu, 0x07d931bdu, 0x0848321eu, 0x08963270u, 0x08d132b0u, 0x00021507u, 0x0002150bu,
+    0x000214fau, 0x00021547u, 0x000113cfu, 0x00061b92u, 0x001b2132u, 0x0048250cu, 0x009a2814u, 0x011529e5u,
+    0x01be2be7u, 0x02902d06u, 0x03882e24u, 0x049d2f45u, 0x05c63032u, 0x06fa30bdu, 0x08183142u, 0x08af31bcu,
+    0x093d322bu, 0x09bd328cu, 0x0a2c32ddu, 0x0a81331au, 0x000318acu, 0x000318afu, 0x000318a2u, 0x000318dau,
+    0x000217b9u, 0x000b1e33u, 0x002a2387u, 0x006c26c6u, 0x00dc2931u, 0x01802b38u, 0x025d2cb3u, 0x03712dd8u,
+    0x04b62f04u, 0x06243018u, 0x07b030acu, 0x08a7313au, 0x097a31c1u, 0x0a49323du, 0x0b0d32adu, 0x0bc0330du,
+    0x0c2d335cu, 0x0c6a3396u, 0x00061c3bu, 0x00061c3du, 0x00061c34u, 0x00061c5bu, 0x00041b58u, 0x001420fdu,
+    0x00482567u, 0x00ac2885u, 0x014b2a98u, 0x022d2c6bu, 0x03572d9au, 0x04c72ed1u, 0x06783005u, 0x083130a1u,
+    0x093a313au, 0x0a5231ccu, 0x0b703255u, 0x0c4532d2u, 0x0ccc3342u, 0x0d4833a2u, 0x0db533efu, 0x0e0a3412u,
+    0x000c1f81u, 0x000d1f84u, 0x000c1f78u, 0x000d1facu, 0x000a1ec1u, 0x002823e5u, 0x008027b1u, 0x011d2a02u,
+    0x020a2c2eu, 0x034d2d6au, 0x04ec2eaeu, 0x06e32ff7u, 0x089830a0u, 0x09e23142u, 0x0b4a31dfu, 0x0c633274u,
+    0x0d263300u, 0x0de83380u, 0x0ea133f0u, 0x0f4d3427u, 0x0fe3344du, 0x102d3466u, 0x001e228bu, 0x001e228cu,
+    0x001e2285u, 0x001f22a7u, 0x0019220du, 0x00542629u, 0x00ef2971u, 0x01ef2bf8u, 0x035c2d4du, 0x053c2ea4u,
+    0x078e2ffeu, 0x092a30acu, 0x0ac23157u, 0x0c4531feu, 0x0d3c32a0u, 0x0e41333au, 0x0f4d33c9u, 0x102c3425u,
+    0x10ac345eu, 0x1122348du, 0x118a34b0u, 0x11dd34c7u, 0x0043259cu, 0x0043259eu, 0x00432599u, 0x004525aeu,
+    0x0038254eu, 0x00b528c6u, 0x01d02badu, 0x037e2d49u, 0x05c62ebdu, 0x08513017u, 0x0a0930cdu, 0x0c053182u,
+    0x0d283233u, 0x0e6932e1u, 0x0fc43387u, 0x10983413u, 0x1152345cu, 0x120c349eu, 0x12be34d7u, 0x13623505u,
+    0x13f23527u, 0x1432353bu, 0x00c128cbu, 0x00c128cbu, 0x00c028c9u, 0x00c528d5u, 0x00ad289bu, 0x01a82b60u,
+    0x03bb2d6fu, 0x06a32f0fu, 0x092d3051u, 0x0b6d3115u, 0x0d0731d4u, 0x0e85328fu, 0x10183347u, 0x110033fau,
+    0x11f93453u, 0x12fd34a4u, 0x140334efu, 0x14863533u, 0x1503356cu, 0x1576359au, 0x15db35bbu, 0x162935cbu,
+    0x01be2c10u, 0x01bf2c10u, 0x01bc2c0fu, 0x01c82c16u, 0x01912be8u, 0x03d82db3u, 0x07ea2fb7u, 0x0a8630bdu,
+    0x0cd23191u, 0x0ea2325bu, 0x10583320u, 0x117c33e0u, 0x12bd344eu, 0x140b34aau, 0x14c23502u, 0x157f3556u,
+    0x163f35a3u, 0x16fb35e8u, 0x17ae3622u, 0x18293650u, 0x186f366eu, 0x18a5367au, 0x06112ee5u, 0x06122ee5u,
+    0x060d2ee4u, 0x06232eebu, 0x05c12ec9u, 0x092c3065u, 0x0c89317eu, 0x0ecf3263u, 0x10b73337u, 0x122e33ffu,
+    0x13ce3461u, 0x14ca34c0u, 0x15bf351fu, 0x16c4357cu, 0x17d635d6u, 0x1877362cu, 0x1905367cu, 0x198e36c2u,
+    0x1a1036fdu, 0x1a853729u, 0x1ae83745u, 0x1b31374bu, 0x0b4731dau, 0x0b4831dau, 0x0b4331d9u, 0x0b5b31ddu,
+    0x0aee31ccu, 0x0e4d32d8u, 0x112a33e4u, 0x133f345au, 0x14c134bau, 0x15f73515u, 0x17453570u, 0x185635ccu,
+    0x19153629u, 0x19de3686u, 0x1aaf36e1u, 0x1b843739u, 0x1c2c378au, 0x1c9237d2u, 0x1cf23807u, 0x1d46381cu,
+    0x1d8c3828u, 0x1dbe3828u, 0x143d350au, 0x143d350au, 0x143c350au, 0x1442350bu, 0x142a3505u, 0x15693568u,
+    0x171c35c1u, 0x18663606u, 0x194b3649u, 0x1a3e3690u, 0x1b4136ddu, 0x1c2b372fu, 0x1cbe3786u, 0x1d5937e0u,
+    0x1df9381eu, 0x1e9b384au, 0x1f3c3874u, 0x1fd63899u, 0x203238b7u, 0x206f38cbu, 0x20a038d5u, 0x20c138d1u,
+    0x19673886u, 0x19673886u, 0x19663886u, 0x196c3886u, 0x194f3887u, 0x1b203879u, 0x1c813868u, 0x1d493861u,
+    0x1e0e3865u, 0x1ed73874u, 0x1fa9388bu, 0x204438abu, 0x20bb38d1u, 0x213738fbu, 0x21b63928u, 0x22373956u,
+    0x22b63981u, 0x232e39a8u, 0x239b39c7u, 0x23f739dbu, 0x241e39e2u, 0x243339d6u, 0x25893c9fu, 0x25893c9fu,
+    0x258a3c9fu, 0x25893c9eu, 0x258d3ca5u, 0x25403c24u, 0x25063b6fu, 0x24f23af2u, 0x24f93aa5u, 0x25163a7du,
+    0x25453a6fu, 0x25853a77u, 0x25d13a8fu, 0x26283ab2u, 0x26873addu, 0x26ea3b0du, 0x274c3b3du, 0x27aa3b68u,
+    0x27fe3b8bu, 0x28213ba1u, 0x28373ba4u, 0x283e3b8eu};
+
+// The table charlie at a place that steradian_ltc_coordinates gives: Charlie's sheen; the shape is M^-1 about the normal: xx, yy, xz, zx, and zz is 1.
+float4 steradian_ltc_charlie_shape_at(int k) {
+    return float4(steradian_halves(steradian_ltc_charlie_shape_words[2 * k]), steradian_halves(steradian_ltc_charlie_shape_words[2 * k + 1]));
+}
+float4 steradian_ltc_charlie_shape(float2 place) {
+    float2 x = clamp(place, 0.0, 1.0) * 15.0;
+    float2 node = min(floor(x), float2(14.0, 14.0));
+    float2 f = x - node;
+    int k = int(node.y) * 16 + int(node.x);
+    float4 low = lerp(steradian_ltc_charlie_shape_at(k), steradian_ltc_charlie_shape_at(k + 1), f.x);
+    float4 high = lerp(steradian_ltc_charlie_shape_at(k + 16), steradian_ltc_charlie_shape_at(k + 17), f.x);
+    return lerp(low, high, f.y);
+}
+
+// The magnitudes of the table charlie at such a place: what steradian_ltc_specular_scale takes.
+float2 steradian_ltc_charlie_magnitude_at(int k) { return steradian_halves(steradian_ltc_charlie_magnitude_words[k]); }
+float2 steradian_ltc_charlie_magnitude(float2 place) {
+    float2 x = clamp(place, 0.0, 1.0) * 21.0;
+    float2 node = min(floor(x), float2(20.0, 20.0));
+    float2 f = x - node;
+    int k = int(node.y) * 22 + int(node.x);
+    float2 low = lerp(steradian_ltc_charlie_magnitude_at(k), steradian_ltc_charlie_magnitude_at(k + 1), f.x);
+    float2 high = lerp(steradian_ltc_charlie_magnitude_at(k + 22), steradian_ltc_charlie_magnitude_at(k + 23), f.x);
+    return lerp(low, high, f.y);
+}
+
+// ======== ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann ========
+
+// ==== ggx_closed_form ====
+
+// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
+// Fresnel (ggx_cubature.glsl adds both).
+//
+// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
+// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
+// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
+//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+//
+//   E = sum of steradian_conic_vector(steradian_ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then steradian_ggx_unshadowed(view, E).
+//
+// docs/ggx.md has the derivation.
+// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+
+// What the lobe's integrals need of the view and the surface.
+//   v        unit view, z > 0
+//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
+//   ax, ay   widths: roughness squared, at least 1.0e-4
+//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
+struct SteradianGgxView {
+    float3 v;
+    float3 w;
+    float ax;
+    float ay;
+    float masking;
+};
+
+// Prepares a view.
+//
+// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
+SteradianGgxView steradian_ggx_view(float3 v, float ax, float ay) {
+    SteradianGgxView view;
+    float z = max(v.z, 1.0e-6);
+    view.v = float3(v.x, v.y, z);
+    view.w = float3(ax * v.x, ay * v.y, z);
+    view.ax = ax;
+    view.ay = ay;
+    view.masking = sqrt(dot(view.w, view.w)) / z;
+    return view;
+}
+
+// One edge of a light as an arc in stretched half vector space.
+//
+//   a, b     unit directions of the ends, in walk order, not below the horizon
+//
+// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
+// is further from it.
+// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
+SteradianConicArc steradian_ggx_edge(SteradianGgxView view, float3 a, float3 b) {
+    float3 chord = b - a;
+    float3 sum = a + b;
+    float chord2 = dot(chord, chord);
+    float sum2 = dot(sum, sum);
+    bool usable = chord2 > steradian_smallest_divisor() && sum2 > 1.0e-12;
+    float3 middle = sum * rsqrt(max(sum2, steradian_smallest_divisor()));
+    float3 along = chord * rsqrt(max(chord2, steradian_smallest_square()));
+    float half_sine = 0.5 * sqrt(chord2);
+    float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
+
+    bool from_end = dot(middle, view.v) > 0.9;
+    float side = steradian_select(from_end, steradian_select(dot(chord, view.v) > 0.0, -1.0, 1.0), 0.0);
+    float turn_cosine = steradian_select(from_end, half_cosine, 1.0);
+    float3 base = middle * turn_cosine + along * (side * half_sine);
+    float3 q = along * turn_cosine - middle * (side * half_sine);
+    float reach = steradian_select(usable, half_sine / (half_cosine + steradian_select(from_end, 0.0, 1.0)), 0.0);
+
+    float x = 1.0 / view.ax;
+    float y = 1.0 / view.ay;
+    float3 u0 = view.v + base;
+    float3 u2 = view.v - base;
+    return steradian_conic_prepare(
+        float3(u0.x * x, u0.y * y, u0.z), float3(q.x * x, q.y * y, q.z) * 2.0, float3(u2.x * x, u2.y * y, u2.z),
+        steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+
+// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+//
+//   e        sum over the edges of steradian_conic_vector, negated where the light is seen from behind
+//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
+float steradian_ggx_unshadowed(SteradianGgxView view, float3 e) {
+    return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
+}
+
+// ==== ggx_cubature ====
+
+// Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
+//
+// Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
+//   SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, smith, facing);
+//   for each edge: c = steradian_ggx_cubature_edge(c, edge, extra_nodes);
+//   vec2 r = steradian_ggx_cubature_finish(c);         // or, without the second walk: steradian_ggx_draft(view, e, smith, facing)
+//   radiance = steradian_ggx_radiance(r, f0, f90)      // per channel
+//
+// In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
+// equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
+// The measure itself is exact; only the smooth factor G2 F is sampled.
+
+// The state of the second walk.
+//   centre          us
+//   amount          what the distribution alone sends (steradian_ggx_unshadowed)
+//   extent          the length of E
+//   smith           1 with shadowing, 0 without
+//   facing          -1 where the light is seen from behind
+//   weight          sum of the weights; weighted: of weight times (G2, G2 (1 - v.h)^5)
+//   centre_weight   share of the weights that belongs to the centre
+//   at_centre       (G2, G2 (1 - v.h)^5) there
+//   lowest, highest of all values with weight
+struct SteradianGgxCubature {
+    SteradianGgxView view;
+    float3 centre;
+    float amount;
+    float extent;
+    float smith;
+    float facing;
+    float weight;
+    float centre_weight;
+    float2 weighted;
+    float2 at_centre;
+    float2 lowest;
+    float2 highest;
+};
+
+// Shadowing, and shadowing times Schlick's (1 - v.h)^5, at a direction of stretched half vector space.
+//
+//   u        unit
+//   smith    1 with shadowing, 0 without
+//   returns  (0, 0) where the mirrored light is not above the surface
+float2 steradian_ggx_shadowing_and_fresnel(SteradianGgxView view, float3 u, float smith) {
+    float3 h = float3(view.ax * u.x, view.ay * u.y, u.z);
+    h = h * rsqrt(max(dot(h, h), steradian_smallest_divisor()));
+    float v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
+    float3 l = h * (2.0 * v_dot_h) - view.v;
+    float lz = max(l.z, 0.0);
+    float shadowing = 2.0 * lz / max(lz * view.masking + steradian_ggx_stretched_length(l, view.ax, view.ay), steradian_smallest_divisor());
+    float g = steradian_select(l.z > 0.0, 1.0 + smith * (shadowing - 1.0), 0.0);
+    float x = 1.0 - v_dot_h;
+    float x2 = x * x;
+    return float2(g, g * (x2 * x2 * x));
+}
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   smith    1.0: height-correlated shadowing; 0.0: none
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+SteradianGgxCubature steradian_ggx_cubature_begin(SteradianGgxView view, float3 e, float smith, float facing) {
+    SteradianGgxCubature c;
+    float3 inward = e * facing;
+    float length2 = dot(inward, inward);
+    bool usable = length2 > steradian_smallest_square();
+    c.view = view;
+    c.centre = steradian_select(usable, inward * rsqrt(max(length2, steradian_smallest_square())), float3(0.0, 0.0, 1.0));
+    c.amount = steradian_select(usable, steradian_ggx_unshadowed(view, inward), 0.0);
+    c.extent = sqrt(length2);
+    c.smith = smith;
+    c.facing = facing;
+    c.weight = 0.0;
+    c.centre_weight = 0.0;
+    c.weighted = float2(0.0, 0.0);
+    c.at_centre = steradian_ggx_shadowing_and_fresnel(view, c.centre, smith);
+    c.lowest = c.at_centre;
+    c.highest = c.at_centre;
+    return c;
+}
+
+// Adds one node.
+//
+//   u        unit direction in stretched half vector space
+//   weight   0 for a lane that does not have this node
+SteradianGgxCubature steradian_ggx_cubature_add(SteradianGgxCubature c, float3 u, float weight) {
+    SteradianGgxCubature next = c;
+    float o = weight * max(dot(c.view.w, u), 0.0);
+    float2 g = steradian_ggx_shadowing_and_fresnel(c.view, u, c.smith);
+    bool counts = abs(o) > 0.0;
+    next.weight = c.weight + o;
+    next.weighted = c.weighted + g * o;
+    next.lowest = steradian_select(counts, float2(min(c.lowest.x, g.x), min(c.lowest.y, g.y)), c.lowest);
+    next.highest = steradian_select(counts, float2(max(c.highest.x, g.x), max(c.highest.y, g.y)), c.highest);
+    return next;
+}
+
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
+float2 steradian_ggx_rule(float n, int j) {
+    float2 r = steradian_gauss_legendre_node(1, j);
+    for (int k = 2; k <= 6; k++) {
+        r = steradian_select(n > float(k) - 0.5, steradian_gauss_legendre_node(k, j), r);
+    }
+    return r;
+}
+
+// Adds the nodes of one edge.
+//
+//   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
+//
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, SteradianConicArc edge, int extra) {
+    SteradianGgxCubature next = c;
+    float total = edge.sweep.x + edge.sweep.y;
+    float n = 1.0 + steradian_select(total < 0.25, 0.0, 1.0) + steradian_select(total < 0.8, 0.0, 1.0) + steradian_select(total < 1.6, 0.0, 1.0) + float(extra);
+    bool fine = total >= 0.5;
+    if (extra > 0) {
+        fine = total > -1.0;
+    }
+    for (int j = 0; j < 4 + extra; j++) {
+        bool present = n > float(j) + 0.5 && total > 0.0;
+        if (present) {
+            float2 rule = steradian_ggx_rule(n, j);
+            SteradianConicNode node = steradian_conic_node(edge, rule.x);
+            float3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+            float3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
+            float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+            float3 rim = u * sqrt(inverse2);
+            float rim_cosine = dot(rim, c.centre);
+            float3 out_of_centre = rim - c.centre * rim_cosine;
+            float3 outward = out_of_centre * rsqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+            float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+            om = steradian_select(present, om, 0.0);
+
+            float first = steradian_select(fine, 0.355051025721682190, 0.666666666666666667);
+            float first_weight = steradian_select(fine, 0.512485826188421615, 0.75);
+            float centre_weight = steradian_select(fine, 0.111111111111111111, 0.25);
+            float cosine = 1.0 - (1.0 - rim_cosine) * first;
+            float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
+            next.centre_weight = next.centre_weight + om * centre_weight;
+            if (fine && present) {
+                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
+                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+                om = steradian_select(fine, om * 0.376403062700467274, 0.0);
+                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            }
+        }
+    }
+    return next;
+}
+
+// Limits what leaves: with shadowing no lobe sends more than it gets.
+//
+//   mean     means of (G2, G2 (1 - v.h)^5)
+float2 steradian_ggx_limited(float amount, float2 mean, float smith) {
+    float whole = amount * mean.x;
+    whole = steradian_select(smith > 0.5, min(whole, 1.0), whole);
+    return float2(whole, clamp(amount * mean.y, 0.0, whole));
+}
+
+// Ends the second walk.
+//
+//   returns  radiance for radiance 1 as two numbers for steradian_ggx_radiance: with F = 1, and with F = (1 - v.h)^5
+//
+// Degenerate: weights that cancel leave the centre's value.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+float2 steradian_ggx_cubature_finish(SteradianGgxCubature c) {
+    // The centre's values are known all along, its weight only now.
+    float o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
+    float weight = c.weight + o;
+    bool usable = weight > 1.0e-9 * c.extent;
+    float scale = 1.0 / steradian_select(usable, weight, 1.0);
+    float2 mean = (c.weighted + c.at_centre * o) * scale;
+    mean = float2(clamp(mean.x, c.lowest.x, c.highest.x), clamp(mean.y, c.lowest.y, c.highest.y));
+    mean = steradian_select(usable, mean, c.at_centre);
+    return steradian_ggx_limited(c.amount, mean, c.smith);
+}
+
+// Shadowing and Fresnel at the centre only: one walk. Arguments as steradian_ggx_cubature_begin, result as steradian_ggx_cubature_finish.
+float2 steradian_ggx_draft(SteradianGgxView view, float3 e, float smith, float facing) {
+    SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, smith, facing);
+    return steradian_ggx_limited(c.amount, c.at_centre, smith);
+}
+
+// Radiance of one channel, for radiance 1.
+//
+//   r        of steradian_ggx_cubature_finish or steradian_ggx_draft
+//   f0, f90  Schlick's reflectances
+float steradian_ggx_radiance(float2 r, float f0, float f90) {
+    return f0 * (r.x - r.y) + f90 * r.y;
 }
 
 // ==== half_vector ====
@@ -2555,31 +3252,31 @@ float moment_double_axis_share(float3 a, float3 b, float3 r, float3 v, float sha
 // For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
-//   ConicArc edge = ggx_edge(view, a, b);
+//   SteradianConicArc edge = steradian_ggx_edge(view, a, b);
 //   for j in 0 .. count - 1:
-//       p = half_vector_at(view, edge, half_vector_split_pole_mapped(edge, j / count)), q the next one
-//       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
+//       p = steradian_half_vector_at(view, edge, steradian_half_vector_split_pole_mapped(edge, j / count)), q the next one
+//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
 //
 // Frame and order: as ggx_closed_form.glsl.
 
 // The GGX width whose lobe is as wide as Blinn-Phong's of exponent n: both have the mean squared slope 2 / (n + 2).
-float blinn_phong_alpha(float n) {
+float steradian_blinn_phong_alpha(float n) {
     return sqrt(2.0 / (n + 2.0));
 }
 
 // Unit half vector at a place of an edge.
-float3 half_vector_at(GgxView view, ConicArc edge, float tau) {
+float3 steradian_half_vector_at(SteradianGgxView view, SteradianConicArc edge, float tau) {
     float3 u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
     float3 h = float3(view.ax * u.x, view.ay * u.y, u.z);
-    return h * rsqrt(max(dot(h, h), smallest_divisor()));
+    return h * rsqrt(max(dot(h, h), steradian_smallest_divisor()));
 }
 
 // The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
-float half_vector_split_uniform(ConicArc edge, float share) {
-    float first = trig_atan2(edge.scale * edge.begin, 1.0);
-    float last = trig_atan2(edge.scale * edge.end, 1.0);
-    float2 u = complex_unit(first + share * (last - first));
-    return clamp(u.y / max(u.x * edge.scale, smallest_length()), edge.begin, edge.end);
+float steradian_half_vector_split_uniform(SteradianConicArc edge, float share) {
+    float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
+    float2 u = steradian_complex_unit(first + share * (last - first));
+    return clamp(u.y / max(u.x * edge.scale, steradian_smallest_length()), edge.begin, edge.end);
 }
 
 // The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
@@ -2588,12 +3285,12 @@ float half_vector_split_uniform(ConicArc edge, float share) {
 // Newton's steps where they halve what is left, else the middle of a bracket: 4 or 5 as a rule, 24 at most. A split that is
 // a little off costs nothing.
 // Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
-float half_vector_split_pole_mapped(ConicArc edge, float share) {
-    float first = trig_atan2(edge.scale * edge.begin, 1.0);
-    float last = trig_atan2(edge.scale * edge.end, 1.0);
+float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float share) {
+    float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
     float weight = 0.3 / max(last - first, 1.0e-12);
     float total = edge.sweep.x + edge.sweep.y + 0.3;
-    ConicNode node = conic_node(edge, share);
+    SteradianConicNode node = steradian_conic_node(edge, share);
     float tau = node.tau;
     float low = edge.begin;
     float high = edge.end;
@@ -2602,8 +3299,8 @@ float half_vector_split_pole_mapped(ConicArc edge, float share) {
     for (int i = 0; i < 24; i++) {
         if (off) {
             float t = edge.scale * tau;
-            float value = conic_sweep(edge.z1, edge.begin, tau) + conic_sweep(edge.z2, edge.begin, tau)
-                + weight * (trig_atan2(t, 1.0) - first) - share * total;
+            float value = steradian_conic_sweep(edge.z1, edge.begin, tau) + steradian_conic_sweep(edge.z2, edge.begin, tau)
+                + weight * (steradian_trig_atan2(t, 1.0) - first) - share * total;
             float x1 = tau - edge.z1.x;
             float x2 = tau - edge.z2.x;
             float slope = edge.z1.y / (x1 * x1 + edge.z1.y * edge.z1.y) + edge.z2.y / (x2 * x2 + edge.z2.y * edge.z2.y)
@@ -2627,38 +3324,38 @@ float half_vector_split_pole_mapped(ConicArc edge, float share) {
 //   n        exponent, at least 0
 //
 // (n + 2) / (2 pi) h_z^n (v.h) is a double-axis moment, of axes z and v.
-float blinn_phong_arc(float3 a, float3 b, float3 v, float n) {
+float steradian_blinn_phong_arc(float3 a, float3 b, float3 v, float n) {
     float3 z = float3(0.0, 0.0, 1.0);
-    MomentEdge edge = moment_edge(a, b, z);
-    MomentIntegrands front = moment_quadrature_front(edge, max(n, 1.0e-6) - 1.0);
-    return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front.moment), front.power);
+    SteradianMomentEdge edge = steradian_moment_edge(a, b, z);
+    SteradianMomentIntegrands front = steradian_moment_quadrature_front(edge, max(n, 1.0e-6) - 1.0);
+    return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front.moment), front.power);
 }
 
-// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
+// One arc's share of Blinn-Phong as in steradian_blinn_phong_arc, by the cosine series and the error function instead of quadrature.
 //
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
 //
 // Error: of the series, see docs/accuracy.md, "phong series".
-float blinn_phong_arc_approximate(float3 a, float3 b, float3 v, MomentSeries series, float n, int range) {
+float steradian_blinn_phong_arc_approximate(float3 a, float3 b, float3 v, SteradianMomentSeries series, float n, int range) {
     float3 z = float3(0.0, 0.0, 1.0);
-    MomentEdge edge = moment_edge(a, b, z);
+    SteradianMomentEdge edge = steradian_moment_edge(a, b, z);
     float front = 0.0;
     if (range == 2) {
-        front = moment_series_low_front(edge, series, n - 1.0);
+        front = steradian_moment_series_low_front(edge, series, n - 1.0);
     } else {
-        front = moment_series_front(edge, series);
+        front = steradian_moment_series_front(edge, series);
     }
     int low = 0;
     if (range > 0) {
         low = 1;
     }
-    return moment_double_axis_share(a, b, z, v, moment_edge_share(edge, front), moment_cosine_front(edge, n, low));
+    return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front), steradian_moment_cosine_front(edge, n, low));
 }
 
 // The error function. Error: 1.5e-7 absolute.
 // Source: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
-float beckmann_error_function_approximate(float x) {
+float steradian_beckmann_error_function_approximate(float x) {
     float t = abs(x);
     float e = 1.0 / (1.0 + 0.3275911 * t);
     float p = ((((1.061405429 * e - 1.453152027) * e + 1.421413741) * e - 0.284496736) * e + 0.254829592) * e;
@@ -2666,9 +3363,9 @@ float beckmann_error_function_approximate(float x) {
     return steradian_select(x < 0.0, -y, y);
 }
 
-// The series that beckmann_arc takes: that of an infinite exponent.
-MomentSeriesHigh beckmann_series() {
-    MomentSeriesHigh series = moment_series_high_prepare(1.0e30);
+// The series that steradian_beckmann_arc takes: that of an infinite exponent.
+SteradianMomentSeriesHigh steradian_beckmann_series() {
+    SteradianMomentSeriesHigh series = steradian_moment_series_high_prepare(1.0e30);
     series.m = 2.0;  // log_c below is the square of the distance
     return series;
 }
@@ -2676,25 +3373,25 @@ MomentSeriesHigh beckmann_series() {
 // One arc's share of Beckmann: 2 pi v_z times the radiance.
 //
 //   a, b     unit half vectors of the arc's ends, in walk order, above the surface
-//   series   beckmann_series()
+//   series   steradian_beckmann_series()
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
 // Error: of the series; see docs/accuracy.md, "half vector".
-float beckmann_arc(GgxView view, float3 a, float3 b, MomentSeriesHigh series) {
+float steradian_beckmann_arc(SteradianGgxView view, float3 a, float3 b, SteradianMomentSeriesHigh series) {
     float za = 1.0 / max(a.z, 1.0e-6);
     float zb = 1.0 / max(b.z, 1.0e-6);
     float2 p = float2(a.x * za / view.ax, a.y * za / view.ay);
     float2 q = float2(b.x * zb / view.ax, b.y * zb / view.ay);
     float2 along = q - p;
     float length2 = dot(along, along);
-    bool usable = length2 > smallest_divisor();
-    along = along * rsqrt(max(length2, smallest_divisor()));
+    bool usable = length2 > steradian_smallest_divisor();
+    along = along * rsqrt(max(length2, steradian_smallest_divisor()));
     float d = p.x * along.y - p.y * along.x;
     float low = dot(p, along);
     float high = dot(q, along);
 
-    MomentEdge edge;
+    SteradianMomentEdge edge;
     edge.side = steradian_select(d < 0.0, -1.0, 1.0);
     edge.s = max(abs(d), 1.0e-6);
     edge.c = 1.0;
@@ -2704,394 +3401,28 @@ float beckmann_arc(GgxView view, float3 a, float3 b, MomentSeriesHigh series) {
     edge.y1 = high;
     edge.log_c = min(edge.s * edge.s, 80.0);
     edge.swept = 0.0;
-    float around = moment_edge_share(edge, moment_series_high_front(edge, series));
+    float around = steradian_moment_edge_share(edge, steradian_moment_series_high_front(edge, series));
     float across = exp(-edge.log_c) * 0.886226925452758014
-        * (beckmann_error_function_approximate(high) - beckmann_error_function_approximate(low));
+        * (steradian_beckmann_error_function_approximate(high) - steradian_beckmann_error_function_approximate(low));
     float share = view.w.z * around + (view.w.y * along.x - view.w.x * along.y) * across;
     return steradian_select(usable, share, 0.0);
 }
 
 // One arc's share of E (ggx_closed_form.glsl) for GGX, exact along the great circle.
-float3 ggx_arc(GgxView view, float3 a, float3 b) {
-    float3 p = polygon_direction(float3(a.x / view.ax, a.y / view.ay, a.z));
-    float3 q = polygon_direction(float3(b.x / view.ax, b.y / view.ay, b.z));
-    return polygon_edge(p, q);
+float3 steradian_ggx_arc(SteradianGgxView view, float3 a, float3 b) {
+    float3 p = steradian_polygon_direction(float3(a.x / view.ax, a.y / view.ay, a.z));
+    float3 q = steradian_polygon_direction(float3(b.x / view.ax, b.y / view.ay, b.z));
+    return steradian_polygon_edge(p, q);
 }
 
 // Radiance from the sum over the arcs, for radiance 1; not negative.
 //
 //   facing   1.0; -1.0 where the light is seen from behind
-float half_vector_radiance(GgxView view, float sum, float facing) {
-    return max(sum * facing, 0.0) * inverse_two_pi() / view.v.z;
+float steradian_half_vector_radiance(SteradianGgxView view, float sum, float facing) {
+    return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
 }
 
-// ==== ltc ====
-
-// Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
-//
-// A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
-// the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
-// Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
-
-// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
-struct LtcMatrix {
-    float xx;
-    float xz;
-    float yy;
-    float zx;
-    float zz;
-};
-
-// The place where a table is read: both coordinates are in [0, 1], and the outer nodes stand on the ends.
-//
-//   roughness  perceptual: the square root of alpha
-//   n_dot_v    cosine of the view
-float2 ltc_coordinates(float roughness, float n_dot_v) {
-    return float2(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
-}
-
-// The matrix as the literature's texture stores it.
-//
-//   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
-LtcMatrix ltc_from_classic(float4 t) {
-    LtcMatrix m;
-    m.xx = t.x;
-    m.xz = t.z;
-    m.yy = 1.0;
-    m.zx = t.y;
-    m.zz = t.w;
-    return m;
-}
-
-// The matrix from the compact table, in which it is stored about the mirror direction and divided by alpha.
-//
-//   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
-//            R turns z into the mirror direction (-s, 0, c)
-//   alpha    roughness squared, at least 1.0e-4
-//   view     unit, in the shading frame: (s, 0, c). Take s from the frame, not from sqrt(1 - c*c), which
-//            loses half the digits near the normal, where a narrow lobe needs them
-//
-// A lobe that is stored about the normal (diffuse, sheen) passes alpha = 1 and view = (0, 0, 1).
-LtcMatrix ltc_from_compact(float4 e, float alpha, float3 view) {
-    float tilt = alpha * e.z;
-    float shear = alpha * e.w;
-    float width = alpha * e.x;
-    LtcMatrix m;
-    m.xx = view.z + tilt * view.x;
-    m.xz = view.x - tilt * view.z;
-    m.yy = (e.x - tilt * e.w) / e.y;
-    m.zx = -(shear * view.z + width * view.x);
-    m.zz = width * view.z - shear * view.x;
-    return m;
-}
-
-// The vector M^-1 v, up to the matrix' factor, for any vector v of the shading frame.
-float3 ltc_transform(LtcMatrix m, float3 v) {
-    return float3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
-}
-
-// The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
-float ltc_lobe(LtcMatrix m, float3 l) {
-    float3 w = ltc_transform(m, l);
-    float d2 = max(dot(w, w), smallest_length());
-    float determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
-    return determinant * max(w.z, 0.0) * inverse_pi() / (d2 * d2);
-}
-
-// The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
-//
-// Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
-float ltc_energy_above_horizon(LtcMatrix m) {
-    return 0.5 + 0.5 * m.xx * rsqrt(max(m.xx * m.xx + m.zx * m.zx, smallest_square()));
-}
-
-// The state of a walk along a light's outline under M^-1.
-//   lobe      what the clipped edges add up to
-//   anchor    where the outline first crossed the real horizon, under M^-1
-//   anchored  whether it did
-struct LtcWalk {
-    PolygonWalk lobe;
-    float3 anchor;
-    bool anchored;
-};
-
-// A walk with no edge yet.
-LtcWalk ltc_begin() {
-    LtcWalk walk;
-    walk.lobe = polygon_begin();
-    walk.anchor = float3(0.0, 0.0, 0.0);
-    walk.anchored = mask_none();
-    return walk;
-}
-
-// Unit direction of a vertex under M^-1.
-//
-//   v        vertex or direction in the shading frame
-float3 ltc_direction(LtcMatrix m, float3 v) {
-    return polygon_direction(ltc_transform(m, v));
-}
-
-// Adds one edge, clipped to the real horizon, then to the lobe's.
-//
-//   a, b     ends in the shading frame, in walk order: polygon_direction of the vertices
-//   ta, tb   ltc_direction(m, a) and ltc_direction(m, b): a vertex is transformed once for its two edges
-//
-// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
-// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
-// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
-//
-// Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
-LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, float3 a, float3 b, float3 ta, float3 tb) {
-    LtcWalk next = walk;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        float3 start = ta;
-        float3 end = tb;
-        if (a_below || b_below) {
-            float3 none = float3(0.0, 0.0, 0.0);
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            float3 horizon = float3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            float3 crossing = steradian_select(crosses, ltc_direction(m, horizon), none);
-            start = steradian_select(a_below, crossing, ta);
-            end = steradian_select(b_below, crossing, tb);
-            // The first crossing is its own anchor: an edge of no length.
-            if (crosses && walk.anchored) {
-                bool closes = crosses && walk.anchored;
-                float3 departure = steradian_select(a_below, walk.anchor, crossing);
-                float3 arrival = steradian_select(a_below, crossing, walk.anchor);
-                next.lobe = polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
-            }
-            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
-            next.anchored = walk.anchored || crosses;
-        }
-        next.lobe = polygon_add_edge(next.lobe, start, end);
-    }
-    return next;
-}
-
-// Integral of the lobe over the part of the light above the real horizon, in [0, 1].
-//
-//   reversed true where the light is seen from behind
-float ltc_integral(LtcWalk walk, bool reversed) {
-    return polygon_irradiance(walk.lobe, reversed) * inverse_pi();
-}
-
-// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
-//
-//   n_a      magnitude of the lobe without Fresnel
-//   f_a      of the lobe times (1 - v.h)^5
-float ltc_specular_scale(float f0, float f90, float n_a, float f_a) {
-    return f0 * n_a + (f90 - f0) * f_a;
-}
-
-// The specular radiance where the lobe times (1 - v.h)^5 has a matrix of its own (table of fit --fresnel-lobe).
-//
-//   integral, grazing  ltc_integral with the lobe's and with the Fresnel lobe's matrix
-float ltc_specular_with_fresnel_lobe(float f0, float f90, float n_a, float integral, float f_a, float grazing) {
-    return f0 * n_a * integral + (f90 - f0) * f_a * grazing;
-}
-
-// Factor on the specular radiance that returns what single scattering loses between the facets.
-//
-//   f0       reflectance along the normal
-//   albedo   of the lobe with F = 1: n_a times ltc_energy_above_horizon, in (0, 1]
-//
-// Source: Turquin, "Practical multiple scattering compensation for microfacet models", 2019, eq. 16.
-float ltc_multiple_scattering(float f0, float albedo) {
-    float a = clamp(albedo, 1.0e-2, 1.0);
-    return 1.0 + f0 * (1.0 - a) / a;
-}
-
-// A surface under a clear coat of glTF: the coat reflects its share and dims what lies below.
-//
-//   base       radiance of the surface below
-//   coat       radiance of the coat's lobe with its own Fresnel (f0 0.04) in it
-//   clearcoat  strength in [0, 1]
-//   n_dot_v    cosine of the view to the coat's normal
-float ltc_clear_coat(float base, float coat, float clearcoat, float n_dot_v) {
-    float f = fresnel_schlick(0.04, 1.0, n_dot_v);
-    return base * (1.0 - clearcoat * f) + clearcoat * coat;
-}
-
-// A surface under sheen of glTF: what the cloth's fibres reflect does not reach what lies below.
-//
-//   base      radiance of the surface below
-//   sheen     radiance of the sheen lobe, its colour included
-//   strongest largest component of the sheen's colour
-//   albedo    of the sheen lobe at this view: n_a times ltc_energy_above_horizon
-float ltc_sheen(float base, float sheen, float strongest, float albedo) {
-    return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
-}
-
-// ==== ltc_texture ====
-
-// Textured lights: where on a light a lobe looks, and how widely.
-//
-// The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
-// point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
-// cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
-// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
-//
-//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
-//   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
-//
-// A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
-// Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
-
-// An ellipse on the light's plane, in the shading frame.
-//   center   relative to the shading point
-//   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
-//   valid    false where the light sends nothing
-struct LtcTextureFootprint {
-    float3 center;
-    float3 axis_a;
-    float3 axis_b;
-    bool valid;
-};
-
-// The vector M w, up to a positive factor: the inverse of ltc_transform.
-float3 ltc_texture_transform_back(LtcMatrix m, float3 w) {
-    float determinant = m.xx * m.zz - m.xz * m.zx;
-    return float3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
-}
-
-// The matrix of a diffuse lobe: none.
-LtcMatrix ltc_texture_diffuse() {
-    LtcMatrix m;
-    m.xx = 1.0;
-    m.xz = 0.0;
-    m.yy = 1.0;
-    m.zx = 0.0;
-    m.zz = 1.0;
-    return m;
-}
-
-// Irradiance vector, under M^-1, of the part of the light above both horizons.
-//
-//   reversed true where the light is seen from behind
-float3 ltc_texture_irradiance_vector(LtcWalk walk, bool reversed) {
-    return polygon_irradiance_vector(walk.lobe, reversed);
-}
-
-// Where a lobe looks on a light's plane.
-//
-//   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
-//   normal   unit normal of the light's plane, in the shading frame, either sign
-//   height   dot(normal, any point of the plane relative to the shading point)
-//
-// A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
-//
-// Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
-// Error: docs/ltc.md, "Textured lights".
-LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, float3 phi, float3 normal, float height) {
-    float p2 = dot(phi, phi);
-    bool lit = p2 > smallest_divisor();
-    float3 w = steradian_select(lit, phi * rsqrt(max(p2, smallest_divisor())), float3(0.0, 0.0, 1.0));
-    float3x3 across = frame_from_normal(w);
-    float3 l = ltc_texture_transform_back(m, w);
-    float along = dot(normal, l);
-    bool meets = lit && along * height > 0.0;
-    float inverse = steradian_select(meets, 1.0 / steradian_select(meets, along, 1.0), 0.0);
-    float t = height * inverse;
-    float3 a = ltc_texture_transform_back(m, steradian_transform(across, float3(1.0, 0.0, 0.0)));
-    float3 b = ltc_texture_transform_back(m, steradian_transform(across, float3(0.0, 1.0, 0.0)));
-    LtcTextureFootprint f;
-    f.center = l * t;
-    f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
-    f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
-    f.valid = meets;
-    return f;
-}
-
-// An ellipse on the light's plane: its long half axis, and the length of the short one.
-struct LtcTextureEllipse {
-    float2 major;
-    float minor;
-};
-
-// Principal axes of the ellipse of two conjugate radii.
-//
-//   a, b     in the plane's own coordinates [m]
-//
-// Degenerate: a circle has any major axis.
-LtcTextureEllipse ltc_texture_axes(float2 a, float2 b) {
-    float xx = a.x * a.x + b.x * b.x;
-    float yy = a.y * a.y + b.y * b.y;
-    float xy2 = a.x * a.y + b.x * b.y;
-    float half_difference = 0.5 * (xx - yy);
-    float spread = sqrt(half_difference * half_difference + xy2 * xy2);
-    // An eigenvector of the larger eigenvalue, from the row that does not cancel.
-    float2 v = steradian_select(half_difference > 0.0, float2(half_difference + spread, xy2), float2(xy2, spread - half_difference));
-    float v2 = dot(v, v);
-    float2 direction = steradian_select(v2 > smallest_square(), v * rsqrt(max(v2, smallest_square())), float2(1.0, 0.0));
-    float longest = sqrt(0.5 * (xx + yy) + spread);
-    LtcTextureEllipse e;
-    e.major = direction * longest;
-    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, smallest_length());
-    return e;
-}
-
-// A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
-LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, float width, float widest) {
-    float longest = width * sqrt(dot(e.major, e.major));
-    LtcTextureEllipse g;
-    g.major = e.major * (width * (widest / max(longest, widest)));
-    g.minor = min(width * e.minor, widest);
-    return g;
-}
-
-// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
-//
-// A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
-// Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
-// inverts that. The irradiance vector also lacks the lobe's cosine; it moves the centroid to the largest value of the
-// product of (V^-1 + S^-1)^-1's Gaussian and the cosine, along the cosine's slope.
-//
-//   g        the Gaussian: its standard deviations
-//   aside    where the irradiance vector meets the plane, from the light's centroid
-//   slope    of the logarithm of z under M^-1 along the plane, there
-//   light    covariance of the light's area: xx, xy, yy
-//   returns  from the light's centroid
-//
-// It stands at most 2.5 of its standard deviations away from there: further out, next to nothing of the light is under it.
-//
-// Degenerate: a light without width counts as a thousandth as wide as long.
-float2 ltc_texture_place(LtcTextureEllipse g, float2 aside, float2 slope, float3 light) {
-    float major2 = dot(g.major, g.major);
-    float minor2 = g.minor * g.minor;
-    float2 u = g.major * rsqrt(max(major2, smallest_square()));
-    float along = major2 - minor2;
-    float sxx = minor2 + along * u.x * u.x;
-    float sxy = along * u.x * u.y;
-    float syy = minor2 + along * u.y * u.y;
-    float least = 1.0e-6 * (light.x + light.z) + smallest_divisor();
-    float vxx = light.x + least;
-    float vyy = light.z + least;
-    // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
-    float txx = vxx + sxx;
-    float txy = light.y + sxy;
-    float tyy = vyy + syy;
-    float t_inverse = 1.0 / max(txx * tyy - txy * txy, smallest_square());
-    float2 p = float2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
-    p = float2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
-    p = float2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
-    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
-    float q = max(dot(slope, p), 0.0);
-    float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
-    float2 d = aside + p * share;
-    float v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, smallest_square());
-    float2 e = float2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
-    float2 push = float2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
-    float pushed2 = max(dot(push, e), 0.0);
-    return d + push * (2.5 * rsqrt(max(pushed2, 6.25)));
-}
+// ======== comparison: methods of the literature that ours are compared with ========
 
 // ==== ltc_clipless ====
 
@@ -3106,18 +3437,18 @@ float2 ltc_texture_place(LtcTextureEllipse g, float2 aside, float2 slope, float3
 //
 // Degenerate: f = 0 gives max(cosine, 0).
 // Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
-float ltc_clipped_sphere(float cosine, float f) {
+float steradian_ltc_clipped_sphere(float cosine, float f) {
     float z = clamp(cosine, -1.0, 1.0);
     float s2 = clamp(f, 1.0e-12, 1.0);
-    float sin_w = sqrt(max(1.0 - z * z, smallest_divisor()));
+    float sin_w = sqrt(max(1.0 - z * z, steradian_smallest_divisor()));
     float cos_s = sqrt(1.0 - s2);
     bool crossed = z * z < s2;
     // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
     float x = clamp(cos_s / sin_w, 0.0, 1.0);
     float y = sqrt(max(1.0 - x * x, 0.0));
     float root = sqrt(max(s2 - y * y, 0.0));
-    float arc = trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
-    float rim = abs(z) * (y * root + s2 * trig_atan2(y, root));
+    float arc = steradian_trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
+    float rim = abs(z) * (y * root + s2 * steradian_trig_atan2(y, root));
     float whole = steradian_pi() * s2 * max(z, 0.0);
     float cut = steradian_select(crossed, whole + arc - rim, whole);
     return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
@@ -3125,21 +3456,21 @@ float ltc_clipped_sphere(float cosine, float f) {
 
 // Adds one edge to the irradiance vector under M^-1 [rad].
 //
-//   ta, tb   ltc_direction of the edge's ends, in walk order
-float3 ltc_clipless_add_edge(float3 sum, float3 ta, float3 tb) {
-    return sum + polygon_edge(ta, tb);
+//   ta, tb   steradian_ltc_direction of the edge's ends, in walk order
+float3 steradian_ltc_clipless_add_edge(float3 sum, float3 ta, float3 tb) {
+    return sum + steradian_polygon_edge(ta, tb);
 }
 
 // Integral of the lobe over the light, approximately, in [0, 1].
 //
-//   sum      of ltc_clipless_add_edge, begun at zero
+//   sum      of steradian_ltc_clipless_add_edge, begun at zero
 //   reversed true where the light is seen from behind
-float ltc_clipless_integral(float3 sum, bool reversed) {
+float steradian_ltc_clipless_integral(float3 sum, bool reversed) {
     float3 e = sum * steradian_select(reversed, -1.0, 1.0);
     float e2 = dot(e, e);
-    float inverse = rsqrt(max(e2, smallest_square()));
-    float form_factor = clamp(e2 * inverse * inverse_pi(), 0.0, 1.0);
-    return form_factor * ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
+    float inverse = rsqrt(max(e2, steradian_smallest_square()));
+    float form_factor = clamp(e2 * inverse * steradian_inverse_pi(), 0.0, 1.0);
+    return form_factor * steradian_ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
 }
 
 // ==== moment_arvo ====
@@ -3152,11 +3483,11 @@ float ltc_clipless_integral(float3 sum, bool reversed) {
 // Source: Arvo 1995, sec. 5; Lecocq et al. 2017, eq. 1 to 3, with N = n - 1.
 
 // |s| times the integral of 1/(1 + x) over the part in front: summed over a polygon, its solid angle.
-float moment_solid_angle_front(MomentEdge edge) {
+float steradian_moment_solid_angle_front(SteradianMomentEdge edge) {
     float c0 = edge.c + edge.x0;
     float c1 = edge.c + edge.x1;
     float k = edge.s / (1.0 + edge.c);
-    return 2.0 * trig_atan2(k * (c0 * edge.y1 - c1 * edge.y0), c0 * c1 + k * k * edge.y0 * edge.y1);
+    return 2.0 * steradian_trig_atan2(k * (c0 * edge.y1 - c1 * edge.y0), c0 * c1 + k * k * edge.y0 * edge.y1);
 }
 
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
@@ -3166,13 +3497,13 @@ float moment_solid_angle_front(MomentEdge edge) {
 //            the slowest: at grazing views, where c is near 1, the stop comes late or never.
 //
 // Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
-float moment_arvo_front(MomentEdge edge, int n, int can_stop, float relative_precision) {
+float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop, float relative_precision) {
     int odd_m = 1 - (n - (n / 2) * 2);
     float c2 = edge.c * edge.c;
     float x02 = edge.x0 * edge.x0;
     float x12 = edge.x1 * edge.x1;
     // The integral of x^p, and x^(p+1) y at both ends, which the next step needs.
-    float power = trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    float power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
     float b0 = edge.x0 * edge.y0;
     float b1 = edge.x1 * edge.y1;
     float p = 2.0;
@@ -3201,7 +3532,7 @@ float moment_arvo_front(MomentEdge edge, int n, int can_stop, float relative_pre
     }
     float front = edge.s * sum;
     if (odd_m == 1) {
-        front = front + moment_solid_angle_front(edge);
+        front = front + steradian_moment_solid_angle_front(edge);
     }
     return max(front, 0.0);
 }
@@ -3224,7 +3555,7 @@ float moment_arvo_front(MomentEdge edge, int n, int can_stop, float relative_pre
 //   y_w, y_t     the same at x_w and x_t, over peak
 //   smallest     I at phi = pi/2: 0 for f = x, 1 for f = 1
 //   phi0, phi1   ends of the part in front [rad]
-struct MomentPeak {
+struct SteradianMomentPeak {
     float x_w;
     float x_t;
     float ratio_w;
@@ -3237,13 +3568,13 @@ struct MomentPeak {
 };
 
 // Cosine for |x| <= pi/2: Taylor, the next term is x^16/16!, 7e-11 at pi/2.
-float moment_peak_cosine(float x) {
+float steradian_moment_peak_cosine(float x) {
     float t = x * x;
     return 1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0 * (1.0 - t / 132.0 * (1.0 - t / 182.0))))));
 }
 
 // Sine for |x| <= pi/2: Taylor, the next term is x^15/15!, 7e-10 at pi/2.
-float moment_peak_sine(float x) {
+float steradian_moment_peak_sine(float x) {
     float t = x * x;
     return x * (1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0 * (1.0 - t / 156.0))))));
 }
@@ -3251,140 +3582,140 @@ float moment_peak_sine(float x) {
 // I less its smallest value, at x = c cos phi. f = x: x (1 - x^n)/(1 - x^2); f = 1: x^2 (1 - x^(n-1))/(1 - x^2).
 //
 //   even_n   1 for f = x, 0 for f = 1
-float moment_peak_height(float s2, float c2, float n, int even_n, float cosine, float sine) {
+float steradian_moment_peak_height(float s2, float c2, float n, int even_n, float cosine, float sine) {
     float rest = s2 + c2 * sine * sine;  // 1 - x^2 without cancellation
     float x2 = max(c2 * cosine * cosine, 1.0e-12);
-    float log_x = 0.5 * moment_log_1_plus(rest / x2);
+    float log_x = 0.5 * steradian_moment_log_1_plus(rest / x2);
     if (even_n == 1) {
-        return sqrt(x2) * moment_1_minus_exp(n * log_x) / rest;
+        return sqrt(x2) * steradian_moment_1_minus_exp(n * log_x) / rest;
     }
-    return x2 * moment_1_minus_exp((n - 1.0) * log_x) / rest;
+    return x2 * steradian_moment_1_minus_exp((n - 1.0) * log_x) / rest;
 }
 
 // The half width by the paper's fit, over its limit for c -> 0 (pi/3 for f = x, pi/4 for f = 1).
 //
 // Error: up to 17 % (f = x) and 32 % (f = 1, n = 5000), 4 to 8 % on the average.
 // Source: eq. 7, with pi/4 outside the power.
-float moment_peak_half_width_ratio(float c, float n, int even_n) {
+float steradian_moment_peak_half_width_ratio(float c, float n, int even_n) {
     if (even_n == 1) {
         float reduced = c - c / max(n - 1.0, 1.0);
         return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
     }
     float k = max(c - c / max(n - 2.0, 1.0), 1.0e-6);
-    return phong_power(max(1.0 - phong_power(k, 2.5), 1.0e-8), 0.45);
+    return steradian_phong_power(max(1.0 - steradian_phong_power(k, 2.5), 1.0e-8), 0.45);
 }
 
 // What the fits share for one edge and a lobe of exponent n.
-MomentPeak moment_peak_prepare(MomentEdge edge, float n, int even_n) {
+SteradianMomentPeak steradian_moment_peak_prepare(SteradianMomentEdge edge, float n, int even_n) {
     float s2 = edge.s * edge.s;
     float c2 = edge.c * edge.c;
     float widest = 0.785398163397448310;
-    MomentPeak p;
+    SteradianMomentPeak p;
     p.smallest = 1.0;
     if (even_n == 1) {
         widest = 1.04719755119659775;
         p.smallest = 0.0;
     }
-    p.ratio_w = moment_peak_half_width_ratio(edge.c, n, even_n);
+    p.ratio_w = steradian_moment_peak_half_width_ratio(edge.c, n, even_n);
     p.x_w = widest * p.ratio_w;
     float k = 1.0 - p.ratio_w;  // eq. 14: its twelfth power
     float k2 = k * k;
     float k4 = k2 * k2;
     p.x_t = min(p.x_w + 0.3946 * widest * (1.0 - k4 * k4 * k4), 1.57079632679489662);
-    p.peak = moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
+    p.peak = steradian_moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
     float scale = 1.0 / max(p.peak, 1.0e-12);
-    p.y_w = scale * moment_peak_height(s2, c2, n, even_n, moment_peak_cosine(p.x_w), moment_peak_sine(p.x_w));
-    p.y_t = scale * moment_peak_height(s2, c2, n, even_n, moment_peak_cosine(p.x_t), moment_peak_sine(p.x_t));
+    p.y_w = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_w), steradian_moment_peak_sine(p.x_w));
+    p.y_t = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_t), steradian_moment_peak_sine(p.x_t));
     p.y_w = clamp(p.y_w, 0.01, 0.99);
-    p.phi0 = trig_atan2(edge.y0, edge.x0);
-    p.phi1 = trig_atan2(edge.y1, edge.x1);
+    p.phi0 = steradian_trig_atan2(edge.y0, edge.x0);
+    p.phi1 = steradian_trig_atan2(edge.y1, edge.x1);
     return p;
 }
 
 // A peak scaled to 1 at the foot and 0 at pi/2.
 //   integral  over the part in front
 //   tail      its value at x_t
-struct MomentFit {
+struct SteradianMomentFit {
     float integral;
     float tail;
 };
 
 // The scaled peak from a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
-MomentFit moment_fit_scaled(MomentPeak p, float integral, float tail, float lowest) {
+SteradianMomentFit steradian_moment_fit_scaled(SteradianMomentPeak p, float integral, float tail, float lowest) {
     float scale = 1.0 / (1.0 - lowest);
-    MomentFit fit;
+    SteradianMomentFit fit;
     fit.integral = scale * (integral - lowest * (p.phi1 - p.phi0));
     fit.tail = scale * (tail - lowest);
     return fit;
 }
 
 // Width parameter of the Lorentzian. Source: eq. 11. Kept above 1.0e-3, where the scaled peak is its limit.
-float moment_lorentzian_width(MomentPeak p) {
+float steradian_moment_lorentzian_width(SteradianMomentPeak p) {
     float x2 = p.x_w * p.x_w;
     return max((1.0 - p.y_w - 0.405284734569351086 * x2) / (p.y_w * x2), 1.0e-3);
 }
 
 // The Lorentzian peak 1/(1 + a phi^2). Source: eq. 11 and 12.
-MomentFit moment_fit_lorentzian(MomentPeak p) {
-    float a = moment_lorentzian_width(p);
+SteradianMomentFit steradian_moment_fit_lorentzian(SteradianMomentPeak p) {
+    float a = steradian_moment_lorentzian_width(p);
     float root = sqrt(a);
-    float integral = trig_atan2(root * (p.phi1 - p.phi0), 1.0 + a * p.phi0 * p.phi1) / root;
-    return moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
+    float integral = steradian_trig_atan2(root * (p.phi1 - p.phi0), 1.0 + a * p.phi0 * p.phi1) / root;
+    return steradian_moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
 }
 
 // The peak of Pearson VII: (1 + b phi^2)^-2 with b = a/2.
-MomentFit moment_fit_pearson(MomentPeak p) {
-    float b = 0.5 * moment_lorentzian_width(p);
+SteradianMomentFit steradian_moment_fit_pearson(SteradianMomentPeak p) {
+    float b = 0.5 * steradian_moment_lorentzian_width(p);
     float root = sqrt(b);
-    float angle = trig_atan2(root * (p.phi1 - p.phi0), 1.0 + b * p.phi0 * p.phi1);
+    float angle = steradian_trig_atan2(root * (p.phi1 - p.phi0), 1.0 + b * p.phi0 * p.phi1);
     float ends = p.phi1 / (1.0 + b * p.phi1 * p.phi1) - p.phi0 / (1.0 + b * p.phi0 * p.phi0);
     float t = 1.0 / (1.0 + b * p.x_t * p.x_t);
     float l = 1.0 / (1.0 + b * 2.46740110027233966);
-    return moment_fit_scaled(p, 0.5 * (ends + angle / root), t * t, l * l);
+    return steradian_moment_fit_scaled(p, 0.5 * (ends + angle / root), t * t, l * l);
 }
 
 // A width of exactly 1 is a constant peak, 0/0 when scaled: kept 4e-3 away.
-float moment_fit_not_one(float a) {
+float steradian_moment_fit_not_one(float a) {
     return steradian_select(abs(a - 1.0) < 0.004, 1.004, a);
 }
 
 // Width parameter of the ellipsoid. Source: eq. 15.
-float moment_ellipsoid_width(MomentPeak p) {
-    float cosine = moment_peak_cosine(p.x_w);
-    float sine = moment_peak_sine(p.x_w);
+float steradian_moment_ellipsoid_width(SteradianMomentPeak p) {
+    float cosine = steradian_moment_peak_cosine(p.x_w);
+    float sine = steradian_moment_peak_sine(p.x_w);
     return p.y_w * sine * sine / (cosine * cosine * (1.0 - p.y_w));
 }
 
 // The ellipsoid peak a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
-MomentFit moment_fit_ellipsoid(MomentEdge edge, MomentPeak p) {
-    float a = moment_fit_not_one(moment_ellipsoid_width(p));
+SteradianMomentFit steradian_moment_fit_ellipsoid(SteradianMomentEdge edge, SteradianMomentPeak p) {
+    float a = steradian_moment_fit_not_one(steradian_moment_ellipsoid_width(p));
     float root = sqrt(a);
-    float cosine = moment_peak_cosine(p.x_t);
-    float integral = root * moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
-    return moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
+    float cosine = steradian_moment_peak_cosine(p.x_t);
+    float integral = root * steradian_moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
+    return steradian_moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
 }
 
 // The squared ellipsoid peak (b/(1 + (b - 1) cos^2 phi))^2.
-MomentFit moment_fit_ellipsoid_squared(MomentEdge edge, MomentPeak p) {
-    float b = moment_fit_not_one(moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
+SteradianMomentFit steradian_moment_fit_ellipsoid_squared(SteradianMomentEdge edge, SteradianMomentPeak p) {
+    float b = steradian_moment_fit_not_one(steradian_moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
     float root = sqrt(b);
-    float cosine = moment_peak_cosine(p.x_t);
-    float e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, smallest_divisor());
-    float e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, smallest_divisor());
-    float angle = moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
+    float cosine = steradian_moment_peak_cosine(p.x_t);
+    float e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, steradian_smallest_divisor());
+    float e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, steradian_smallest_divisor());
+    float angle = steradian_moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
     float integral = 0.5 * root * (b + 1.0) * angle - 0.5 * b * (b - 1.0) * (e1 - e0);
     float t = b / (1.0 + (b - 1.0) * cosine * cosine);
-    return moment_fit_scaled(p, integral, t * t, b * b);
+    return steradian_moment_fit_scaled(p, integral, t * t, b * b);
 }
 
 // Blend of a peak with too heavy a tail and one with too light a tail, so that the blend meets I in the tail.
 //
 // Source: eq. 13, clamped: its denominator vanishes where the two meet.
-MomentFit moment_fit_blended(MomentPeak p, MomentFit heavy, MomentFit light) {
+SteradianMomentFit steradian_moment_fit_blended(SteradianMomentPeak p, SteradianMomentFit heavy, SteradianMomentFit light) {
     float d = light.tail - heavy.tail;
     float alpha = (light.tail - p.y_t) / steradian_select(d < 0.0, min(d, -1.0e-12), max(d, 1.0e-12));
     alpha = clamp(alpha, 0.0, 1.0);
-    MomentFit fit;
+    SteradianMomentFit fit;
     fit.integral = alpha * heavy.integral + (1.0 - alpha) * light.integral;
     fit.tail = alpha * heavy.tail + (1.0 - alpha) * light.tail;
     return fit;
@@ -3393,33 +3724,33 @@ MomentFit moment_fit_blended(MomentPeak p, MomentFit heavy, MomentFit light) {
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, from a fit.
 //
 // Degenerate: a peak below 1e-12 (n = 1) leaves the smallest value alone.
-float moment_fit_front(MomentEdge edge, MomentPeak p, MomentFit fit, int even_n) {
+float steradian_moment_fit_front(SteradianMomentEdge edge, SteradianMomentPeak p, SteradianMomentFit fit, int even_n) {
     float peak = steradian_select(p.peak > 1.0e-12, p.peak * fit.integral, 0.0);
     float front = edge.s * (peak + p.smallest * (p.phi1 - p.phi0));
     if (even_n == 1) {
-        front = front + moment_solid_angle_front(edge);
+        front = front + steradian_moment_solid_angle_front(edge);
     }
     return max(front, 0.0);
 }
 
 // The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
-float moment_lorentzian_front(MomentEdge edge, float n, int even_n) {
-    MomentPeak p = moment_peak_prepare(edge, n, even_n);
-    return moment_fit_front(edge, p, moment_fit_lorentzian(p), even_n);
+float steradian_moment_lorentzian_front(SteradianMomentEdge edge, float n, int even_n) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+    return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), even_n);
 }
 
 // The blend of Lorentzian and Pearson VII for one edge.
-float moment_pearson_front(MomentEdge edge, float n, int even_n) {
-    MomentPeak p = moment_peak_prepare(edge, n, even_n);
-    MomentFit fit = moment_fit_blended(p, moment_fit_lorentzian(p), moment_fit_pearson(p));
-    return moment_fit_front(edge, p, fit, even_n);
+float steradian_moment_pearson_front(SteradianMomentEdge edge, float n, int even_n) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+    SteradianMomentFit fit = steradian_moment_fit_blended(p, steradian_moment_fit_lorentzian(p), steradian_moment_fit_pearson(p));
+    return steradian_moment_fit_front(edge, p, fit, even_n);
 }
 
 // The blend of ellipsoid and squared ellipsoid for one edge.
-float moment_ellipsoid_front(MomentEdge edge, float n, int even_n) {
-    MomentPeak p = moment_peak_prepare(edge, n, even_n);
-    MomentFit fit = moment_fit_blended(p, moment_fit_ellipsoid(edge, p), moment_fit_ellipsoid_squared(edge, p));
-    return moment_fit_front(edge, p, fit, even_n);
+float steradian_moment_ellipsoid_front(SteradianMomentEdge edge, float n, int even_n) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+    SteradianMomentFit fit = steradian_moment_fit_blended(p, steradian_moment_fit_ellipsoid(edge, p), steradian_moment_fit_ellipsoid_squared(edge, p));
+    return steradian_moment_fit_front(edge, p, fit, even_n);
 }
 
 // ==== representative_point ====
@@ -3442,15 +3773,15 @@ float moment_ellipsoid_front(MomentEdge edge, float n, int even_n) {
 //            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
 //   nearest  direction on the outline nearest to it
 //   cosine   between the two
-struct RepresentativeWalk {
+struct SteradianRepresentativeWalk {
     float turn;
     float3 nearest;
     float cosine;
 };
 
 // A walk with no edge yet.
-RepresentativeWalk representative_begin() {
-    RepresentativeWalk walk;
+SteradianRepresentativeWalk steradian_representative_begin() {
+    SteradianRepresentativeWalk walk;
     walk.turn = 0.0;
     walk.nearest = float3(0.0, 0.0, 1.0);
     walk.cosine = -2.0;  // below any cosine, so that the first edge counts
@@ -3461,16 +3792,16 @@ RepresentativeWalk representative_begin() {
 //
 //   mirror   unit: the view mirrored at the normal
 //   a, b     unit directions of the edge's ends
-RepresentativeWalk representative_add_edge(RepresentativeWalk walk, float3 mirror, float3 a, float3 b) {
-    RepresentativeWalk next = walk;
+SteradianRepresentativeWalk steradian_representative_add_edge(SteradianRepresentativeWalk walk, float3 mirror, float3 a, float3 b) {
+    SteradianRepresentativeWalk next = walk;
     float ca = dot(mirror, a);
     float cb = dot(mirror, b);
-    next.turn = walk.turn + trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
+    next.turn = walk.turn + steradian_trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
     // The nearest of the great circle, if it lies between the ends.
     float3 n = cross(a, b);
-    float n2 = max(dot(n, n), smallest_divisor());
+    float n2 = max(dot(n, n), steradian_smallest_divisor());
     float3 p = mirror - n * (dot(mirror, n) / n2);
-    float3 on_circle = p * rsqrt(max(dot(p, p), smallest_divisor()));
+    float3 on_circle = p * rsqrt(max(dot(p, p), steradian_smallest_divisor()));
     bool between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
     float3 nearest = steradian_select(between, on_circle, steradian_select(ca > cb, a, b));
     float cosine = dot(mirror, nearest);
@@ -3481,7 +3812,7 @@ RepresentativeWalk representative_add_edge(RepresentativeWalk walk, float3 mirro
 }
 
 // The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
-float3 representative_direction(RepresentativeWalk walk, float3 mirror, bool reversed) {
+float3 steradian_representative_direction(SteradianRepresentativeWalk walk, float3 mirror, bool reversed) {
     float turn = steradian_select(reversed, -walk.turn, walk.turn);
     return steradian_select(turn > steradian_pi(), mirror, walk.nearest);
 }
@@ -3496,19 +3827,21 @@ float3 representative_direction(RepresentativeWalk walk, float3 mirror, bool rev
 // Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
 // towards alpha = 0 it is 1.
 // Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
-float representative_radiance(RepresentativeWalk walk, float3 view, float3 mirror, float solid_angle, float alpha, bool reversed) {
-    float3 l = representative_direction(walk, mirror, reversed);
-    float3 h = microfacet_half_vector(l, view);
+float steradian_representative_radiance(SteradianRepresentativeWalk walk, float3 view, float3 mirror, float solid_angle, float alpha, bool reversed) {
+    float3 l = steradian_representative_direction(walk, mirror, reversed);
+    float3 h = steradian_microfacet_half_vector(l, view);
     float wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
     float fall = alpha / wider;
-    return ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
+    return steradian_ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
-// The half vector's cosine for Fresnel. Arguments as for representative_radiance.
-float representative_v_dot_h(RepresentativeWalk walk, float3 view, float3 mirror, bool reversed) {
-    float3 h = microfacet_half_vector(representative_direction(walk, mirror, reversed), view);
+// The half vector's cosine for Fresnel. Arguments as for steradian_representative_radiance.
+float steradian_representative_v_dot_h(SteradianRepresentativeWalk walk, float3 view, float3 mirror, bool reversed) {
+    float3 h = steradian_microfacet_half_vector(steradian_representative_direction(walk, mirror, reversed), view);
     return dot(view, h);
 }
+
+// ======== plane: light in the plane ========
 
 // ==== plane ====
 
@@ -3525,7 +3858,7 @@ float representative_v_dot_h(RepresentativeWalk walk, float3 view, float3 mirror
 //   f        the angle; read for n = 2 and n = 0 only
 //
 // Error: docs/plane.md, "closed forms"; against quadrature in plane_kernel_test.
-float plane_power_integral(int n, float t, float f) {
+float steradian_plane_power_integral(int n, float t, float f) {
     float sec2 = 1.0 + t * t;
     float sec = sqrt(sec2);
     if (n == 2) {
@@ -3556,13 +3889,13 @@ float plane_power_integral(int n, float t, float f) {
     return 0.25 * t * sec * sec2 + 0.75 * cubed;
 }
 
-// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See plane_power_integral; j = 2 takes n >= -3.
-float plane_term(int j, int n, float t, float f) {
+// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See steradian_plane_power_integral; j = 2 takes n >= -3.
+float steradian_plane_term(int j, int n, float t, float f) {
     if (j == 0) {
-        return plane_power_integral(n, t, f);
+        return steradian_plane_power_integral(n, t, f);
     }
     if (j == 2) {
-        return plane_power_integral(n - 2, t, f) - plane_power_integral(n, t, f);
+        return steradian_plane_power_integral(n - 2, t, f) - steradian_plane_power_integral(n, t, f);
     }
     // -cos^n / n, and -log(cos) for n = 0; cos^2 = 1 / sec2
     float sec2 = 1.0 + t * t;
@@ -3592,10 +3925,10 @@ float plane_term(int j, int n, float t, float f) {
 //   j        0 constant along the edge, 1 linear along it (2: moments of the linear one)
 //   k        0 uniform, 1 Lambert or 1/r (times 1/d); one more for first moments
 //   q        (d/R)^2; the caller clips the edge to cos f >= d/R
-float plane_edge_integral(int j, int k, float t, float f, float q) {
-    float w0 = plane_term(j, k, t, f);
-    float w2 = plane_term(j, k - 2, t, f);
-    float w4 = plane_term(j, k - 4, t, f);
+float steradian_plane_edge_integral(int j, int k, float t, float f, float q) {
+    float w0 = steradian_plane_term(j, k, t, f);
+    float w2 = steradian_plane_term(j, k - 2, t, f);
+    float w4 = steradian_plane_term(j, k - 4, t, f);
     return w0 - 2.0 * q * w2 + q * q * w4;
 }
 
@@ -3610,7 +3943,7 @@ float plane_edge_integral(int j, int k, float t, float f, float q) {
 // With x as the variable, r^2 and r^4 split into a polynomial in x and the chord times one, and both integrate to
 // elementary terms: int chord dx = (x chord + rho2 beta) / 2, int x^2 chord dx = (x (2 x^2 - rho2) chord + rho2^2 beta) / 8.
 // Linear in the two angles: differences of psi and beta may be taken before the call.
-float plane_disk_window_integral(float d2, float rho2, float d, float c, float s, float psi, float chord, float beta) {
+float steradian_plane_disk_window_integral(float d2, float rho2, float d, float c, float s, float psi, float chord, float beta) {
     float x = d * s;
     float sin2 = 2.0 * s * c;
     float cos2 = c * c - s * s;
@@ -3624,16 +3957,16 @@ float plane_disk_window_integral(float d2, float rho2, float d, float c, float s
 // Square root of x >= 0 as x over its square root: a packed square root takes as long as ten multiplications.
 //
 // Error: two roundings more than sqrt; 0 at 0.
-float plane_root(float x) {
-    return x * rsqrt(max(x, smallest_divisor()));
+float steradian_plane_root(float x) {
+    return x * rsqrt(max(x, steradian_smallest_divisor()));
 }
 
 // Arc tangent in the ranges that lights far from a point leave: a polynomial where |m| <= 1 on all lanes.
-float plane_angle_of_slope(float m) {
+float steradian_plane_angle_of_slope(float m) {
     float q = m * m;
-    float angle = m * trig_atan_over_argument_24_bits(q);
+    float angle = m * steradian_trig_atan_over_argument_24_bits(q);
     if (abs(m) > 1.0) {
-        angle = trig_atan2(m, 1.0);
+        angle = steradian_trig_atan2(m, 1.0);
     }
     return angle;
 }
@@ -3646,15 +3979,15 @@ float plane_angle_of_slope(float m) {
 //
 // A rounding of the chord does not matter: the chord's and beta's terms move against each other. So beta may come from
 // the chord by a polynomial for the arc cosine, without a division.
-float plane_disk_window(float m, float d2, float rho2) {
-    float d = plane_root(d2);
+float steradian_plane_disk_window(float m, float d2, float rho2) {
+    float d = steradian_plane_root(d2);
     float c = rsqrt(1.0 + m * m);
     float x = m * c * d;
     float x2 = x * x;
-    float chord = plane_root(max(rho2 - x2, 0.0));
-    float psi = plane_angle_of_slope(m);
+    float chord = steradian_plane_root(max(rho2 - x2, 0.0));
+    float psi = steradian_plane_angle_of_slope(m);
     float inverse_rho = rsqrt(rho2);
-    float acute = trig_angle_over_sine_acute(max(1.0 - abs(x) * inverse_rho, 0.0)) * chord * inverse_rho;
+    float acute = steradian_trig_angle_over_sine_acute(max(1.0 - abs(x) * inverse_rho, 0.0)) * chord * inverse_rho;
     float beta = 0.5 * steradian_pi() - acute;
     beta = steradian_select(m < 0.0, -beta, beta);
     float e = 2.0 - 2.0 * d2 - rho2;
@@ -3666,9 +3999,9 @@ float plane_disk_window(float m, float d2, float rho2) {
 // The disk window integral over the whole disk: from tangent to tangent.
 //
 //   m        the tangents' slope: sqrt(rho2 / (d2 - rho2))
-float plane_disk_window_whole(float m, float d2, float rho2) {
+float steradian_plane_disk_window_whole(float m, float d2, float rho2) {
     float e = 2.0 - 2.0 * d2 - rho2;
-    return 2.0 * (plane_angle_of_slope(m) * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
+    return 2.0 * (steradian_plane_angle_of_slope(m) * ((1.0 - rho2) * (1.0 - rho2) + 2.0 * rho2 * d2)
          + m * (d2 - rho2) * (2.0 * rho2 - 2.0 + d2)) + steradian_pi() * (rho2 * e);
 }
 
@@ -3676,9 +4009,11 @@ float plane_disk_window_whole(float m, float d2, float rho2) {
 //
 //   w, t     components of the point along the axis and across it (counter-clockwise positive), any common scale
 //   beyond   the slope where the point is not in front of the axis: +-1.0e9
-float plane_slope(float w, float t, float beyond) {
+float steradian_plane_slope(float w, float t, float beyond) {
     return steradian_select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
 }
+
+// ======== indirect: one bounce from virtual lights ========
 
 // ==== indirect ====
 
@@ -3696,8 +4031,8 @@ float plane_slope(float w, float t, float beyond) {
 
 // A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
 //
-// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
-struct IndirectLobe {
+// At a virtual light v comes in from the front's other side: there the rows are negated (steradian_indirect_turned).
+struct SteradianIndirectLobe {
     float3 x;
     float3 y;
     float3 z;
@@ -3705,18 +4040,18 @@ struct IndirectLobe {
 };
 
 // The lobe of a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
-IndirectLobe indirect_lobe(LtcMatrix m, float3x3 frame) {
-    IndirectLobe lobe;
+SteradianIndirectLobe steradian_indirect_lobe(SteradianLtcMatrix m, float3x3 frame) {
+    SteradianIndirectLobe lobe;
     lobe.x = steradian_transform(frame, float3(m.xx, 0.0, m.xz));
     lobe.y = steradian_transform(frame, float3(0.0, m.yy, 0.0));
     lobe.z = steradian_transform(frame, float3(m.zx, 0.0, m.zz));
-    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * inverse_pi();
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * steradian_inverse_pi();
     return lobe;
 }
 
 // The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
-IndirectLobe indirect_turned(IndirectLobe lobe) {
-    IndirectLobe turned;
+SteradianIndirectLobe steradian_indirect_turned(SteradianIndirectLobe lobe) {
+    SteradianIndirectLobe turned;
     turned.x = -lobe.x;
     turned.y = -lobe.y;
     turned.z = -lobe.z;
@@ -3725,7 +4060,7 @@ IndirectLobe indirect_turned(IndirectLobe lobe) {
 }
 
 // The vector v under the lobe's M^-1; v is any vector in world space.
-float3 indirect_under(IndirectLobe lobe, float3 v) {
+float3 steradian_indirect_under(SteradianIndirectLobe lobe, float3 v) {
     return float3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
@@ -3736,15 +4071,15 @@ float3 indirect_under(IndirectLobe lobe, float3 v) {
 //   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
 //
 // Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
-float indirect_glossy_half(IndirectLobe lobe, float3 v, float d2, float wide2) {
-    float3 w = indirect_under(lobe, v);
+float steradian_indirect_glossy_half(SteradianIndirectLobe lobe, float3 v, float d2, float wide2) {
+    float3 w = steradian_indirect_under(lobe, v);
     float w2 = dot(w, w);
-    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), smallest_square());
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), steradian_smallest_square());
 }
 
 // What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
-float indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
-    return max(dot(n, v), 0.0) / max(d2 + wide2, smallest_square());
+float steradian_indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
+    return max(dot(n, v), 0.0) / max(d2 + wide2, steradian_smallest_square());
 }
 
 // Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
@@ -3754,14 +4089,14 @@ float indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
 //
 // Degenerate: v = 0 gives 0.
 // Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
-float indirect_point_light(IndirectLobe lobe, float3 v) {
+float steradian_indirect_point_light(SteradianIndirectLobe lobe, float3 v) {
     float d2 = dot(v, v);
-    return lobe.scale * indirect_glossy_half(lobe, v, d2, 0.0) * rsqrt(max(d2, smallest_square()));
+    return lobe.scale * steradian_indirect_glossy_half(lobe, v, d2, 0.0) * rsqrt(max(d2, steradian_smallest_square()));
 }
 
 // The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
 // to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
-struct IndirectPair {
+struct SteradianIndirectPair {
     float from_diffuse;
     float from_glossy;
     float to_diffuse;
@@ -3776,20 +4111,20 @@ struct IndirectPair {
 // What lies below either horizon gives 0: a lobe leaks there.
 // Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
 // falls below 1.0e-36 the peak is cut.
-IndirectPair indirect_pair(float3 v, float3 n, IndirectLobe receiver, float3 light_n, IndirectLobe light) {
+SteradianIndirectPair steradian_indirect_pair(float3 v, float3 n, SteradianIndirectLobe receiver, float3 light_n, SteradianIndirectLobe light) {
     float d2 = dot(v, v);
-    float3 w = indirect_under(receiver, v);
-    float3 o = indirect_under(light, v);
+    float3 w = steradian_indirect_under(receiver, v);
+    float3 o = steradian_indirect_under(light, v);
     float w2 = dot(w, w);
     float o2 = dot(o, o);
     float w4 = w2 * w2;
     float o4 = o2 * o2;
     float both = w4 * o4;
-    float inverse = 1.0 / max(d2 * both, smallest_square());
+    float inverse = 1.0 / max(d2 * both, steradian_smallest_square());
     float peak = inverse * d2 * d2;
     float n_v = max(dot(n, v), 0.0);
     float light_n_v = max(dot(light_n, v), 0.0);
-    IndirectPair pair;
+    SteradianIndirectPair pair;
     pair.to_diffuse = n_v * (inverse * both);
     pair.from_diffuse = light_n_v * (inverse * both);
     pair.to_glossy = steradian_select(n_v > 0.0, max(w.z, 0.0) * (peak * o4), 0.0);
@@ -3801,14 +4136,14 @@ IndirectPair indirect_pair(float3 v, float3 n, IndirectLobe receiver, float3 lig
 //
 //   incoming unit, from the virtual light to the light that feeds it
 //   v        to the virtual light
-float indirect_grazing(float3 incoming, float3 v, float d2) {
-    float cosine = -dot(incoming, v) * rsqrt(max(d2, smallest_square()));
+float steradian_indirect_grazing(float3 incoming, float3 v, float d2) {
+    float cosine = -dot(incoming, v) * rsqrt(max(d2, steradian_smallest_square()));
     float half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
-    return fresnel_schlick(0.0, 1.0, half_angle * rsqrt(half_angle));
+    return steradian_fresnel_schlick(0.0, 1.0, half_angle * rsqrt(half_angle));
 }
 
 // One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
-struct IndirectGgx {
+struct SteradianIndirectGgx {
     float lobe;
     float grazing;
 };
@@ -3817,12 +4152,12 @@ struct IndirectGgx {
 //
 //   frame    x along the view, z the normal
 //   view     unit, in the frame
-IndirectGgx indirect_ggx(float3x3 frame, float3 view, float alpha, float3 l) {
+SteradianIndirectGgx steradian_indirect_ggx(float3x3 frame, float3 view, float alpha, float3 l) {
     float3 local = steradian_transform_transposed(frame, l);
-    float3 h = microfacet_half_vector(local, view);
-    IndirectGgx end;
-    end.lobe = microfacet_lobe_unshadowed(ggx_distribution(h, alpha, alpha) * ggx_shadowing(local, view, alpha, alpha), local, view);
-    end.grazing = fresnel_schlick(0.0, 1.0, dot(h, view));
+    float3 h = steradian_microfacet_half_vector(local, view);
+    SteradianIndirectGgx end;
+    end.lobe = steradian_microfacet_lobe_unshadowed(steradian_ggx_distribution(h, alpha, alpha) * steradian_ggx_shadowing(local, view, alpha, alpha), local, view);
+    end.grazing = steradian_fresnel_schlick(0.0, 1.0, dot(h, view));
     return end;
 }
 
@@ -3834,32 +4169,32 @@ IndirectGgx indirect_ggx(float3x3 frame, float3 view, float alpha, float3 l) {
 //
 // A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
 // Source: Tokuyoshi, Harada 2016.
-float indirect_kept(float value, float reach, float xi) {
+float steradian_indirect_kept(float value, float reach, float xi) {
     return steradian_select(value > xi * reach, max(value, reach), 0.0);
 }
 
 // The largest factor by which M stretches a vector: one over the least by which M^-1 does.
-float indirect_largest_stretch(LtcMatrix m) {
+float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
     float determinant = m.xx * m.zz - m.xz * m.zx;
     float square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
     float gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
-    float larger2 = 0.5 * (square + gap2 * rsqrt(max(gap2, smallest_square())));
-    float least2 = determinant * determinant / max(larger2, smallest_square());
-    return rsqrt(max(min(least2, m.yy * m.yy), smallest_square()));
+    float larger2 = 0.5 * (square + gap2 * rsqrt(max(gap2, steradian_smallest_square())));
+    float least2 = determinant * determinant / max(larger2, steradian_smallest_square());
+    return rsqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
 // Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's
-//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//   range    square root of bright scale stretch / threshold, stretch of steradian_indirect_largest_stretch
 //
 // Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
 // inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
 // and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
-float3 indirect_spheroid(IndirectLobe lobe, float3 v, float range) {
-    float3 w = indirect_under(lobe, v);
+float3 steradian_indirect_spheroid(SteradianIndirectLobe lobe, float3 v, float range) {
+    float3 w = steradian_indirect_under(lobe, v);
     float inverse = 1.0 / range;
     return float3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
 }

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""dist_compiles.py FILE [SCRATCH]: one file of dist/ compiles alone, and so does the example at its top.
+"""dist_compiles.py LANGUAGE [SCRATCH]: dist/ in one language (glsl, es, hlsl, wgsl) compiles: the whole alone and with the example
+at its top, and each topic after those that its head names.
 
 WGSL is checked by naga (naga-wasm from npm, kept in the folder SCRATCH). Exit 77 (skipped) where that cannot be had.
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -47,34 +49,45 @@ def wgsl_command(scratch):
     return ["node", str(scratch / "check.mjs")]
 
 
-def command_for(name, scratch):
+def command_for(language, scratch):
     """(text before, text after, suffix, compiler)"""
-    if name.endswith(".es.glsl"):
+    if language == "es":
         return ("#version 300 es\nprecision highp float;\n", "out vec4 colour;\nvoid main() { colour = vec4(0.0); }\n",
                 ".frag", ["glslangValidator"])
-    if name.endswith(".glsl"):
+    if language == "glsl":
         return "#version 450\n", "void main() {}\n", ".comp", ["glslc", "-Werror", "-fshader-stage=compute", "-o", os.devnull]
-    if name.endswith(".hlsl"):
+    if language == "hlsl":
         return ("", "[numthreads(1, 1, 1)] void main() {}\n", ".hlsl",
                 ["glslangValidator", "-D", "-V", "-S", "comp", "-e", "main", "-o", os.devnull])
     return "", "", ".wgsl", wgsl_command(scratch)
 
 
+def with_needs(path):
+    """The text of a topic after those that its head names."""
+    text = path.read_text()
+    before = re.search(r"^// It comes after (.*)\.$", text, re.MULTILINE)
+    names = before.group(1).split(", ") if before else []
+    return "\n".join([(path.parent / name).read_text() for name in names] + [text])
+
+
 def main():
-    name = sys.argv[1]
-    before, after, suffix, command = command_for(name, Path(sys.argv[2]) if len(sys.argv) > 2 else Path("npm"))
-    alone = (ROOT / "dist" / name).read_text()
-    with_usage = subprocess.run([sys.executable, str(ROOT / "dist" / "make_dist.py"), "--with-usage", name],
+    language = sys.argv[1]
+    before, after, suffix, command = command_for(language, Path(sys.argv[2]) if len(sys.argv) > 2 else Path("npm"))
+    topics = sorted((ROOT / "dist" / language).iterdir())
+    ending = topics[0].name[topics[0].name.index("."):]
+    with_usage = subprocess.run([sys.executable, str(ROOT / "dist" / "make_dist.py"), "--with-usage", language],
                                 capture_output=True, text=True, check=True).stdout
-    for what, text in (("alone", alone), ("with its example", with_usage)):
+    texts = {"alone": (ROOT / "dist" / f"steradian{ending}").read_text(), "with its example": with_usage}
+    texts |= {path.name: with_needs(path) for path in topics}
+    for what, text in texts.items():
         with tempfile.TemporaryDirectory() as folder:
             source = Path(folder) / ("dist" + suffix)
             source.write_text(before + text + after)
             done = subprocess.run(command + [str(source)], capture_output=True, text=True)
         if done.returncode != 0:
-            print(f"{name} {what}: {done.stdout}{done.stderr}")
+            print(f"{language}, {what}: {done.stdout}{done.stderr}")
             sys.exit(1)
-        print(f"{name} compiles {what}")
+    print(f"{language}: {', '.join(texts)} compile")
 
 
 if __name__ == "__main__":

@@ -48,16 +48,9 @@ function program_of(method, other) {
     `#define SECOND ${names.indexOf(other)}\n` + text("steradian") + text("scene")));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-  const block = gl.getUniformBlockIndex(program, "LtcCompact");
-  if (block !== gl.INVALID_INDEX) gl.uniformBlockBinding(program, block, 0);
   const at = new Proxy({}, { get: (_, name) => gl.getUniformLocation(program, name) });
   programs.set(key, { program, at });
   return programs.get(key);
-}
-
-function upload_table() {
-  gl.bindBufferBase(gl.UNIFORM_BUFFER, 0, gl.createBuffer());
-  gl.bufferData(gl.UNIFORM_BUFFER, new Uint32Array(JSON.parse(text("ltc-compact"))), gl.STATIC_DRAW);
 }
 
 function draw(samples) {
@@ -153,7 +146,6 @@ try {
   if (!gl) throw new Error("this browser has no WebGL2");
   if (!(state.method in kMethods)) throw new Error(`no method ${state.method}`);
   for (const [name, , , , , start] of kSliders) state[name] = Number(query.get(name) ?? start);
-  upload_table();
   if (query.has("test")) dump(query.get("test"));
   else interact();
 } catch (e) {

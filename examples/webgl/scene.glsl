@@ -44,9 +44,9 @@ ClippedQuad clipped(Sight sight) {
     ClippedQuad quad;
     quad.start[4] = vec3(0.0);
     quad.end[4] = vec3(0.0);
-    HorizonClip clip = horizon_clip_begin();
+    SteradianHorizonClip clip = steradian_horizon_clip_begin();
     for (int i = 0; i < 4; i++) {
-        clip = horizon_clip_edge(clip, sight.corner[i], sight.corner[(i + 1) & 3]);
+        clip = steradian_horizon_clip_edge(clip, sight.corner[i], sight.corner[(i + 1) & 3]);
         quad.start[i] = clip.start;
         quad.end[i] = clip.end;
         if (clip.closes) {
@@ -54,7 +54,7 @@ ClippedQuad clipped(Sight sight) {
             quad.end[4] = clip.arc_end;
         }
     }
-    clip = horizon_clip_finish(clip);
+    clip = steradian_horizon_clip_finish(clip);
     if (clip.closes) {
         quad.start[4] = clip.arc_start;
         quad.end[4] = clip.arc_end;
@@ -63,78 +63,56 @@ ClippedQuad clipped(Sight sight) {
 }
 
 float lambert(Sight sight) {
-    PolygonWalk walk = polygon_begin();
-    for (int i = 0; i < 4; i++) walk = polygon_add_edge(walk, sight.corner[i], sight.corner[(i + 1) & 3]);
-    return lambert_radiance(polygon_irradiance(walk, false));
+    SteradianPolygonWalk walk = steradian_polygon_begin();
+    for (int i = 0; i < 4; i++) walk = steradian_polygon_add_edge(walk, sight.corner[i], sight.corner[(i + 1) & 3]);
+    return steradian_lambert_radiance(steradian_polygon_irradiance(walk, false));
 }
 
 #if USES(LTC_COMPACT)
-// The compact table of the library, half floats as they are shipped: 16 x 16 shapes and 22 x 22 magnitudes, 4 KB.
-layout(std140) uniform LtcCompact {
-    uvec4 shape_words[128];
-    uvec4 magnitude_words[121];
-};
-
-vec4 shape_at(int k) {
-    uvec4 words = shape_words[k >> 1];
-    uvec2 w = (k & 1) == 0 ? words.xy : words.zw;
-    return vec4(unpackHalf2x16(w.x), unpackHalf2x16(w.y));
-}
-vec2 magnitude_at(int k) { return unpackHalf2x16(magnitude_words[k >> 2][k & 3]); }
-
 float ltc_compact(Sight sight) {
-    vec2 at = ltc_coordinates(roughness, sight.view.z);
-    vec2 x = at * 15.0;
-    ivec2 i = min(ivec2(x), ivec2(14));
-    vec2 f = x - vec2(i);
-    int k = i.y * 16 + i.x;
-    vec4 shape = mix(mix(shape_at(k), shape_at(k + 1), f.x), mix(shape_at(k + 16), shape_at(k + 17), f.x), f.y);
-    x = at * 21.0;
-    i = min(ivec2(x), ivec2(20));
-    f = x - vec2(i);
-    k = i.y * 22 + i.x;
-    vec2 magnitude = mix(mix(magnitude_at(k), magnitude_at(k + 1), f.x), mix(magnitude_at(k + 22), magnitude_at(k + 23), f.x), f.y);
-
-    LtcMatrix m = ltc_from_compact(shape, max(roughness * roughness, 1.0e-4), sight.view);
-    LtcWalk walk = ltc_begin();
+    vec2 place = steradian_ltc_coordinates(roughness, sight.view.z);
+    vec4 shape = steradian_ltc_ggx_shape(place);
+    vec2 magnitude = steradian_ltc_ggx_magnitude(place);
+    SteradianLtcMatrix m = steradian_ltc_from_compact(shape, max(roughness * roughness, 1.0e-4), sight.view);
+    SteradianLtcWalk walk = steradian_ltc_begin();
     for (int e = 0; e < 4; e++) {
         vec3 a = sight.corner[e];
         vec3 b = sight.corner[(e + 1) & 3];
-        walk = ltc_add_edge(walk, m, a, b, ltc_direction(m, a), ltc_direction(m, b));
+        walk = steradian_ltc_add_edge(walk, m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
     }
-    return ltc_specular_scale(f0, 1.0, magnitude.x, magnitude.y) * ltc_integral(walk, false);
+    return steradian_ltc_specular_scale(f0, 1.0, magnitude.x, magnitude.y) * steradian_ltc_integral(walk, false);
 }
 #endif
 
 #if USES(CLOSED_FORM_DRAFT) || USES(CLOSED_FORM)
 float closed_form(Sight sight, bool draft) {
     float alpha = max(roughness * roughness, 1.0e-4);
-    GgxView view = ggx_view(sight.view, alpha, alpha);
+    SteradianGgxView view = steradian_ggx_view(sight.view, alpha, alpha);
     ClippedQuad quad = clipped(sight);
-    ConicArc arcs[5];
+    SteradianConicArc arcs[5];
     vec3 e = vec3(0.0);
     for (int i = 0; i < 5; i++) {
-        arcs[i] = ggx_edge(view, quad.start[i], quad.end[i]);
-        e += conic_vector(arcs[i]);
+        arcs[i] = steradian_ggx_edge(view, quad.start[i], quad.end[i]);
+        e += steradian_conic_vector(arcs[i]);
     }
-    if (draft) return ggx_radiance(ggx_draft(view, e, 1.0, 1.0), f0, 1.0);
-    GgxCubature c = ggx_cubature_begin(view, e, 1.0, 1.0);
-    for (int i = 0; i < 5; i++) c = ggx_cubature_edge(c, arcs[i], 0);
-    return ggx_radiance(ggx_cubature_finish(c), f0, 1.0);
+    if (draft) return steradian_ggx_radiance(steradian_ggx_draft(view, e, 1.0, 1.0), f0, 1.0);
+    SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, 1.0, 1.0);
+    for (int i = 0; i < 5; i++) c = steradian_ggx_cubature_edge(c, arcs[i], 0);
+    return steradian_ggx_radiance(steradian_ggx_cubature_finish(c), f0, 1.0);
 }
 #endif
 
 #if USES(PHONG_SERIES)
 float phong_series(Sight sight) {
-    vec3 mirror = phong_mirror(sight.view);
-    MomentSeries series = moment_series_prepare(exponent);
+    vec3 mirror = steradian_phong_mirror(sight.view);
+    SteradianMomentSeries series = steradian_moment_series_prepare(exponent);
     ClippedQuad quad = clipped(sight);
     float sum = 0.0;
     for (int i = 0; i < 5; i++) {
-        MomentEdge edge = moment_edge(quad.start[i], quad.end[i], mirror);
-        sum += moment_edge_share(edge, moment_series_front(edge, series));
+        SteradianMomentEdge edge = steradian_moment_edge(quad.start[i], quad.end[i], mirror);
+        sum += steradian_moment_edge_share(edge, steradian_moment_series_front(edge, series));
     }
-    return f0 * moment_phong_radiance(sum, false);
+    return f0 * steradian_moment_phong_radiance(sum, false);
 }
 #endif
 
@@ -172,14 +150,14 @@ vec3 radiance_along(int method, vec3 eye, vec3 ray) {
         vec3 p = eye + ray * nearest;
         seen = vec3(0.0);
         if (dot(facing, p - centre) > 0.0) {
-            mat3 frame = frame_from_normal_and_view(vec3(0.0, 1.0, 0.0), -ray);
+            mat3 frame = steradian_frame_from_normal_and_view(vec3(0.0, 1.0, 0.0), -ray);
             Sight sight;
             sight.view = steradian_transform_transposed(frame, -ray);
             sight.view.y = 0.0;
-            sight.corner[0] = polygon_direction(steradian_transform_transposed(frame, centre - u + w - p));  // walk order: backwards
-            sight.corner[1] = polygon_direction(steradian_transform_transposed(frame, centre + u + w - p));
-            sight.corner[2] = polygon_direction(steradian_transform_transposed(frame, centre + u - w - p));
-            sight.corner[3] = polygon_direction(steradian_transform_transposed(frame, centre - u - w - p));
+            sight.corner[0] = steradian_polygon_direction(steradian_transform_transposed(frame, centre - u + w - p));  // walk order: backwards
+            sight.corner[1] = steradian_polygon_direction(steradian_transform_transposed(frame, centre + u + w - p));
+            sight.corner[2] = steradian_polygon_direction(steradian_transform_transposed(frame, centre + u - w - p));
+            sight.corner[3] = steradian_polygon_direction(steradian_transform_transposed(frame, centre - u - w - p));
             float odd = mod(floor(p.x) + floor(p.z), 2.0);
             vec3 albedo = mix(vec3(0.62, 0.61, 0.60), vec3(0.42, 0.42, 0.43), odd);
             seen = floor_radiance(method, sight, albedo) * kLightColour * intensity;

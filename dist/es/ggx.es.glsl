@@ -1,0 +1,486 @@
+// Steradian 0.1.0, ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann, for GLSL ES 3.00 (WebGL2).
+//
+// Paste after #version 300 es and `precision highp float;`.
+// It comes after math.es.glsl, polygon.es.glsl, lobe.es.glsl, round.es.glsl, phong.es.glsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== ggx_closed_form ====
+
+// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
+// Fresnel (ggx_cubature.glsl adds both).
+//
+// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
+// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
+// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
+//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+//
+//   E = sum of steradian_conic_vector(steradian_ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then steradian_ggx_unshadowed(view, E).
+//
+// docs/ggx.md has the derivation.
+// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+
+// What the lobe's integrals need of the view and the surface.
+//   v        unit view, z > 0
+//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
+//   ax, ay   widths: roughness squared, at least 1.0e-4
+//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
+struct SteradianGgxView {
+    vec3 v;
+    vec3 w;
+    float ax;
+    float ay;
+    float masking;
+};
+
+// Prepares a view.
+//
+// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
+SteradianGgxView steradian_ggx_view(vec3 v, float ax, float ay) {
+    SteradianGgxView view;
+    float z = max(v.z, 1.0e-6);
+    view.v = vec3(v.x, v.y, z);
+    view.w = vec3(ax * v.x, ay * v.y, z);
+    view.ax = ax;
+    view.ay = ay;
+    view.masking = sqrt(dot(view.w, view.w)) / z;
+    return view;
+}
+
+// One edge of a light as an arc in stretched half vector space.
+//
+//   a, b     unit directions of the ends, in walk order, not below the horizon
+//
+// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
+// is further from it.
+// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
+SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+    vec3 chord = b - a;
+    vec3 sum = a + b;
+    float chord2 = dot(chord, chord);
+    float sum2 = dot(sum, sum);
+    bool usable = chord2 > steradian_smallest_divisor() && sum2 > 1.0e-12;
+    vec3 middle = sum * inversesqrt(max(sum2, steradian_smallest_divisor()));
+    vec3 along = chord * inversesqrt(max(chord2, steradian_smallest_square()));
+    float half_sine = 0.5 * sqrt(chord2);
+    float half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
+
+    bool from_end = dot(middle, view.v) > 0.9;
+    float side = steradian_select(from_end, steradian_select(dot(chord, view.v) > 0.0, -1.0, 1.0), 0.0);
+    float turn_cosine = steradian_select(from_end, half_cosine, 1.0);
+    vec3 base = middle * turn_cosine + along * (side * half_sine);
+    vec3 q = along * turn_cosine - middle * (side * half_sine);
+    float reach = steradian_select(usable, half_sine / (half_cosine + steradian_select(from_end, 0.0, 1.0)), 0.0);
+
+    float x = 1.0 / view.ax;
+    float y = 1.0 / view.ay;
+    vec3 u0 = view.v + base;
+    vec3 u2 = view.v - base;
+    return steradian_conic_prepare(
+        vec3(u0.x * x, u0.y * y, u0.z), vec3(q.x * x, q.y * y, q.z) * 2.0, vec3(u2.x * x, u2.y * y, u2.z),
+        steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+
+// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+//
+//   e        sum over the edges of steradian_conic_vector, negated where the light is seen from behind
+//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
+float steradian_ggx_unshadowed(SteradianGgxView view, vec3 e) {
+    return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
+}
+
+// ==== ggx_cubature ====
+
+// Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
+//
+// Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
+//   SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, smith, facing);
+//   for each edge: c = steradian_ggx_cubature_edge(c, edge, extra_nodes);
+//   vec2 r = steradian_ggx_cubature_finish(c);         // or, without the second walk: steradian_ggx_draft(view, e, smith, facing)
+//   radiance = steradian_ggx_radiance(r, f0, f90)      // per channel
+//
+// In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
+// equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
+// The measure itself is exact; only the smooth factor G2 F is sampled.
+
+// The state of the second walk.
+//   centre          us
+//   amount          what the distribution alone sends (steradian_ggx_unshadowed)
+//   extent          the length of E
+//   smith           1 with shadowing, 0 without
+//   facing          -1 where the light is seen from behind
+//   weight          sum of the weights; weighted: of weight times (G2, G2 (1 - v.h)^5)
+//   centre_weight   share of the weights that belongs to the centre
+//   at_centre       (G2, G2 (1 - v.h)^5) there
+//   lowest, highest of all values with weight
+struct SteradianGgxCubature {
+    SteradianGgxView view;
+    vec3 centre;
+    float amount;
+    float extent;
+    float smith;
+    float facing;
+    float weight;
+    float centre_weight;
+    vec2 weighted;
+    vec2 at_centre;
+    vec2 lowest;
+    vec2 highest;
+};
+
+// Shadowing, and shadowing times Schlick's (1 - v.h)^5, at a direction of stretched half vector space.
+//
+//   u        unit
+//   smith    1 with shadowing, 0 without
+//   returns  (0, 0) where the mirrored light is not above the surface
+vec2 steradian_ggx_shadowing_and_fresnel(SteradianGgxView view, vec3 u, float smith) {
+    vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
+    h = h * inversesqrt(max(dot(h, h), steradian_smallest_divisor()));
+    float v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
+    vec3 l = h * (2.0 * v_dot_h) - view.v;
+    float lz = max(l.z, 0.0);
+    float shadowing = 2.0 * lz / max(lz * view.masking + steradian_ggx_stretched_length(l, view.ax, view.ay), steradian_smallest_divisor());
+    float g = steradian_select(l.z > 0.0, 1.0 + smith * (shadowing - 1.0), 0.0);
+    float x = 1.0 - v_dot_h;
+    float x2 = x * x;
+    return vec2(g, g * (x2 * x2 * x));
+}
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   smith    1.0: height-correlated shadowing; 0.0: none
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+SteradianGgxCubature steradian_ggx_cubature_begin(SteradianGgxView view, vec3 e, float smith, float facing) {
+    SteradianGgxCubature c;
+    vec3 inward = e * facing;
+    float length2 = dot(inward, inward);
+    bool usable = length2 > steradian_smallest_square();
+    c.view = view;
+    c.centre = steradian_select(usable, inward * inversesqrt(max(length2, steradian_smallest_square())), vec3(0.0, 0.0, 1.0));
+    c.amount = steradian_select(usable, steradian_ggx_unshadowed(view, inward), 0.0);
+    c.extent = sqrt(length2);
+    c.smith = smith;
+    c.facing = facing;
+    c.weight = 0.0;
+    c.centre_weight = 0.0;
+    c.weighted = vec2(0.0, 0.0);
+    c.at_centre = steradian_ggx_shadowing_and_fresnel(view, c.centre, smith);
+    c.lowest = c.at_centre;
+    c.highest = c.at_centre;
+    return c;
+}
+
+// Adds one node.
+//
+//   u        unit direction in stretched half vector space
+//   weight   0 for a lane that does not have this node
+SteradianGgxCubature steradian_ggx_cubature_add(SteradianGgxCubature c, vec3 u, float weight) {
+    SteradianGgxCubature next = c;
+    float o = weight * max(dot(c.view.w, u), 0.0);
+    vec2 g = steradian_ggx_shadowing_and_fresnel(c.view, u, c.smith);
+    bool counts = abs(o) > 0.0;
+    next.weight = c.weight + o;
+    next.weighted = c.weighted + g * o;
+    next.lowest = steradian_select(counts, vec2(min(c.lowest.x, g.x), min(c.lowest.y, g.y)), c.lowest);
+    next.highest = steradian_select(counts, vec2(max(c.highest.x, g.x), max(c.highest.y, g.y)), c.highest);
+    return next;
+}
+
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
+vec2 steradian_ggx_rule(float n, int j) {
+    vec2 r = steradian_gauss_legendre_node(1, j);
+    for (int k = 2; k <= 6; k++) {
+        r = steradian_select(n > float(k) - 0.5, steradian_gauss_legendre_node(k, j), r);
+    }
+    return r;
+}
+
+// Adds the nodes of one edge.
+//
+//   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
+//
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, SteradianConicArc edge, int extra) {
+    SteradianGgxCubature next = c;
+    float total = edge.sweep.x + edge.sweep.y;
+    float n = 1.0 + steradian_select(total < 0.25, 0.0, 1.0) + steradian_select(total < 0.8, 0.0, 1.0) + steradian_select(total < 1.6, 0.0, 1.0) + float(extra);
+    bool fine = total >= 0.5;
+    if (extra > 0) {
+        fine = total > -1.0;
+    }
+    for (int j = 0; j < 4 + extra; j++) {
+        bool present = n > float(j) + 0.5 && total > 0.0;
+        if (present) {
+            vec2 rule = steradian_ggx_rule(n, j);
+            SteradianConicNode node = steradian_conic_node(edge, rule.x);
+            vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+            vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
+            float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+            vec3 rim = u * sqrt(inverse2);
+            float rim_cosine = dot(rim, c.centre);
+            vec3 out_of_centre = rim - c.centre * rim_cosine;
+            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+            float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+            om = steradian_select(present, om, 0.0);
+
+            float first = steradian_select(fine, 0.355051025721682190, 0.666666666666666667);
+            float first_weight = steradian_select(fine, 0.512485826188421615, 0.75);
+            float centre_weight = steradian_select(fine, 0.111111111111111111, 0.25);
+            float cosine = 1.0 - (1.0 - rim_cosine) * first;
+            float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
+            next.centre_weight = next.centre_weight + om * centre_weight;
+            if (fine && present) {
+                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
+                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+                om = steradian_select(fine, om * 0.376403062700467274, 0.0);
+                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            }
+        }
+    }
+    return next;
+}
+
+// Limits what leaves: with shadowing no lobe sends more than it gets.
+//
+//   mean     means of (G2, G2 (1 - v.h)^5)
+vec2 steradian_ggx_limited(float amount, vec2 mean, float smith) {
+    float whole = amount * mean.x;
+    whole = steradian_select(smith > 0.5, min(whole, 1.0), whole);
+    return vec2(whole, clamp(amount * mean.y, 0.0, whole));
+}
+
+// Ends the second walk.
+//
+//   returns  radiance for radiance 1 as two numbers for steradian_ggx_radiance: with F = 1, and with F = (1 - v.h)^5
+//
+// Degenerate: weights that cancel leave the centre's value.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+vec2 steradian_ggx_cubature_finish(SteradianGgxCubature c) {
+    // The centre's values are known all along, its weight only now.
+    float o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
+    float weight = c.weight + o;
+    bool usable = weight > 1.0e-9 * c.extent;
+    float scale = 1.0 / steradian_select(usable, weight, 1.0);
+    vec2 mean = (c.weighted + c.at_centre * o) * scale;
+    mean = vec2(clamp(mean.x, c.lowest.x, c.highest.x), clamp(mean.y, c.lowest.y, c.highest.y));
+    mean = steradian_select(usable, mean, c.at_centre);
+    return steradian_ggx_limited(c.amount, mean, c.smith);
+}
+
+// Shadowing and Fresnel at the centre only: one walk. Arguments as steradian_ggx_cubature_begin, result as steradian_ggx_cubature_finish.
+vec2 steradian_ggx_draft(SteradianGgxView view, vec3 e, float smith, float facing) {
+    SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, smith, facing);
+    return steradian_ggx_limited(c.amount, c.at_centre, smith);
+}
+
+// Radiance of one channel, for radiance 1.
+//
+//   r        of steradian_ggx_cubature_finish or steradian_ggx_draft
+//   f0, f90  Schlick's reflectances
+float steradian_ggx_radiance(vec2 r, float f0, float f90) {
+    return f0 * (r.x - r.y) + f90 * r.y;
+}
+
+// ==== half_vector ====
+
+// Lobes of half vectors by edge splitting: a light's edge is split into arcs, each arc's image in half vector space is
+// replaced by the great circle between its ends, and the lobe's integral is closed along great circles.
+//
+// For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
+// ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
+//
+//   SteradianConicArc edge = steradian_ggx_edge(view, a, b);
+//   for j in 0 .. count - 1:
+//       p = steradian_half_vector_at(view, edge, steradian_half_vector_split_pole_mapped(edge, j / count)), q the next one
+//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
+//
+// Frame and order: as ggx_closed_form.glsl.
+
+// The GGX width whose lobe is as wide as Blinn-Phong's of exponent n: both have the mean squared slope 2 / (n + 2).
+float steradian_blinn_phong_alpha(float n) {
+    return sqrt(2.0 / (n + 2.0));
+}
+
+// Unit half vector at a place of an edge.
+vec3 steradian_half_vector_at(SteradianGgxView view, SteradianConicArc edge, float tau) {
+    vec3 u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
+    vec3 h = vec3(view.ax * u.x, view.ay * u.y, u.z);
+    return h * inversesqrt(max(dot(h, h), steradian_smallest_divisor()));
+}
+
+// The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
+float steradian_half_vector_split_uniform(SteradianConicArc edge, float share) {
+    float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
+    vec2 u = steradian_complex_unit(first + share * (last - first));
+    return clamp(u.y / max(u.x * edge.scale, steradian_smallest_length()), edge.begin, edge.end);
+}
+
+// The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
+// the edge passes the lobe, and some for the rest.
+//
+// Newton's steps where they halve what is left, else the middle of a bracket: 4 or 5 as a rule, 24 at most. A split that is
+// a little off costs nothing.
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float share) {
+    float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
+    float weight = 0.3 / max(last - first, 1.0e-12);
+    float total = edge.sweep.x + edge.sweep.y + 0.3;
+    SteradianConicNode node = steradian_conic_node(edge, share);
+    float tau = node.tau;
+    float low = edge.begin;
+    float high = edge.end;
+    float left = total;
+    bool off = edge.end > edge.begin;
+    for (int i = 0; i < 24; i++) {
+        if (off) {
+            float t = edge.scale * tau;
+            float value = steradian_conic_sweep(edge.z1, edge.begin, tau) + steradian_conic_sweep(edge.z2, edge.begin, tau)
+                + weight * (steradian_trig_atan2(t, 1.0) - first) - share * total;
+            float x1 = tau - edge.z1.x;
+            float x2 = tau - edge.z2.x;
+            float slope = edge.z1.y / (x1 * x1 + edge.z1.y * edge.z1.y) + edge.z2.y / (x2 * x2 + edge.z2.y * edge.z2.y)
+                + weight * edge.scale / (1.0 + t * t);
+            low = steradian_select(value < 0.0, tau, low);
+            high = steradian_select(value < 0.0, high, tau);
+            float next = tau - value / slope;
+            bool fast = next > low && next < high && abs(value) < 0.5 * left;
+            off = off && abs(value) > 1.0e-4 * total;
+            left = abs(value);
+            tau = steradian_select(off, steradian_select(fast, next, 0.5 * (low + high)), tau);
+        }
+    }
+    return tau;
+}
+
+// One arc's share of Blinn-Phong: 2 pi v_z times the radiance, exact along the great circle.
+//
+//   a, b     unit half vectors of the arc's ends, in walk order
+//   v        unit view
+//   n        exponent, at least 0
+//
+// (n + 2) / (2 pi) h_z^n (v.h) is a double-axis moment, of axes z and v.
+float steradian_blinn_phong_arc(vec3 a, vec3 b, vec3 v, float n) {
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    SteradianMomentEdge edge = steradian_moment_edge(a, b, z);
+    SteradianMomentIntegrands front = steradian_moment_quadrature_front(edge, max(n, 1.0e-6) - 1.0);
+    return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front.moment), front.power);
+}
+
+// One arc's share of Blinn-Phong as in steradian_blinn_phong_arc, by the cosine series and the error function instead of quadrature.
+//
+//   series   of exponent n - 1, or of n + 1 where n < 2
+//   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
+//
+// Error: of the series, see docs/accuracy.md, "phong series".
+float steradian_blinn_phong_arc_approximate(vec3 a, vec3 b, vec3 v, SteradianMomentSeries series, float n, int range) {
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    SteradianMomentEdge edge = steradian_moment_edge(a, b, z);
+    float front = 0.0;
+    if (range == 2) {
+        front = steradian_moment_series_low_front(edge, series, n - 1.0);
+    } else {
+        front = steradian_moment_series_front(edge, series);
+    }
+    int low = 0;
+    if (range > 0) {
+        low = 1;
+    }
+    return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front), steradian_moment_cosine_front(edge, n, low));
+}
+
+// The error function. Error: 1.5e-7 absolute.
+// Source: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
+float steradian_beckmann_error_function_approximate(float x) {
+    float t = abs(x);
+    float e = 1.0 / (1.0 + 0.3275911 * t);
+    float p = ((((1.061405429 * e - 1.453152027) * e + 1.421413741) * e - 0.284496736) * e + 0.254829592) * e;
+    float y = 1.0 - p * exp(-min(t * t, 80.0));
+    return steradian_select(x < 0.0, -y, y);
+}
+
+// The series that steradian_beckmann_arc takes: that of an infinite exponent.
+SteradianMomentSeriesHigh steradian_beckmann_series() {
+    SteradianMomentSeriesHigh series = steradian_moment_series_high_prepare(1.0e30);
+    series.m = 2.0;  // log_c below is the square of the distance
+    return series;
+}
+
+// One arc's share of Beckmann: 2 pi v_z times the radiance.
+//
+//   a, b     unit half vectors of the arc's ends, in walk order, above the surface
+//   series   steradian_beckmann_series()
+//
+// In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
+// w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
+// Error: of the series; see docs/accuracy.md, "half vector".
+float steradian_beckmann_arc(SteradianGgxView view, vec3 a, vec3 b, SteradianMomentSeriesHigh series) {
+    float za = 1.0 / max(a.z, 1.0e-6);
+    float zb = 1.0 / max(b.z, 1.0e-6);
+    vec2 p = vec2(a.x * za / view.ax, a.y * za / view.ay);
+    vec2 q = vec2(b.x * zb / view.ax, b.y * zb / view.ay);
+    vec2 along = q - p;
+    float length2 = dot(along, along);
+    bool usable = length2 > steradian_smallest_divisor();
+    along = along * inversesqrt(max(length2, steradian_smallest_divisor()));
+    float d = p.x * along.y - p.y * along.x;
+    float low = dot(p, along);
+    float high = dot(q, along);
+
+    SteradianMomentEdge edge;
+    edge.side = steradian_select(d < 0.0, -1.0, 1.0);
+    edge.s = max(abs(d), 1.0e-6);
+    edge.c = 1.0;
+    edge.x0 = 1.0;
+    edge.y0 = low;
+    edge.x1 = 1.0;
+    edge.y1 = high;
+    edge.log_c = min(edge.s * edge.s, 80.0);
+    edge.swept = 0.0;
+    float around = steradian_moment_edge_share(edge, steradian_moment_series_high_front(edge, series));
+    float across = exp(-edge.log_c) * 0.886226925452758014
+        * (steradian_beckmann_error_function_approximate(high) - steradian_beckmann_error_function_approximate(low));
+    float share = view.w.z * around + (view.w.y * along.x - view.w.x * along.y) * across;
+    return steradian_select(usable, share, 0.0);
+}
+
+// One arc's share of E (ggx_closed_form.glsl) for GGX, exact along the great circle.
+vec3 steradian_ggx_arc(SteradianGgxView view, vec3 a, vec3 b) {
+    vec3 p = steradian_polygon_direction(vec3(a.x / view.ax, a.y / view.ay, a.z));
+    vec3 q = steradian_polygon_direction(vec3(b.x / view.ax, b.y / view.ay, b.z));
+    return steradian_polygon_edge(p, q);
+}
+
+// Radiance from the sum over the arcs, for radiance 1; not negative.
+//
+//   facing   1.0; -1.0 where the light is seen from behind
+float steradian_half_vector_radiance(SteradianGgxView view, float sum, float facing) {
+    return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
+}

@@ -1,0 +1,211 @@
+// Steradian 0.1.0, indirect: one bounce from virtual lights, for GLSL ES 3.00 (WebGL2).
+//
+// Paste after #version 300 es and `precision highp float;`.
+// It comes after math.es.glsl, polygon.es.glsl, lobe.es.glsl, ltc.es.glsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== indirect ====
+
+// One glossy bounce: virtual point lights and receivers whose lobes are linearly transformed cosines.
+//
+// A virtual light stands where light first meets a surface, and sends out what that surface reflects. v is its position
+// minus the receiver's, in world space and of any length; D = v.v. A lobe at either end is a matrix that takes v to
+// w: the lobe is proportional to max(w_z, 0) / |w|^4 for a unit v. What each end contributes is called its half:
+//
+//   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
+//
+// and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
+// Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
+// distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
+
+// A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
+//
+// At a virtual light v comes in from the front's other side: there the rows are negated (steradian_indirect_turned).
+struct SteradianIndirectLobe {
+    vec3 x;
+    vec3 y;
+    vec3 z;
+    float scale;
+};
+
+// The lobe of a table's matrix and the frame it belongs to (x along the view, z the normal). The matrix' factor cancels in a half.
+SteradianIndirectLobe steradian_indirect_lobe(SteradianLtcMatrix m, mat3 frame) {
+    SteradianIndirectLobe lobe;
+    lobe.x = steradian_transform(frame, vec3(m.xx, 0.0, m.xz));
+    lobe.y = steradian_transform(frame, vec3(0.0, m.yy, 0.0));
+    lobe.z = steradian_transform(frame, vec3(m.zx, 0.0, m.zz));
+    lobe.scale = m.yy * (m.xx * m.zz - m.xz * m.zx) * steradian_inverse_pi();
+    return lobe;
+}
+
+// The lobe for vectors that point at the surface instead of away from it: what a virtual light needs.
+SteradianIndirectLobe steradian_indirect_turned(SteradianIndirectLobe lobe) {
+    SteradianIndirectLobe turned;
+    turned.x = -lobe.x;
+    turned.y = -lobe.y;
+    turned.z = -lobe.z;
+    turned.scale = lobe.scale;
+    return turned;
+}
+
+// The vector v under the lobe's M^-1; v is any vector in world space.
+vec3 steradian_indirect_under(SteradianIndirectLobe lobe, vec3 v) {
+    return vec3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
+}
+
+// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
+//
+//   v        as the lobe's rows take it
+//   d2       dot(v, v)
+//   wide2    0, or an area over pi that softens the nearness of a virtual light: D becomes D + wide2 in 1 / D
+//
+// Degenerate: v = 0 gives 0. In float |v| and the lobe's width want |v|^6 width^4 in the range of numbers.
+float steradian_indirect_glossy_half(SteradianIndirectLobe lobe, vec3 v, float d2, float wide2) {
+    vec3 w = steradian_indirect_under(lobe, v);
+    float w2 = dot(w, w);
+    return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), steradian_smallest_square());
+}
+
+// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
+float steradian_indirect_diffuse_half(vec3 n, vec3 v, float d2, float wide2) {
+    return max(dot(n, v), 0.0) / max(d2 + wide2, steradian_smallest_square());
+}
+
+// Radiance towards the eye from a point light of intensity 1: the lobe over the squared distance.
+//
+//   v        light's position minus the surface's
+//   lobe     of the surface and its view; times rho_f: with Fresnel
+//
+// Degenerate: v = 0 gives 0.
+// Source: Xia et al. 2023, eq. 9; the sum over lights with lobe.scale taken out is eq. 11.
+float steradian_indirect_point_light(SteradianIndirectLobe lobe, vec3 v) {
+    float d2 = dot(v, v);
+    return lobe.scale * steradian_indirect_glossy_half(lobe, v, d2, 0.0) * inversesqrt(max(d2, steradian_smallest_square()));
+}
+
+// The four halves of a pair. Light through a pair: flux (diffuse' from_diffuse + glossy' from_glossy) (diffuse
+// to_diffuse + glossy to_glossy), with diffuse = albedo / pi and glossy = rho_f times the lobe's scale at each end.
+struct SteradianIndirectPair {
+    float from_diffuse;
+    float from_glossy;
+    float to_diffuse;
+    float to_glossy;
+};
+
+// The halves of both ends at once, with no square root and one division.
+//
+//   receiver, n          the receiver's lobe and normal
+//   light, light_n       the virtual light's, turned
+//
+// What lies below either horizon gives 0: a lobe leaks there.
+// Degenerate: v = 0 gives 0. In float |v|^10 times both widths to the fourth must stay in the range of numbers; where it
+// falls below 1.0e-36 the peak is cut.
+SteradianIndirectPair steradian_indirect_pair(vec3 v, vec3 n, SteradianIndirectLobe receiver, vec3 light_n, SteradianIndirectLobe light) {
+    float d2 = dot(v, v);
+    vec3 w = steradian_indirect_under(receiver, v);
+    vec3 o = steradian_indirect_under(light, v);
+    float w2 = dot(w, w);
+    float o2 = dot(o, o);
+    float w4 = w2 * w2;
+    float o4 = o2 * o2;
+    float both = w4 * o4;
+    float inverse = 1.0 / max(d2 * both, steradian_smallest_square());
+    float peak = inverse * d2 * d2;
+    float n_v = max(dot(n, v), 0.0);
+    float light_n_v = max(dot(light_n, v), 0.0);
+    SteradianIndirectPair pair;
+    pair.to_diffuse = n_v * (inverse * both);
+    pair.from_diffuse = light_n_v * (inverse * both);
+    pair.to_glossy = steradian_select(n_v > 0.0, max(w.z, 0.0) * (peak * o4), 0.0);
+    pair.from_glossy = steradian_select(light_n_v > 0.0, max(o.z, 0.0) * (peak * w4), 0.0);
+    return pair;
+}
+
+// Schlick's weight (1 - v.h)^5 at a virtual light, whose half vector lies between where its light came from and v.
+//
+//   incoming unit, from the virtual light to the light that feeds it
+//   v        to the virtual light
+float steradian_indirect_grazing(vec3 incoming, vec3 v, float d2) {
+    float cosine = -dot(incoming, v) * inversesqrt(max(d2, steradian_smallest_square()));
+    float half_angle = max(0.5 + 0.5 * cosine, 1.0e-12);
+    return steradian_fresnel_schlick(0.0, 1.0, half_angle * inversesqrt(half_angle));
+}
+
+// One end on GGX microsurfaces, without Fresnel, and Schlick's weight: the ground truth, and the baseline.
+struct SteradianIndirectGgx {
+    float lobe;
+    float grazing;
+};
+
+// GGX for the unit direction l away from the surface: BRDF times the cosine of l.
+//
+//   frame    x along the view, z the normal
+//   view     unit, in the frame
+SteradianIndirectGgx steradian_indirect_ggx(mat3 frame, vec3 view, float alpha, vec3 l) {
+    vec3 local = steradian_transform_transposed(frame, l);
+    vec3 h = steradian_microfacet_half_vector(local, view);
+    SteradianIndirectGgx end;
+    end.lobe = steradian_microfacet_lobe_unshadowed(steradian_ggx_distribution(h, alpha, alpha) * steradian_ggx_shadowing(local, view, alpha, alpha), local, view);
+    end.grazing = steradian_fresnel_schlick(0.0, 1.0, dot(h, view));
+    return end;
+}
+
+// The half that stochastic culling leaves of a virtual light's half: on average what comes in.
+//
+//   value      the half; its irradiance at the receiver is bright times value over distance
+//   reach      threshold over bright, times distance: the half whose irradiance is the threshold
+//   xi         of the virtual light, in (0, 1)
+//
+// A pair is kept where value > xi reach, with probability min(1, value / reach), and then weighs its inverse.
+// Source: Tokuyoshi, Harada 2016.
+float steradian_indirect_kept(float value, float reach, float xi) {
+    return steradian_select(value > xi * reach, max(value, reach), 0.0);
+}
+
+// The largest factor by which M stretches a vector: one over the least by which M^-1 does.
+float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
+    // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
+    float determinant = m.xx * m.zz - m.xz * m.zx;
+    float square = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
+    float gap2 = max(square * square - 4.0 * determinant * determinant, 0.0);
+    float larger2 = 0.5 * (square + gap2 * inversesqrt(max(gap2, steradian_smallest_square())));
+    float least2 = determinant * determinant / max(larger2, steradian_smallest_square());
+    return inversesqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
+}
+
+// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+//
+//   lobe     turned; a diffuse light's: its frame
+//   v        virtual light's position minus the point's
+//   range    square root of bright scale stretch / threshold, stretch of steradian_indirect_largest_stretch
+//
+// Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
+// inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it
+// and 0.628 range across, contains. Both numbers: tests Indirect.SpheroidHoldsTheEgg.
+vec3 steradian_indirect_spheroid(SteradianIndirectLobe lobe, vec3 v, float range) {
+    vec3 w = steradian_indirect_under(lobe, v);
+    float inverse = 1.0 / range;
+    return vec3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
+}

@@ -1,0 +1,395 @@
+// Steradian 0.1.0, ltc: linearly transformed cosines over polygons, textured ones too, for GLSL ES 3.00 (WebGL2).
+//
+// Paste after #version 300 es and `precision highp float;`.
+// It comes after math.es.glsl, polygon.es.glsl, lobe.es.glsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== ltc ====
+
+// Linearly transformed cosines: area lights on glossy surfaces by a table look-up and a polygon integral.
+//
+// A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
+// the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
+// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/ltc.md.
+// Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+struct SteradianLtcMatrix {
+    float xx;
+    float xz;
+    float yy;
+    float zx;
+    float zz;
+};
+
+// The place where a table is read: both coordinates are in [0, 1], and the outer nodes stand on the ends.
+//
+//   roughness  perceptual: the square root of alpha
+//   n_dot_v    cosine of the view
+vec2 steradian_ltc_coordinates(float roughness, float n_dot_v) {
+    return vec2(clamp(roughness, 0.0, 1.0), sqrt(clamp(1.0 - n_dot_v, 0.0, 1.0)));
+}
+
+// The matrix as the literature's texture stores it.
+//
+//   t        M^-1 divided by its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
+SteradianLtcMatrix steradian_ltc_from_classic(vec4 t) {
+    SteradianLtcMatrix m;
+    m.xx = t.x;
+    m.xz = t.z;
+    m.yy = 1.0;
+    m.zx = t.y;
+    m.zz = t.w;
+    return m;
+}
+
+// The matrix from the compact table, in which it is stored about the mirror direction and divided by alpha.
+//
+//   e        entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, M scaled so that entry (2,2) of R^T M is 1;
+//            R turns z into the mirror direction (-s, 0, c)
+//   alpha    roughness squared, at least 1.0e-4
+//   view     unit, in the shading frame: (s, 0, c). Take s from the frame, not from sqrt(1 - c*c), which
+//            loses half the digits near the normal, where a narrow lobe needs them
+//
+// A lobe that is stored about the normal (diffuse, sheen) passes alpha = 1 and view = (0, 0, 1).
+SteradianLtcMatrix steradian_ltc_from_compact(vec4 e, float alpha, vec3 view) {
+    float tilt = alpha * e.z;
+    float shear = alpha * e.w;
+    float width = alpha * e.x;
+    SteradianLtcMatrix m;
+    m.xx = view.z + tilt * view.x;
+    m.xz = view.x - tilt * view.z;
+    m.yy = (e.x - tilt * e.w) / e.y;
+    m.zx = -(shear * view.z + width * view.x);
+    m.zz = width * view.z - shear * view.x;
+    return m;
+}
+
+// The vector M^-1 v, up to the matrix' factor, for any vector v of the shading frame.
+vec3 steradian_ltc_transform(SteradianLtcMatrix m, vec3 v) {
+    return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
+}
+
+// The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
+float steradian_ltc_lobe(SteradianLtcMatrix m, vec3 l) {
+    vec3 w = steradian_ltc_transform(m, l);
+    float d2 = max(dot(w, w), steradian_smallest_length());
+    float determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
+    return determinant * max(w.z, 0.0) * steradian_inverse_pi() / (d2 * d2);
+}
+
+// The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
+//
+// Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.
+float steradian_ltc_energy_above_horizon(SteradianLtcMatrix m) {
+    return 0.5 + 0.5 * m.xx * inversesqrt(max(m.xx * m.xx + m.zx * m.zx, steradian_smallest_square()));
+}
+
+// The state of a walk along a light's outline under M^-1.
+//   lobe      what the clipped edges add up to
+//   anchor    where the outline first crossed the real horizon, under M^-1
+//   anchored  whether it did
+struct SteradianLtcWalk {
+    SteradianPolygonWalk lobe;
+    vec3 anchor;
+    bool anchored;
+};
+
+// A walk with no edge yet.
+SteradianLtcWalk steradian_ltc_begin() {
+    SteradianLtcWalk walk;
+    walk.lobe = steradian_polygon_begin();
+    walk.anchor = vec3(0.0, 0.0, 0.0);
+    walk.anchored = steradian_mask_none();
+    return walk;
+}
+
+// Unit direction of a vertex under M^-1.
+//
+//   v        vertex or direction in the shading frame
+vec3 steradian_ltc_direction(SteradianLtcMatrix m, vec3 v) {
+    return steradian_polygon_direction(steradian_ltc_transform(m, v));
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's.
+//
+//   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
+//   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
+//
+// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
+// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
+// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+//
+// Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
+SteradianLtcWalk steradian_ltc_add_edge(SteradianLtcWalk walk, SteradianLtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
+    SteradianLtcWalk next = walk;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    if (!a_below || !b_below) {
+        vec3 start = ta;
+        vec3 end = tb;
+        if (a_below || b_below) {
+            vec3 none = vec3(0.0, 0.0, 0.0);
+            bool crosses = (a_below && !b_below) || (b_below && !a_below);
+            float wa = abs(b.z);
+            float wb = abs(a.z);
+            vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+            vec3 crossing = steradian_select(crosses, steradian_ltc_direction(m, horizon), none);
+            start = steradian_select(a_below, crossing, ta);
+            end = steradian_select(b_below, crossing, tb);
+            // The first crossing is its own anchor: an edge of no length.
+            if (crosses && walk.anchored) {
+                bool closes = crosses && walk.anchored;
+                vec3 departure = steradian_select(a_below, walk.anchor, crossing);
+                vec3 arrival = steradian_select(a_below, crossing, walk.anchor);
+                next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
+            }
+            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
+            next.anchored = walk.anchored || crosses;
+        }
+        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+    }
+    return next;
+}
+
+// Integral of the lobe over the part of the light above the real horizon, in [0, 1].
+//
+//   reversed true where the light is seen from behind
+float steradian_ltc_integral(SteradianLtcWalk walk, bool reversed) {
+    return steradian_polygon_irradiance(walk.lobe, reversed) * steradian_inverse_pi();
+}
+
+// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+//
+//   n_a      magnitude of the lobe without Fresnel
+//   f_a      of the lobe times (1 - v.h)^5
+float steradian_ltc_specular_scale(float f0, float f90, float n_a, float f_a) {
+    return f0 * n_a + (f90 - f0) * f_a;
+}
+
+// The specular radiance where the lobe times (1 - v.h)^5 has a matrix of its own (table of fit --fresnel-lobe).
+//
+//   integral, grazing  steradian_ltc_integral with the lobe's and with the Fresnel lobe's matrix
+float steradian_ltc_specular_with_fresnel_lobe(float f0, float f90, float n_a, float integral, float f_a, float grazing) {
+    return f0 * n_a * integral + (f90 - f0) * f_a * grazing;
+}
+
+// Factor on the specular radiance that returns what single scattering loses between the facets.
+//
+//   f0       reflectance along the normal
+//   albedo   of the lobe with F = 1: n_a times steradian_ltc_energy_above_horizon, in (0, 1]
+//
+// Source: Turquin, "Practical multiple scattering compensation for microfacet models", 2019, eq. 16.
+float steradian_ltc_multiple_scattering(float f0, float albedo) {
+    float a = clamp(albedo, 1.0e-2, 1.0);
+    return 1.0 + f0 * (1.0 - a) / a;
+}
+
+// A surface under a clear coat of glTF: the coat reflects its share and dims what lies below.
+//
+//   base       radiance of the surface below
+//   coat       radiance of the coat's lobe with its own Fresnel (f0 0.04) in it
+//   clearcoat  strength in [0, 1]
+//   n_dot_v    cosine of the view to the coat's normal
+float steradian_ltc_clear_coat(float base, float coat, float clearcoat, float n_dot_v) {
+    float f = steradian_fresnel_schlick(0.04, 1.0, n_dot_v);
+    return base * (1.0 - clearcoat * f) + clearcoat * coat;
+}
+
+// A surface under sheen of glTF: what the cloth's fibres reflect does not reach what lies below.
+//
+//   base      radiance of the surface below
+//   sheen     radiance of the sheen lobe, its colour included
+//   strongest largest component of the sheen's colour
+//   albedo    of the sheen lobe at this view: n_a times steradian_ltc_energy_above_horizon
+float steradian_ltc_sheen(float base, float sheen, float strongest, float albedo) {
+    return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
+}
+
+// ==== ltc_texture ====
+
+// Textured lights: where on a light a lobe looks, and how widely.
+//
+// The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
+// point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
+// cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
+// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+//
+//   SteradianLtcTextureFootprint f = steradian_ltc_texture_footprint(m, phi, normal, height);            // once
+//   SteradianLtcTextureEllipse e = steradian_ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   SteradianLtcTextureEllipse g = steradian_ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   vec2 at = centroid + steradian_ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
+//
+// A diffuse surface passes the identity for M^-1 (steradian_ltc_texture_diffuse).
+// Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
+
+// An ellipse on the light's plane, in the shading frame.
+//   center   relative to the shading point
+//   axis_a, axis_b  conjugate radii, per radian of the cone's half angle
+//   valid    false where the light sends nothing
+struct SteradianLtcTextureFootprint {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+    bool valid;
+};
+
+// The vector M w, up to a positive factor: the inverse of steradian_ltc_transform.
+vec3 steradian_ltc_texture_transform_back(SteradianLtcMatrix m, vec3 w) {
+    float determinant = m.xx * m.zz - m.xz * m.zx;
+    return vec3(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
+}
+
+// The matrix of a diffuse lobe: none.
+SteradianLtcMatrix steradian_ltc_texture_diffuse() {
+    SteradianLtcMatrix m;
+    m.xx = 1.0;
+    m.xz = 0.0;
+    m.yy = 1.0;
+    m.zx = 0.0;
+    m.zz = 1.0;
+    return m;
+}
+
+// Irradiance vector, under M^-1, of the part of the light above both horizons.
+//
+//   reversed true where the light is seen from behind
+vec3 steradian_ltc_texture_irradiance_vector(SteradianLtcWalk walk, bool reversed) {
+    return steradian_polygon_irradiance_vector(walk.lobe, reversed);
+}
+
+// Where a lobe looks on a light's plane.
+//
+//   m        M^-1
+//   phi      irradiance vector of the light under M^-1 (steradian_ltc_texture_irradiance_vector)
+//   normal   unit normal of the light's plane, in the shading frame, either sign
+//   height   dot(normal, any point of the plane relative to the shading point)
+//
+// A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
+//
+// Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
+// Error: docs/ltc.md, "Textured lights".
+SteradianLtcTextureFootprint steradian_ltc_texture_footprint(SteradianLtcMatrix m, vec3 phi, vec3 normal, float height) {
+    float p2 = dot(phi, phi);
+    bool lit = p2 > steradian_smallest_divisor();
+    vec3 w = steradian_select(lit, phi * inversesqrt(max(p2, steradian_smallest_divisor())), vec3(0.0, 0.0, 1.0));
+    mat3 across = steradian_frame_from_normal(w);
+    vec3 l = steradian_ltc_texture_transform_back(m, w);
+    float along = dot(normal, l);
+    bool meets = lit && along * height > 0.0;
+    float inverse = steradian_select(meets, 1.0 / steradian_select(meets, along, 1.0), 0.0);
+    float t = height * inverse;
+    vec3 a = steradian_ltc_texture_transform_back(m, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
+    vec3 b = steradian_ltc_texture_transform_back(m, steradian_transform(across, vec3(0.0, 1.0, 0.0)));
+    SteradianLtcTextureFootprint f;
+    f.center = l * t;
+    f.axis_a = (a - l * (dot(normal, a) * inverse)) * t;
+    f.axis_b = (b - l * (dot(normal, b) * inverse)) * t;
+    f.valid = meets;
+    return f;
+}
+
+// An ellipse on the light's plane: its long half axis, and the length of the short one.
+struct SteradianLtcTextureEllipse {
+    vec2 major;
+    float minor;
+};
+
+// Principal axes of the ellipse of two conjugate radii.
+//
+//   a, b     in the plane's own coordinates [m]
+//
+// Degenerate: a circle has any major axis.
+SteradianLtcTextureEllipse steradian_ltc_texture_axes(vec2 a, vec2 b) {
+    float xx = a.x * a.x + b.x * b.x;
+    float yy = a.y * a.y + b.y * b.y;
+    float xy2 = a.x * a.y + b.x * b.y;
+    float half_difference = 0.5 * (xx - yy);
+    float spread = sqrt(half_difference * half_difference + xy2 * xy2);
+    // An eigenvector of the larger eigenvalue, from the row that does not cancel.
+    vec2 v = steradian_select(half_difference > 0.0, vec2(half_difference + spread, xy2), vec2(xy2, spread - half_difference));
+    float v2 = dot(v, v);
+    vec2 direction = steradian_select(v2 > steradian_smallest_square(), v * inversesqrt(max(v2, steradian_smallest_square())), vec2(1.0, 0.0));
+    float longest = sqrt(0.5 * (xx + yy) + spread);
+    SteradianLtcTextureEllipse e;
+    e.major = direction * longest;
+    e.minor = abs(a.x * b.y - a.y * b.x) / max(longest, steradian_smallest_length());
+    return e;
+}
+
+// A Gaussian's standard deviations: the ellipse times a width, neither above `widest`.
+SteradianLtcTextureEllipse steradian_ltc_texture_gaussian(SteradianLtcTextureEllipse e, float width, float widest) {
+    float longest = width * sqrt(dot(e.major, e.major));
+    SteradianLtcTextureEllipse g;
+    g.major = e.major * (width * (widest / max(longest, widest)));
+    g.minor = min(width * e.minor, widest);
+    return g;
+}
+
+// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+//
+// A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
+// Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
+// inverts that. The irradiance vector also lacks the lobe's cosine; it moves the centroid to the largest value of the
+// product of (V^-1 + S^-1)^-1's Gaussian and the cosine, along the cosine's slope.
+//
+//   g        the Gaussian: its standard deviations
+//   aside    where the irradiance vector meets the plane, from the light's centroid
+//   slope    of the logarithm of z under M^-1 along the plane, there
+//   light    covariance of the light's area: xx, xy, yy
+//   returns  from the light's centroid
+//
+// It stands at most 2.5 of its standard deviations away from there: further out, next to nothing of the light is under it.
+//
+// Degenerate: a light without width counts as a thousandth as wide as long.
+vec2 steradian_ltc_texture_place(SteradianLtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) {
+    float major2 = dot(g.major, g.major);
+    float minor2 = g.minor * g.minor;
+    vec2 u = g.major * inversesqrt(max(major2, steradian_smallest_square()));
+    float along = major2 - minor2;
+    float sxx = minor2 + along * u.x * u.x;
+    float sxy = along * u.x * u.y;
+    float syy = minor2 + along * u.y * u.y;
+    float least = 1.0e-6 * (light.x + light.z) + steradian_smallest_divisor();
+    float vxx = light.x + least;
+    float vyy = light.z + least;
+    // (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope
+    float txx = vxx + sxx;
+    float txy = light.y + sxy;
+    float tyy = vyy + syy;
+    float t_inverse = 1.0 / max(txx * tyy - txy * txy, steradian_smallest_square());
+    vec2 p = vec2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
+    p = vec2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
+    p = vec2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
+    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    float q = max(dot(slope, p), 0.0);
+    float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
+    vec2 d = aside + p * share;
+    float v_inverse = 1.0 / max(vxx * vyy - light.y * light.y, steradian_smallest_square());
+    vec2 e = vec2(vyy * d.x - light.y * d.y, vxx * d.y - light.y * d.x) * v_inverse;
+    vec2 push = vec2(sxx * e.x + sxy * e.y, sxy * e.x + syy * e.y);
+    float pushed2 = max(dot(push, e), 0.0);
+    return d + push * (2.5 * inversesqrt(max(pushed2, 6.25)));
+}

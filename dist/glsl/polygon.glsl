@@ -1,0 +1,296 @@
+// Steradian 0.1.0, polygon: polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe, for GLSL 4.50.
+//
+// Paste after #version and your own declarations.
+// It comes after math.glsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== polygon ====
+
+// Irradiance and solid angle of polygonal lights: the boundary integrals of Lambert and Girard.
+//
+// A light is walked edge by edge, so that any number of vertices, non-convex outlines and holes (walked the other
+// way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
+// point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
+
+// The state of a walk.
+//   edges    sum over the edges, each clipped to the horizon, of half its angle times its plane's unit normal [rad]
+//   horizon  product of unit complex numbers: its angle is the arc of the horizon that closes the clipped outline
+struct SteradianPolygonWalk {
+    vec3 edges;
+    vec2 horizon;
+};
+
+// Unit direction of a vertex.
+//
+//   v        vertex relative to the shading point, any unit of length
+//
+// Degenerate: a length below 1e-18 (the point lies on the vertex) gives a vector shorter than 1; one above 1e18, whose
+// square leaves the range of float, the zero vector. Both are finite and add next to nothing to any sum.
+vec3 steradian_polygon_direction(vec3 v) {
+    float d2 = dot(v, v);
+    float scale = steradian_select(d2 < 1.0e36, inversesqrt(max(d2, steradian_smallest_square())), 0.0);
+    return v * scale;
+}
+
+// Irradiance vector of one edge: half the edge's angle times its plane's unit normal [rad].
+//
+//   a, b     unit directions of the edge's ends, in walk order
+//   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
+//
+// Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
+// Error: see docs/accuracy.md, "polygon edge".
+// Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
+// determined form-factors", 1989, eq. 6.
+vec3 steradian_polygon_edge(vec3 a, vec3 b) {
+    vec3 n = cross(a, b);
+    float f = steradian_trig_angle_over_sine(dot(a, b), dot(n, n));
+    return n * (0.5 * f);
+}
+
+// A walk before its first edge: no edges, and a horizon of angle 0.
+SteradianPolygonWalk steradian_polygon_begin() {
+    SteradianPolygonWalk walk;
+    walk.edges = vec3(0.0, 0.0, 0.0);
+    walk.horizon = vec2(1.0, 0.0);
+    return walk;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
+//
+// What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
+// these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
+// counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, vec3 a, vec3 b) {
+    SteradianPolygonWalk next = walk;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    if (!a_below || !b_below) {
+        vec3 start = a;
+        vec3 end = b;
+        if (a_below || b_below) {
+            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            float wa = abs(b.z);
+            float wb = abs(a.z);
+            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+            p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
+            vec3 crossing = vec3(p.x, p.y, 0.0);
+            start = steradian_select(a_below, crossing, a);
+            end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
+            bool crosses = (a_below && !b_below) || (b_below && !a_below);
+            float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
+            vec2 h = walk.horizon;
+            next.horizon = steradian_select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
+        }
+        next.edges = walk.edges + steradian_polygon_edge(start, end);
+    }
+    return next;
+}
+
+// Irradiance vector of the part of the light above the horizon [sr times radiance 1].
+//
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//   returns  in the shading frame; z is the irradiance, the direction is where the light is, seen on average
+//
+// Degenerate: a point in the light's plane gives 0 up to rounding.
+vec3 steradian_polygon_irradiance_vector(SteradianPolygonWalk walk, bool reversed) {
+    float facing = steradian_select(reversed, -1.0, 1.0);
+    float arc = 0.0;
+    if (abs(walk.horizon.y) > 0.0 || walk.horizon.x < 0.0) {
+        arc = steradian_trig_atan2_unwrapped(facing * walk.horizon.y, walk.horizon.x);
+    }
+    vec3 e = walk.edges * facing;
+    return vec3(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
+}
+
+// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See steradian_polygon_irradiance_vector.
+//
+// Error: see docs/accuracy.md, "polygon irradiance".
+float steradian_polygon_irradiance(SteradianPolygonWalk walk, bool reversed) {
+    vec3 e = steradian_polygon_irradiance_vector(walk, reversed);
+    return e.z;
+}
+
+// The state of a solid angle's walk: a product of complex numbers, each with half a triangle's solid angle.
+struct SteradianSolidAngleWalk {
+    vec3 first;
+    vec2 product;
+};
+
+// A solid angle's walk before its first triangle.
+//
+//   first    unit direction of any vertex of the light
+SteradianSolidAngleWalk steradian_solid_angle_begin(vec3 first) {
+    SteradianSolidAngleWalk walk;
+    walk.first = first;
+    walk.product = vec2(1.0, 0.0);
+    return walk;
+}
+
+// Adds the triangle of the first vertex and one edge. Directions as for steradian_polygon_add_edge; no horizon here.
+//
+// Degenerate: a triangle without area has a real factor and adds nothing.
+// Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
+SteradianSolidAngleWalk steradian_solid_angle_add_edge(SteradianSolidAngleWalk walk, vec3 a, vec3 b) {
+    SteradianSolidAngleWalk next = walk;
+    float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
+    float im = dot(walk.first, cross(a, b));
+    float scale = inversesqrt(max(re * re + im * im, steradian_smallest_square()));
+    re = re * scale;
+    im = im * scale;
+    vec2 p = walk.product;
+    next.product = vec2(p.x * re - p.y * im, p.x * im + p.y * re);
+    return next;
+}
+
+// Solid angle of a plane light, in [0, 2 pi] [sr].
+//
+//   reversed true where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Error: see docs/accuracy.md, "polygon solid angle".
+float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) {
+    float y = steradian_select(reversed, -walk.product.y, walk.product.y);
+    return max(2.0 * steradian_trig_atan2_unwrapped(y, walk.product.x), 0.0);
+}
+
+// ==== horizon_clip ====
+
+// Clipping a walked outline to the horizon, for integrals along its edges.
+//
+// Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
+// (steradian_polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
+// horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
+// The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
+// different contours, and one clip serves a whole light with its holes:
+//
+//   SteradianHorizonClip clip = steradian_horizon_clip_begin();
+//   for each edge a, b of each contour:
+//       clip = steradian_horizon_clip_edge(clip, a, b);
+//       integrate clip.start, clip.end
+//       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//   clip = steradian_horizon_clip_finish(clip);
+//   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+//
+// Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
+
+// The state of a clip and what it last handed out.
+//   start, end          the edge's part above the horizon; equal where there is none
+//   arc_start, arc_end  an arc of the horizon that belongs to the outline; equal where there is none
+//   closes              whether there is an arc
+//   leave               where the outline last went down and did not come back yet; zero: nowhere
+//   entry               where it came up without having been seen to go down; zero: nowhere
+struct SteradianHorizonClip {
+    vec3 start;
+    vec3 end;
+    vec3 arc_start;
+    vec3 arc_end;
+    bool closes;
+    vec3 leave;
+    vec3 entry;
+};
+
+// The state before the first edge.
+SteradianHorizonClip steradian_horizon_clip_begin() {
+    vec3 nowhere = vec3(0.0, 0.0, 0.0);
+    SteradianHorizonClip clip;
+    clip.start = nowhere;
+    clip.end = nowhere;
+    clip.arc_start = nowhere;
+    clip.arc_end = nowhere;
+    clip.closes = steradian_mask_none();
+    clip.leave = nowhere;
+    clip.entry = nowhere;
+    return clip;
+}
+
+// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+//
+// Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
+// Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
+vec3 steradian_horizon_crossing(vec3 a, vec3 b) {
+    float wa = abs(b.z);
+    float wb = abs(a.z);
+    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
+    return vec3(p.x, p.y, 0.0);
+}
+
+// Clips one edge.
+//
+//   a, b     unit directions of the edge's ends; z < 0 is below
+//   returns  the state with start, end and, where the edge crosses and an arc is due, the arc
+SteradianHorizonClip steradian_horizon_clip_edge(SteradianHorizonClip clip, vec3 a, vec3 b) {
+    SteradianHorizonClip next = clip;
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    next.start = a;
+    next.end = b;
+    next.closes = steradian_mask_none();
+    if (a_below || b_below) {
+        vec3 nowhere = vec3(0.0, 0.0, 0.0);
+        vec3 crossing = steradian_horizon_crossing(a, b);
+        next.start = steradian_select(a_below, crossing, a);
+        next.end = steradian_select(b_below, crossing, b);  // both below: start = end
+        bool comes_up = a_below && !b_below;
+        bool goes_down = b_below && !a_below;
+        bool was_left = dot(clip.leave, clip.leave) > 0.5;
+        // Going down twice: a contour ended below and the next began above. The first one's last arc is due.
+        bool due = goes_down && was_left;
+        next.closes = (comes_up && was_left) || due;
+        next.arc_end = steradian_select(due, clip.entry, crossing);
+        next.arc_start = steradian_select(next.closes, clip.leave, next.arc_end);
+        next.leave = steradian_select(goes_down, crossing, steradian_select(comes_up, nowhere, clip.leave));
+        next.entry = steradian_select(comes_up && !was_left, crossing, steradian_select(due, nowhere, clip.entry));
+    }
+    return next;
+}
+
+// Ends the walk: the last arc, from where the outline went down to where it had first come up.
+SteradianHorizonClip steradian_horizon_clip_finish(SteradianHorizonClip clip) {
+    SteradianHorizonClip next = clip;
+    next.closes = dot(clip.leave, clip.leave) > 0.5 && dot(clip.entry, clip.entry) > 0.5;
+    next.start = clip.end;
+    next.arc_start = steradian_select(next.closes, clip.leave, clip.entry);
+    next.arc_end = clip.entry;
+    return next;
+}
+
+// ==== lambert ====
+
+// The diffuse surface: the same radiance to every side.
+
+// Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
+//
+//   irradiance  steradian_polygon_irradiance, in [0, pi]
+float steradian_lambert_radiance(float irradiance) {
+    return irradiance * steradian_inverse_pi();
+}
+
+// The lobe itself: BRDF of albedo 1 times the cosine of the light's direction l (unit, shading frame).
+float steradian_lambert_lobe(vec3 l) {
+    return max(l.z, 0.0) * steradian_inverse_pi();
+}

@@ -1,0 +1,835 @@
+// Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, for GLSL 4.50.
+//
+// Paste after #version and your own declarations.
+// It comes after math.glsl, polygon.glsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== conic ====
+
+// Arcs of conics in space: the boundary integral of irradiance along them, in closed form.
+//
+// A curve u(tau) = u0 + u1 tau + u2 tau^2, seen from the origin, bounds a region of directions; its share of the region's
+// irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
+// two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
+// sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+
+// A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
+//   u0..u2      the curve
+//   begin, end  its ends in tau; equal where the arc has no length
+//   scale       the unit: tau as the caller counted it is scale times tau here
+//   z1, z2      poles: roots of |u|^2 with positive imaginary part
+//   sweep       the angles under which the poles see the arc [rad], in [0, pi]
+struct SteradianConicArc {
+    vec3 u0;
+    vec3 u1;
+    vec3 u2;
+    float begin;
+    float end;
+    float scale;
+    vec2 z1;
+    vec2 z2;
+    vec2 sweep;
+};
+
+// The derivative of the quartic at its root z, formed from the roots: d4 (z - conj z)(z - o)(z - conj o). Formed from the
+// coefficients it would cost float 5 to 40 times the error.
+//
+//   z, o     a root and the root of the other pair
+vec2 steradian_conic_slope(vec2 z, vec2 o, float d4) {
+    float x = z.x - o.x;
+    float y2 = (z.y - o.y) * (z.y + o.y);
+    float s = 2.0 * d4 * z.y;
+    return vec2(-2.0 * x * z.y, x * x - y2) * s;
+}
+
+// One step of Durand and Kerner for the root z of u.u, evaluated from the vectors: the quartic's coefficients have lost
+// the digits that small imaginary parts need.
+//
+//   returns  the new root, with positive imaginary part
+//
+// The step is at most half the way to the other root plus the height above the axis, so that no start runs away.
+vec2 steradian_conic_pole_step(SteradianConicArc arc, vec2 z, vec2 o, float d4) {
+    vec3 re = arc.u0 + arc.u1 * z.x + arc.u2 * (z.x * z.x - z.y * z.y);
+    vec3 im = (arc.u1 + arc.u2 * (2.0 * z.x)) * z.y;
+    vec2 value = vec2(dot(re - im, re + im), 2.0 * dot(re, im));
+    vec2 step = steradian_complex_quotient(value, steradian_conic_slope(z, o, d4));
+    vec2 apart = z - o;
+    float apart2 = dot(apart, apart);
+    float longest = 0.5 * sqrt(apart2) + z.y;
+    step = step * min(longest * inversesqrt(max(dot(step, step), steradian_smallest_divisor())), 1.0);
+    bool free = apart2 > 1.0e-12 * (1.0 + dot(z, z));
+    vec2 next = z - steradian_select(free, step, vec2(0.0, 0.0));
+    return vec2(next.x, max(abs(next.y), 1.0e-9));
+}
+
+// Gauss and Seidel's sweeps over the two poles until both stand still.
+//
+// Number of sweeps: 2 or 3 at ordinary widths and views; a pole much nearer to the axis than its start comes down by half a
+// sweep, which makes up to 16 at alpha = 1.0e-4 and grazing views.
+// Error: in float, poles to 1.0e-3 of their height at least, and since steps square, mostly to rounding.
+SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, SteradianQuarticPoles start) {
+    SteradianQuarticPoles poles = start;
+    float d4 = dot(arc.u2, arc.u2);
+    int sweeps = 16;
+    float tolerance = 1.0e-6;
+    bool moving = arc.end > arc.begin;
+    for (int i = 0; i < sweeps; i++) {
+        if (moving) {
+            vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+            vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
+            vec2 step1 = z1 - poles.z1;
+            vec2 step2 = z2 - poles.z2;
+            poles.z1 = steradian_select(moving, z1, poles.z1);
+            poles.z2 = steradian_select(moving, z2, poles.z2);
+            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        }
+    }
+    return poles;
+}
+
+// The angle under which a pole sees the arc [rad], in [0, pi].
+float steradian_conic_sweep(vec2 z, float begin, float end) {
+    return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
+}
+
+// Prepares an arc.
+//
+//   u0..u2      the curve; the origin must not lie on it
+//   begin, end  ends in tau, begin <= end
+//
+// Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
+// tau = 0 as it is.
+SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
+    float least = 1.0e-12;
+    float d0 = max(dot(u0, u0), steradian_smallest_divisor());
+    float d4 = dot(u2, u2);
+    float ratio = sqrt(d0 / max(d4, least * d0));
+    SteradianConicArc arc;
+    arc.scale = sqrt(ratio);
+    arc.u0 = u0;
+    arc.u1 = u1 * arc.scale;
+    arc.u2 = steradian_select(d4 > least * d0, u2, u0 * sqrt(least)) * ratio;
+    arc.begin = begin / arc.scale;
+    arc.end = end / arc.scale;
+
+    float inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
+    SteradianQuarticPoles poles = steradian_quartic_poles_approximate(
+        dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
+        (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
+    poles = steradian_conic_polish_poles(arc, poles);
+    arc.z1 = poles.z1;
+    arc.z2 = poles.z2;
+    arc.sweep = vec2(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
+    return arc;
+}
+
+// A place on an arc by its share of the angle C under which both poles together see it: in C the integrand is smooth
+// wherever the arc passes.
+//   tau      between the arc's begin and end
+//   density  dC/dtau
+struct SteradianConicNode {
+    float tau;
+    float density;
+};
+
+// The place where C is a given share of its way from the arc's begin to its end.
+//
+//   share    in [0, 1]
+//
+// C(tau) is the argument of (b1 + i (tau - p1))(b2 + i (tau - p2)) with poles p + i b, so that tau is the root of a quadratic.
+SteradianConicNode steradian_conic_node(SteradianConicArc arc, float share) {
+    float p1 = arc.z1.x;
+    float p2 = arc.z2.x;
+    float b1 = arc.z1.y;
+    float b2 = arc.z2.y;
+    vec2 start = steradian_complex_product(vec2(b1, arc.begin - p1), vec2(b2, arc.begin - p2));
+    float total = arc.sweep.x + arc.sweep.y;
+    // The angle is in [0, 2 pi]: half a turn less, and the sign.
+    vec2 turned = steradian_complex_product(steradian_complex_sign(start), -steradian_complex_unit(share * total - steradian_pi()));
+    float s = turned.y;
+    float c = turned.x;
+    float linear_term = c * (b1 + b2) - s * (p1 + p2);
+    float constant_term = s * p1 * p2 - c * (b1 * p2 + b2 * p1) - s * b1 * b2;
+    float root = sqrt(max(linear_term * linear_term - 4.0 * s * constant_term, 0.0));
+    bool positive = linear_term >= 0.0;
+    float top = steradian_select(positive, -2.0 * constant_term, root - linear_term);
+    float bottom = steradian_select(positive, linear_term + root, 2.0 * s);
+    bool usable = abs(bottom) > steradian_smallest_divisor();
+    float tau = steradian_select(usable, top / steradian_select(usable, bottom, 1.0), arc.begin);
+    SteradianConicNode node;
+    node.tau = clamp(tau, arc.begin, arc.end);
+    float x1 = node.tau - p1;
+    float x2 = node.tau - p2;
+    node.density = b1 / (x1 * x1 + b1 * b1) + b2 / (x2 * x2 + b2 * b2);
+    return node;
+}
+
+// Half of INT u x u' / |u|^2 dtau as residues.
+//
+//   z, o     a pole and the other one
+//   sweep    the angle under which z sees the arc
+vec3 steradian_conic_residue(SteradianConicArc arc, vec2 z, vec2 o, float sweep) {
+    vec3 n0 = cross(arc.u0, arc.u1);
+    vec3 n1 = cross(arc.u0, arc.u2) * 2.0;
+    vec3 n2 = cross(arc.u1, arc.u2);
+    vec3 re = n0 + n1 * z.x + n2 * (z.x * z.x - z.y * z.y);
+    vec3 im = (n1 + n2 * (2.0 * z.x)) * z.y;
+    float x0 = arc.begin - z.x;
+    float x1 = arc.end - z.x;
+    float y2 = z.y * z.y;
+    vec2 logarithm = vec2(0.5 * log((x1 * x1 + y2) / (x0 * x0 + y2)), sweep);
+    vec2 factor = steradian_complex_quotient(logarithm, steradian_conic_slope(z, o, dot(arc.u2, arc.u2)));
+    return re * factor.x - im * factor.y;
+}
+
+// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+vec3 steradian_conic_vector_approximate(SteradianConicArc arc) {
+    vec3 sum = vec3(0.0, 0.0, 0.0);
+    float total = arc.sweep.x + arc.sweep.y;
+    for (int i = 0; i < 16; i++) {
+        int part = i / 8;
+        vec2 rule = steradian_gauss_legendre_node(8, i - 8 * part);
+        SteradianConicNode node = steradian_conic_node(arc, 0.5 * (rule.x + float(part)));
+        vec3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+        vec3 du = arc.u1 + arc.u2 * (2.0 * node.tau);
+        sum = sum + cross(u, du) * (0.25 * rule.y * total / (node.density * max(dot(u, u), steradian_smallest_divisor())));
+    }
+    return sum;
+}
+
+// An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
+//
+// Error: docs/accuracy.md, "Float against double", conic vector.
+vec3 steradian_conic_vector(SteradianConicArc arc) {
+    vec3 e = steradian_conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + steradian_conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
+    // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
+    // quadrature, whose nearest singularity recedes as poles meet, is good to the digits that remain.
+    float close = 1.0e-2;
+    vec2 apart = arc.z1 - arc.z2;
+    bool meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
+    if (meet) {
+        e = steradian_select(meet, steradian_conic_vector_approximate(arc), e);
+    }
+    return e;
+}
+
+// ==== ellipse ====
+
+// Disks and ellipses as lights, and the outlines of spheres and ellipsoids (ellipsoid.glsl), which are ellipses.
+//
+// An ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point, is a conic in tan(t/2): its irradiance
+// is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
+// lobe is sharp.
+// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see steradian_ellipse_prepare.
+
+// An ellipse, seen from the shading point.
+struct SteradianEllipse {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+};
+
+// Turns the axes so that the walk with growing t is in walk order.
+//
+//   axis_a, axis_b  any two conjugate half axes; they need not be orthogonal
+SteradianEllipse steradian_ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b) {
+    SteradianEllipse e;
+    e.center = center;
+    e.axis_a = axis_a;
+    bool reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
+    e.axis_b = steradian_select(reversed, -axis_b, axis_b);
+    return e;
+}
+
+// An arc of the ellipse about t = 0 (begin and end are tan(t/2)).
+SteradianConicArc steradian_ellipse_arc(SteradianEllipse e, float begin, float end) {
+    return steradian_conic_prepare(e.center + e.axis_a, e.axis_b * 2.0, e.center - e.axis_a, begin, end);
+}
+
+// Irradiance vector of the part of the ellipse above the horizon [rad]; z is the irradiance for radiance 1, in [0, pi].
+//
+//   e        of steradian_ellipse_prepare; the shading point is not in its plane
+//
+// Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
+// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
+vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
+    // Axes from the highest place: axis_a up the ellipse, axis_b level.
+    vec2 up = vec2(e.axis_a.z, e.axis_b.z);
+    float rise = sqrt(dot(up, up));
+    vec2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, steradian_smallest_divisor())), vec2(1.0, 0.0));
+    SteradianEllipse level;
+    level.center = e.center;
+    level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
+    level.axis_b = e.axis_b * turn.x - e.axis_a * turn.y;
+
+    // Above the horizon: |tan(t/2)| <= limit.
+    float top = e.center.z + rise;
+    float bottom = rise - e.center.z;
+    bool shows = top > 0.0;
+    bool cut = bottom > 0.0 && shows;
+    float limit = sqrt(max(top, 0.0) / max(bottom, steradian_smallest_divisor()));
+    limit = steradian_select(cut, limit, steradian_select(shows, 1.0e15, 0.0));
+    float upper = min(limit, 1.0);
+    vec3 sum = steradian_conic_vector(steradian_ellipse_arc(level, -upper, upper));
+    bool more = limit > 1.0;
+    if (more) {
+        SteradianEllipse back;
+        back.center = level.center;
+        back.axis_a = -level.axis_a;
+        back.axis_b = -level.axis_b;
+        float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
+        lower = steradian_select(limit > 1.0e14, 0.0, lower);
+        vec3 far_side = steradian_conic_vector(steradian_ellipse_arc(back, -1.0, -lower)) + steradian_conic_vector(steradian_ellipse_arc(back, lower, 1.0));
+        sum = steradian_select(more, sum + far_side, sum);
+    }
+    if (cut) {
+        // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
+        float inverse = 1.0 / (1.0 + limit * limit);
+        vec3 middle = level.center + level.axis_a * ((1.0 - limit * limit) * inverse);
+        vec3 aside = level.axis_b * (2.0 * limit * inverse);
+        vec3 down = middle + aside;
+        vec3 back_up = middle - aside;
+        float angle = steradian_trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
+        sum = steradian_select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
+    }
+    return vec3(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
+}
+
+// A polygon about an ellipse: where its corners gather.
+//   ellipse  prepared
+//   turn     (cos, sin) of the t of the corner nearest to the lobe
+//   beta     1: corners at equal steps of t; below, they gather about that corner
+struct SteradianEllipseFan {
+    SteradianEllipse ellipse;
+    vec2 turn;
+    float beta;
+};
+
+// The polygon whose corners stand at equal steps of t.
+SteradianEllipseFan steradian_ellipse_fan(SteradianEllipse e) {
+    SteradianEllipseFan fan;
+    fan.ellipse = e;
+    fan.turn = vec2(1.0, 0.0);
+    fan.beta = 1.0;
+    return fan;
+}
+
+// The polygon whose corners gather where the lobe's axis meets the ellipse's rim.
+//
+//   r        unit axis of the lobe
+//   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
+//
+// A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
+// the lobe's width over the rim's size say.
+// Source: this project; table of errors in docs/ggx.md.
+SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, vec3 r, float width) {
+    vec3 normal = cross(e.axis_a, e.axis_b);
+    float n2 = max(dot(normal, normal), steradian_smallest_divisor());
+    float height = dot(e.center, normal);  // > 0 in walk order
+    float along = dot(r, normal);
+    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    vec3 across = r * height - e.center * along;
+    vec2 place = vec2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
+    float size2 = dot(place, place);
+    bool off_centre = size2 > 1.0e-20;
+    SteradianEllipseFan fan;
+    fan.ellipse = e;
+    fan.turn = steradian_select(off_centre, place * inversesqrt(max(size2, 1.0e-20)), vec2(1.0, 0.0));
+    vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
+    vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
+    float reach = min(sqrt(size2) / max(along, 1.0e-12), 1.0e6);
+    float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), steradian_smallest_divisor()));
+    float beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
+    fan.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
+    return fan;
+}
+
+// (cos t, sin t) of corner k of count, counted from the middle one.
+vec2 steradian_ellipse_corner(SteradianEllipseFan fan, int k, int count) {
+    float half_angle = steradian_pi() * (float(k) / float(count) - 0.5);
+    vec2 u = steradian_complex_unit(half_angle);
+    vec2 w = steradian_complex_sign(vec2(u.x, fan.beta * u.y));
+    return steradian_complex_product(steradian_complex_product(w, w), fan.turn);
+}
+
+// The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
+float steradian_ellipse_gap(vec2 from_corner, vec2 to_corner) {
+    float c = dot(from_corner, to_corner);
+    float s = from_corner.x * to_corner.y - from_corner.y * to_corner.x;
+    float angle = steradian_trig_atan2_unwrapped(s, c);
+    angle = clamp(angle, 0.0, 2.6);
+    float sine = steradian_select(c > -0.856888753368947234 && s > 0.0, s, 0.515501371821464235);
+    return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+// Error: docs/accuracy.md, "Float against double", ellipse.
+vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
+    vec2 before = steradian_ellipse_corner(fan, k - 1, count);
+    vec2 here = steradian_ellipse_corner(fan, k, count);
+    vec2 after = steradian_ellipse_corner(fan, k + 1, count);
+    float radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
+    SteradianEllipse e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
+// ==== capsule ====
+
+// Tubes as lights: a capsule is all that lies within a radius of a segment; and the line that it becomes as the radius goes
+// to 0.
+//
+// Seen from outside, a capsule fills the convex hull of two round caps, the images of its end balls. Two planes through the
+// point touch both balls; the outline is an arc about each cap and two great circles between them. All four pieces have
+// antiderivatives in elementary functions: the irradiance needs no more than four arc tangents. Where the point sees one
+// cap within the other, it sees a sphere.
+// Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
+
+// A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
+// direction across: half of the sphere's outline belongs to each.
+//   end_a, end_b  centres of the end balls
+//   along         unit, from end_a to end_b
+//   toward        unit, from the point to the nearest place of the axis' line
+//   at_a, at_b    places of the ends along the line, counted from there; span their distance
+//   height        distance of the line
+//   outside       whether the point is; inside there is no light
+struct SteradianCapsule {
+    vec3 end_a;
+    vec3 end_b;
+    vec3 along;
+    vec3 toward;
+    float at_a;
+    float at_b;
+    float span;
+    float height;
+    float radius;
+    bool outside;
+};
+
+// Prepares a capsule.
+//
+//   end_a, end_b  centres of the end balls, from the shading point
+//   radius        not negative
+//
+// Degenerate: ends that meet make a sphere. A point inside gives finite members.
+SteradianCapsule steradian_capsule_prepare(vec3 end_a, vec3 end_b, float radius) {
+    vec3 difference = end_b - end_a;
+    float span2 = dot(difference, difference);
+    float a2 = dot(end_a, end_a);
+    float b2 = dot(end_b, end_b);
+    vec3 nearer = steradian_select(a2 < b2, end_a, end_b);
+    float nearer2 = min(a2, b2);
+    vec3 along = difference * inversesqrt(max(span2, steradian_smallest_square()));
+    vec3 moment = cross(nearer, along);
+    float height2 = dot(moment, moment);
+    float at_a = dot(end_a, along);
+    float at_b = dot(end_b, along);
+    float radius2 = radius * radius;
+    // From within the endless cylinder, the nearer ball hides the other.
+    bool tube = height2 > radius2 && span2 > steradian_smallest_divisor();
+    bool beside = at_a < 0.0 && at_b > 0.0 && span2 > steradian_smallest_divisor();
+
+    float nearest = sqrt(nearer2);
+    vec3 direction = steradian_select(nearer2 > steradian_smallest_square(), nearer * inversesqrt(max(nearer2, steradian_smallest_square())), vec3(0.0, 0.0, 1.0));
+    mat3 across = steradian_frame_from_normal(direction);
+    SteradianCapsule c;
+    c.end_a = steradian_select(tube, end_a, nearer);
+    c.end_b = steradian_select(tube, end_b, nearer);
+    c.along = steradian_select(tube, along, steradian_transform(across, vec3(1.0, 0.0, 0.0)));
+    c.toward = steradian_select(tube, cross(along, moment) * inversesqrt(max(height2, steradian_smallest_square())), direction);
+    c.at_a = steradian_select(tube, at_a, 0.0);
+    c.at_b = steradian_select(tube, at_b, 0.0);
+    c.span = steradian_select(tube, sqrt(span2), 0.0);
+    c.height = steradian_select(tube, sqrt(height2), nearest);
+    c.radius = radius;
+    c.outside = steradian_select(beside, height2, nearer2) > radius2;
+    return c;
+}
+
+// Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
+float steradian_capsule_touch(SteradianCapsule c) {
+    return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
+}
+
+// Half the angle of an end's arc [rad], in [0, pi], counted about the cap's centre. Those of the two ends sum to pi where they
+// meet.
+//
+//   place     of the end along the axis, outward: -at_a of end_a, at_b of end_b
+//   distance  of the end's centre
+float steradian_capsule_half_angle(SteradianCapsule c, float place, float distance) {
+    return steradian_trig_atan2(steradian_capsule_touch(c), c.radius * place / max(distance, steradian_smallest_length()));
+}
+
+// Irradiance vector of a line's or a capsule's two great circles and the chords of its arcs, over 2 radius / height.
+//
+//   angle    of the great circles [rad]
+//   share    of the chords' length in the width: sqrt(1 - (radius / height)^2), 1 for a line; the others as in Capsule
+//
+// The chords' parts nearly cancel for a short or distant light; their difference is formed on paper.
+vec3 steradian_capsule_straight_part(vec3 along, vec3 toward, float at_a, float at_b, float span, float height, float angle, float share) {
+    float h2 = height * height;
+    float both = (h2 + at_a * at_a) * (h2 + at_b * at_b);
+    float chords = share * span * height / max(both, steradian_smallest_square());
+    return toward * (0.5 * (angle + chords * (h2 - at_a * at_b))) + along * (0.5 * chords * height * (at_a + at_b));
+}
+
+// Irradiance vector of the whole capsule, the horizon left out [sr].
+//
+//   c        prepared; the point is outside
+//
+// Degenerate: radius 0 gives 0.
+// Error: relative to the value, but for what height and at_a, at_b lose of a capsule seen end-on.
+// Source: this project; Stokes' theorem as in conic.glsl. Small circles: Lambert 1760.
+vec3 steradian_capsule_whole_vector(SteradianCapsule c) {
+    float touch = steradian_capsule_touch(c);
+    float angle = steradian_trig_atan2_unwrapped(c.span * touch, touch * touch + c.at_a * c.at_b);
+    float share = touch / max(c.height, steradian_smallest_length());
+    float slope = c.radius / max(c.height, steradian_smallest_length());
+    vec3 e = steradian_capsule_straight_part(c.along, c.toward, c.at_a, c.at_b, c.span, c.height, angle, share) * (2.0 * slope);
+    float a2 = max(dot(c.end_a, c.end_a), steradian_smallest_square());
+    float b2 = max(dot(c.end_b, c.end_b), steradian_smallest_square());
+    float ia = inversesqrt(a2);
+    float ib = inversesqrt(b2);
+    float sine_a = c.radius * ia;
+    float sine_b = c.radius * ib;
+    e = e + c.end_a * (sine_a * sine_a * ia * steradian_capsule_half_angle(c, -c.at_a, sqrt(a2)));
+    return e + c.end_b * (sine_b * sine_b * ib * steradian_capsule_half_angle(c, c.at_b, sqrt(b2)));
+}
+
+// Adds the arc of an end to a walk, clipped to the horizon z = 0.
+//
+//   center      of the end's ball
+//   middle      unit, across `center`: where the arc's middle lies
+//   half_angle  of the arc [rad], in [0, pi]
+//   start, finish  unit directions of its ends, in walk order
+//
+// Where the arc crosses is decided by the ends' signs alone, as for straight edges (steradian_polygon_add_edge), so that both agree at
+// the joints; an arc between two ends on one side crosses twice or not at all.
+SteradianPolygonWalk steradian_capsule_add_arc(SteradianPolygonWalk walk, vec3 center, float radius, vec3 middle, float half_angle, vec3 start, vec3 finish) {
+    float d2 = max(dot(center, center), steradian_smallest_square());
+    float distance = sqrt(d2);
+    float inverse = 1.0 / distance;
+    float tangent = sqrt(max((distance - radius) * (distance + radius), 0.0));
+    float root = sqrt(max((radius - center.z) * (radius + center.z), 0.0));
+
+    // Angles about the cap's centre, from its highest point: of the horizon and of the arc's middle (mirrored: >= 0).
+    float horizon = steradian_trig_atan2(distance * root, -tangent * center.z);
+    horizon = steradian_select(root > 0.0, horizon, steradian_select(center.z > 0.0, steradian_pi(), 0.0));
+    float turn = steradian_trig_atan2(abs(middle.x * center.y - middle.y * center.x) * inverse, middle.z);
+    float low = turn - half_angle;
+    float high = turn + half_angle;
+    float seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
+
+    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    float flat2 = max(center.x * center.x + center.y * center.y, steradian_smallest_square());
+    vec2 azimuth = vec2(center.x, center.y) * inversesqrt(flat2);
+    vec2 tilt = steradian_complex_sign(vec2(tangent, root));
+    vec2 comes = steradian_complex_product(azimuth, tilt);
+    vec2 goes = steradian_complex_product(azimuth, vec2(tilt.x, -tilt.y));
+
+    bool start_below = start.z < 0.0;
+    bool finish_below = finish.z < 0.0;
+    bool meets = root > 0.0;
+    bool twice = meets && ((!start_below && !finish_below && high > steradian_pi()) || (start_below && finish_below && turn < half_angle));
+    bool comes_up = twice || (start_below && !finish_below);
+    bool goes_down = twice || (finish_below && !start_below);
+    vec3 nowhere = vec3(0.0, 0.0, 0.0);
+    vec3 chord = steradian_select(start_below, nowhere, start) - steradian_select(finish_below, nowhere, finish);
+    chord = chord + steradian_select(comes_up, vec3(comes.x, comes.y, 0.0), nowhere);
+    chord = chord - steradian_select(goes_down, vec3(goes.x, goes.y, 0.0), nowhere);
+
+    float sine = radius * inverse;
+    SteradianPolygonWalk next = walk;
+    next.edges = walk.edges + center * (0.5 * sine * sine * inverse * seen) -
+                 cross(center, chord) * (0.5 * tangent * inverse * inverse);
+    vec2 up = steradian_select(comes_up, comes, vec2(1.0, 0.0));
+    vec2 down = steradian_select(goes_down, vec2(goes.x, -goes.y), vec2(1.0, 0.0));
+    next.horizon = steradian_complex_product(walk.horizon, steradian_complex_product(up, down));
+    return next;
+}
+
+// Irradiance vector of the part of the capsule above the horizon [sr]; z is the irradiance for radiance 1, in [0, pi].
+//
+//   c        of steradian_capsule_prepare
+//
+// Degenerate: a capsule below the horizon and a point inside give 0.
+// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
+vec3 steradian_capsule_irradiance_vector(SteradianCapsule c) {
+    vec3 e = steradian_capsule_whole_vector(c);
+    bool cut = min(c.end_a.z, c.end_b.z) < c.radius;
+    if (cut) {
+        float a2 = dot(c.end_a, c.end_a);
+        float b2 = dot(c.end_b, c.end_b);
+        float r2 = c.radius * c.radius;
+        vec3 side = cross(c.toward, c.along);
+        vec3 inward = c.toward * (r2 / max(c.height, steradian_smallest_length()));
+        vec3 aside = side * (c.radius * steradian_capsule_touch(c) / max(c.height, steradian_smallest_length()));
+        float ia = inversesqrt(max(a2 - r2, steradian_smallest_square()));
+        float ib = inversesqrt(max(b2 - r2, steradian_smallest_square()));
+        vec3 a_left = (c.end_a - inward + aside) * ia;
+        vec3 a_right = (c.end_a - inward - aside) * ia;
+        vec3 b_left = (c.end_b - inward + aside) * ib;
+        vec3 b_right = (c.end_b - inward - aside) * ib;
+        float da = sqrt(max(a2, steradian_smallest_square()));
+        float db = sqrt(max(b2, steradian_smallest_square()));
+        vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
+        vec3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
+        SteradianPolygonWalk walk = steradian_polygon_begin();
+        walk = steradian_capsule_add_arc(walk, c.end_a, c.radius, a_middle, steradian_capsule_half_angle(c, -c.at_a, da), a_left, a_right);
+        walk = steradian_polygon_add_edge(walk, a_right, b_right);
+        walk = steradian_capsule_add_arc(walk, c.end_b, c.radius, b_middle, steradian_capsule_half_angle(c, c.at_b, db), b_right, b_left);
+        walk = steradian_polygon_add_edge(walk, b_left, a_left);
+        bool shows = max(c.end_a.z, c.end_b.z) > -c.radius;
+        vec3 above = steradian_polygon_irradiance_vector(walk, steradian_mask_none());
+        e = steradian_select(cut, steradian_select(shows, above, vec3(0.0, 0.0, 0.0)), e);
+    }
+    e = vec3(e.x, e.y, clamp(e.z, 0.0, steradian_pi()));
+    return steradian_select(c.outside, e, vec3(0.0, 0.0, 0.0));
+}
+
+// Irradiance vector of the part of a line above the horizon [1 / m]: the limit of a capsule's over its width 2 radius.
+//
+//   end_a, end_b  from the shading point
+//
+// Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
+// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
+// Source: as for any linear light; here the limit of steradian_capsule_whole_vector.
+vec3 steradian_line_irradiance_vector(vec3 end_a, vec3 end_b) {
+    float wa = abs(end_a.z);
+    float wb = abs(end_b.z);
+    vec3 crossing = (end_a * wb + end_b * wa) * (1.0 / max(wa + wb, steradian_smallest_square()));
+    vec3 a = steradian_select(end_a.z < 0.0, crossing, end_a);
+    vec3 b = steradian_select(end_b.z < 0.0, crossing, end_b);
+    vec3 difference = b - a;
+    float span2 = dot(difference, difference);
+    vec3 along = difference * inversesqrt(max(span2, steradian_smallest_square()));
+    vec3 moment = cross(steradian_select(dot(a, a) < dot(b, b), a, b), along);
+    float height2 = max(dot(moment, moment), steradian_smallest_square());
+    float height = sqrt(height2);
+    vec3 toward = cross(along, moment) * (1.0 / height);
+    float span = sqrt(span2);
+    float at_a = dot(a, along);
+    float at_b = dot(b, along);
+    float angle = steradian_trig_atan2_unwrapped(span * height, height2 + at_a * at_b);
+    vec3 e = steradian_capsule_straight_part(along, toward, at_a, at_b, span, height, angle, 1.0) * (1.0 / height);
+    e = vec3(e.x, e.y, max(e.z, 0.0));
+    return steradian_select(end_a.z <= 0.0 && end_b.z <= 0.0, vec3(0.0, 0.0, 0.0), e);
+}
+
+// Corners about the arc of one end.
+//   center, middle, side  the rim is center + middle cos t + side sin t, vectors from the shading point
+//   half_angle            the arc runs from -half_angle to half_angle [rad]
+//   corners               how many, 1 or more
+//   turn                  (cos, sin) of the place nearest to the lobe
+//   beta                  1: equal steps; below, corners gather there
+//   first, step           of the arc's parameter, half a turn a corner
+struct SteradianCapsuleEnd {
+    vec3 center;
+    vec3 middle;
+    vec3 side;
+    float half_angle;
+    float corners;
+    vec2 turn;
+    float beta;
+    float first;
+    float step;
+};
+
+// A polygon about a capsule's outline: straight edges stay straight, each arc becomes a chain of corners.
+struct SteradianCapsuleFan {
+    SteradianCapsuleEnd a;
+    SteradianCapsuleEnd b;
+};
+
+// Prepares the arc of one end as a single step; steradian_capsule_fan divides it.
+//
+//   center      of the ball
+//   middle      unit, across `center`, where the arc's middle lies
+//   r, width    the lobe's unit axis and width [rad], as for steradian_ellipse_fan_concentrated
+SteradianCapsuleEnd steradian_capsule_end(vec3 center, float radius, vec3 middle, float half_angle, vec3 r, float width) {
+    float d2 = max(dot(center, center), steradian_smallest_square());
+    float inverse = inversesqrt(d2);
+    float sine = max(radius * inverse, steradian_smallest_length());
+    float cosine2 = max(1.0 - sine * sine, steradian_smallest_length());
+    float cosine = sqrt(cosine2);
+    vec3 axis = center * inverse;
+    vec3 side = cross(axis, middle);
+    SteradianCapsuleEnd end;
+    end.center = center * cosine2;
+    end.middle = middle * (radius * cosine);
+    end.side = side * (radius * cosine);
+    end.half_angle = half_angle;
+
+    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    float along = dot(r, axis);
+    vec2 place = vec2(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
+    float nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
+    end.turn = steradian_complex_unit(nearest);
+    vec2 apart = place - end.turn;
+    float blur = min(1.6 * width / sine, 1.0e3);
+    float beta = sqrt(min(0.5 * dot(apart, apart), 1.0e6) + blur * blur);
+    end.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
+
+    vec2 low = steradian_complex_unit(-0.5 * (half_angle + nearest));
+    vec2 high = steradian_complex_unit(0.5 * (half_angle - nearest));
+    end.first = steradian_trig_atan2(low.y, end.beta * low.x);
+    end.step = steradian_trig_atan2(high.y, end.beta * high.x) - end.first;
+    end.corners = 1.0;
+    return end;
+}
+
+// (cos t, sin t) of corner j of an end, in the middle of its step.
+//
+// The outer ones lie on the straight edges' continuation and keep within 0.35 of the arc's ends: of 0.35, 0.5 and 0.7 the one
+// with the smallest errors in the test CapsulePolygons.
+vec2 steradian_capsule_corner(SteradianCapsuleEnd end, float j) {
+    vec2 u = steradian_complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
+    vec2 w = steradian_complex_sign(vec2(u.x, end.beta * u.y));
+    vec2 corner = steradian_complex_product(steradian_complex_product(w, w), end.turn);
+    vec2 last = steradian_complex_unit(end.half_angle);
+    vec2 limit = vec2(0.939372712847378920, 0.342897807455451364);  // (cos, sin) of 0.35
+    bool outer_low = j < 0.5;
+    bool outer_high = j > end.corners - 1.5;
+    vec2 low = vec2(last.x, -last.y);
+    corner = steradian_select(outer_low && dot(corner, low) < limit.x, steradian_complex_product(low, limit), corner);
+    corner = steradian_select(outer_high && dot(corner, last) < limit.x, steradian_complex_product(last, vec2(limit.x, -limit.y)), corner);
+    return steradian_select(outer_low && outer_high, vec2(1.0, 0.0), corner);
+}
+
+// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
+// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+//
+//   joint    (cos, sin) of the arc's end behind the neighbour
+float steradian_capsule_gap(vec2 corner, vec2 neighbour, vec2 joint, bool outer) {
+    float cosine = dot(corner, neighbour);
+    float sine = abs(corner.x * neighbour.y - corner.y * neighbour.x);
+    float angle = clamp(steradian_trig_atan2(sine, cosine), 0.0, 2.6);
+    sine = steradian_select(cosine > -0.856888753368947234, sine, 0.515501371821464235);
+    float even = steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
+    float c = max(dot(neighbour, joint), 0.5);
+    float s = abs(neighbour.x * joint.y - neighbour.y * joint.x);
+    float given = (even + (steradian_trig_atan2(s, c) - s / c) / max(sine, 1.0e-4)) * c;
+    given = steradian_select(angle < 1.0e-3, 1.0, max(given, 0.5));
+    return steradian_select(outer, given * given, even);
+}
+
+// Corner j of an end, as a vector from the shading point.
+vec3 steradian_capsule_end_corner(SteradianCapsuleEnd end, float j) {
+    vec2 here = steradian_capsule_corner(end, j);
+    vec2 last = steradian_complex_unit(end.half_angle);
+    vec2 low = vec2(last.x, -last.y);
+    bool outer_low = j < 0.5;
+    bool outer_high = j > end.corners - 1.5;
+    float before = steradian_capsule_gap(here, steradian_capsule_corner(end, j - 1.0), low, j < 1.5);
+    float after = steradian_capsule_gap(here, steradian_capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
+    float even = sqrt(0.5 * (before + after));
+    float outer = 1.0 / max(dot(here, steradian_select(outer_low, low, last)), 0.5);
+    float radius = steradian_select(outer_low || outer_high, outer, even);
+    return end.center + (end.middle * here.x + end.side * here.y) * radius;
+}
+
+// Prepares a polygon about a capsule.
+//
+//   c        prepared; the point is outside
+//   r        unit axis of the lobe
+//   width    of the lobe [rad]: 1/sqrt(n + 1) of Phong
+//   count    of all corners, 6 or more; each end has its share of the steps, at least one
+SteradianCapsuleFan steradian_capsule_fan(SteradianCapsule c, vec3 r, float width, int count) {
+    float da = sqrt(max(dot(c.end_a, c.end_a), steradian_smallest_square()));
+    float db = sqrt(max(dot(c.end_b, c.end_b), steradian_smallest_square()));
+    float angle_a = steradian_capsule_half_angle(c, -c.at_a, da);
+    float angle_b = steradian_capsule_half_angle(c, c.at_b, db);
+    vec3 a_middle = (c.toward * c.at_a - c.along * c.height) * (1.0 / da);
+    vec3 b_middle = (c.along * c.height - c.toward * c.at_b) * (1.0 / db);
+    SteradianCapsuleFan fan;
+    fan.a = steradian_capsule_end(c.end_a, c.radius, a_middle, angle_a, r, width);
+    fan.b = steradian_capsule_end(c.end_b, c.radius, b_middle, angle_b, r, width);
+    float share = fan.a.step / max(fan.a.step + fan.b.step, steradian_smallest_length());
+    fan.a.corners = 1.0 + floor(0.5 + float(count - 2) * share);
+    fan.b.corners = float(count) - fan.a.corners;
+    fan.a.step = fan.a.step / fan.a.corners;
+    fan.b.step = fan.b.step / fan.b.corners;
+    return fan;
+}
+
+// Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
+// corners of the two ends lie in different planes.
+//
+// Error: see docs/ggx.md, "Round lights".
+vec3 steradian_capsule_fan_corner(SteradianCapsuleFan fan, int k) {
+    bool first = float(k) < fan.a.corners;
+    SteradianCapsuleEnd end;
+    end.center = steradian_select(first, fan.a.center, fan.b.center);
+    end.middle = steradian_select(first, fan.a.middle, fan.b.middle);
+    end.side = steradian_select(first, fan.a.side, fan.b.side);
+    end.half_angle = steradian_select(first, fan.a.half_angle, fan.b.half_angle);
+    end.corners = steradian_select(first, fan.a.corners, fan.b.corners);
+    end.turn = steradian_select(first, fan.a.turn, fan.b.turn);
+    end.beta = steradian_select(first, fan.a.beta, fan.b.beta);
+    end.first = steradian_select(first, fan.a.first, fan.b.first);
+    end.step = steradian_select(first, fan.a.step, fan.b.step);
+    return steradian_capsule_end_corner(end, steradian_select(first, float(k), float(k) - fan.a.corners));
+}
+
+// ==== ellipsoid ====
+
+// Spheres and ellipsoids as lights: their outline, seen from a point, is a planar ellipse.
+
+// The ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point [m], and whether it can be seen.
+struct SteradianEllipsoidOutline {
+    vec3 center;
+    vec3 axis_a;
+    vec3 axis_b;
+    bool outside;  // false: the point is inside, no light
+};
+
+// Outline of the ellipsoid c + S u, |u| = 1, whose cone of tangents meets the shading point.
+//
+//   to_center  c - p, from the shading point p to the centre
+//   s          S, half axes as columns
+//   inverse    S^-1, its columns
+//
+// Degenerate: a point inside or on the ellipsoid gives outside = false and a finite outline.
+// Source: the unit sphere's outline from distance d is the circle of radius sqrt(1 - 1/d^2) at height 1/d above the
+// centre; S maps it.
+SteradianEllipsoidOutline steradian_ellipsoid_outline(vec3 to_center, mat3 s, mat3 inverse) {
+    vec3 p = -steradian_transform(inverse, to_center);
+    float d2 = dot(p, p);
+    float safe = max(d2, 1.000001);
+    float inverse_d = inversesqrt(safe);
+    vec3 k = p * inversesqrt(max(d2, steradian_smallest_divisor()));
+    float rho = sqrt(1.0 - 1.0 / safe);
+    mat3 frame = steradian_frame_from_normal(k);
+    vec3 a = steradian_transform(frame, vec3(rho, 0.0, 0.0));
+    vec3 b = steradian_transform(frame, vec3(0.0, rho, 0.0));
+    SteradianEllipsoidOutline outline;
+    outline.center = to_center + steradian_transform(s, k * inverse_d);
+    outline.axis_a = steradian_transform(s, a);
+    outline.axis_b = steradian_transform(s, b);
+    outline.outside = d2 > 1.000001;
+    return outline;
+}

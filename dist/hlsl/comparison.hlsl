@@ -1,0 +1,444 @@
+// Steradian 0.1.0, comparison: methods of the literature that ours are compared with, for HLSL.
+//
+// #include or paste it; it has no macros and no resources.
+// It comes after math.hlsl, polygon.hlsl, lobe.hlsl, phong.hlsl, ltc.hlsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== ltc_clipless ====
+
+// Linearly transformed cosines without clipping, for comparison: the light is taken for the sphere that has the same
+// irradiance vector under M^-1, and the horizon cuts that. The real horizon is not looked at: light leaks from below.
+// Source: Hill, Heitz, "Real-time area lighting: a journey from research to production", 2016.
+
+// Form factor of a sphere above the horizon over that of the whole sphere towards its centre.
+//
+//   cosine   of the sphere's centre to z, in [-1, 1]
+//   f        form factor of the whole sphere towards its centre: sine squared of its angular radius, in [0, 1]
+//
+// Degenerate: f = 0 gives max(cosine, 0).
+// Source: Snyder, "Area light sources for real-time graphics", 1996, section 3.2.
+float steradian_ltc_clipped_sphere(float cosine, float f) {
+    float z = clamp(cosine, -1.0, 1.0);
+    float s2 = clamp(f, 1.0e-12, 1.0);
+    float sin_w = sqrt(max(1.0 - z * z, steradian_smallest_divisor()));
+    float cos_s = sqrt(1.0 - s2);
+    bool crossed = z * z < s2;
+    // The rim meets the horizon at the azimuth whose sine and cosine are x and y.
+    float x = clamp(cos_s / sin_w, 0.0, 1.0);
+    float y = sqrt(max(1.0 - x * x, 0.0));
+    float root = sqrt(max(s2 - y * y, 0.0));
+    float arc = steradian_trig_atan2(y, x) + x * y - 2.0 * sin_w * cos_s * y;
+    float rim = abs(z) * (y * root + s2 * steradian_trig_atan2(y, root));
+    float whole = steradian_pi() * s2 * max(z, 0.0);
+    float cut = steradian_select(crossed, whole + arc - rim, whole);
+    return clamp(cut / (steradian_pi() * s2), 0.0, 1.0);
+}
+
+// Adds one edge to the irradiance vector under M^-1 [rad].
+//
+//   ta, tb   steradian_ltc_direction of the edge's ends, in walk order
+float3 steradian_ltc_clipless_add_edge(float3 sum, float3 ta, float3 tb) {
+    return sum + steradian_polygon_edge(ta, tb);
+}
+
+// Integral of the lobe over the light, approximately, in [0, 1].
+//
+//   sum      of steradian_ltc_clipless_add_edge, begun at zero
+//   reversed true where the light is seen from behind
+float steradian_ltc_clipless_integral(float3 sum, bool reversed) {
+    float3 e = sum * steradian_select(reversed, -1.0, 1.0);
+    float e2 = dot(e, e);
+    float inverse = rsqrt(max(e2, steradian_smallest_square()));
+    float form_factor = clamp(e2 * inverse * steradian_inverse_pi(), 0.0, 1.0);
+    return form_factor * steradian_ltc_clipped_sphere(clamp(e.z * inverse, -1.0, 1.0), form_factor);
+}
+
+// ==== moment_arvo ====
+
+// The Phong lobe's boundary integral by Arvo's recurrence: exact for integer n, in n/2 steps an edge.
+//
+// (1 - x^m)/(1 - x^2) is the finite sum of x^k over every other k below m: 1 + x^2 + ... for even m. For odd m one
+// factor x is taken out first, (x - x^m)/(1 - x^2) = x + x^3 + ..., and the rest, 1/(1 + x), integrates to half the
+// angle of a spherical triangle. Each power integrates by parts from the last but one.
+// Source: Arvo 1995, sec. 5; Lecocq et al. 2017, eq. 1 to 3, with N = n - 1.
+
+// |s| times the integral of 1/(1 + x) over the part in front: summed over a polygon, its solid angle.
+float steradian_moment_solid_angle_front(SteradianMomentEdge edge) {
+    float c0 = edge.c + edge.x0;
+    float c1 = edge.c + edge.x1;
+    float k = edge.s / (1.0 + edge.c);
+    return 2.0 * steradian_trig_atan2(k * (c0 * edge.y1 - c1 * edge.y0), c0 * c1 + k * k * edge.y0 * edge.y1);
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
+//
+//   n        integer exponent, at least 1
+//   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
+//            the slowest: at grazing views, where c is near 1, the stop comes late or never.
+//
+// Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
+float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop, float relative_precision) {
+    int odd_m = 1 - (n - (n / 2) * 2);
+    float c2 = edge.c * edge.c;
+    float x02 = edge.x0 * edge.x0;
+    float x12 = edge.x1 * edge.x1;
+    // The integral of x^p, and x^(p+1) y at both ends, which the next step needs.
+    float power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    float b0 = edge.x0 * edge.y0;
+    float b1 = edge.x1 * edge.y1;
+    float p = 2.0;
+    int steps = (n - 1) / 2;
+    if (odd_m == 1) {
+        power = edge.y1 - edge.y0;
+        b0 = x02 * edge.y0;
+        b1 = x12 * edge.y1;
+        p = 3.0;
+        steps = n / 2 - 1;
+    }
+    float sum = power;
+    float left = relative_precision * (1.0 - c2);
+    for (int i = 0; i < steps; i++) {
+        power = (b1 - b0 + (p - 1.0) * c2 * power) / p;
+        b0 = b0 * x02;
+        b1 = b1 * x12;
+        p = p + 2.0;
+        sum = sum + power;
+        // The terms fall by c^2 or more: those left sum to less than power c^2 / (1 - c^2).
+        if (can_stop == 1) {
+            if (power * c2 <= sum * left) {
+                break;
+            }
+        }
+    }
+    float front = edge.s * sum;
+    if (odd_m == 1) {
+        front = front + steradian_moment_solid_angle_front(edge);
+    }
+    return max(front, 0.0);
+}
+
+// ==== moment_peak_fits ====
+
+// The published peak fits of the Phong lobe's boundary integrand: Lorentzian, Lorentzian-Pearson, ellipsoid.
+//
+// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0: f = x for even n, f = 1 otherwise.
+// Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
+// width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
+// faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
+// Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
+// eq. 5 to 16; its order N is n - 1 here.
+
+// What the fits share for one edge.
+//   x_w, x_t     half width and the place in the tail [rad]
+//   ratio_w      x_w over its limit for c -> 0
+//   peak         I at the foot, less its smallest value
+//   y_w, y_t     the same at x_w and x_t, over peak
+//   smallest     I at phi = pi/2: 0 for f = x, 1 for f = 1
+//   phi0, phi1   ends of the part in front [rad]
+struct SteradianMomentPeak {
+    float x_w;
+    float x_t;
+    float ratio_w;
+    float peak;
+    float y_w;
+    float y_t;
+    float smallest;
+    float phi0;
+    float phi1;
+};
+
+// Cosine for |x| <= pi/2: Taylor, the next term is x^16/16!, 7e-11 at pi/2.
+float steradian_moment_peak_cosine(float x) {
+    float t = x * x;
+    return 1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0 * (1.0 - t / 132.0 * (1.0 - t / 182.0))))));
+}
+
+// Sine for |x| <= pi/2: Taylor, the next term is x^15/15!, 7e-10 at pi/2.
+float steradian_moment_peak_sine(float x) {
+    float t = x * x;
+    return x * (1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0 * (1.0 - t / 156.0))))));
+}
+
+// I less its smallest value, at x = c cos phi. f = x: x (1 - x^n)/(1 - x^2); f = 1: x^2 (1 - x^(n-1))/(1 - x^2).
+//
+//   even_n   1 for f = x, 0 for f = 1
+float steradian_moment_peak_height(float s2, float c2, float n, int even_n, float cosine, float sine) {
+    float rest = s2 + c2 * sine * sine;  // 1 - x^2 without cancellation
+    float x2 = max(c2 * cosine * cosine, 1.0e-12);
+    float log_x = 0.5 * steradian_moment_log_1_plus(rest / x2);
+    if (even_n == 1) {
+        return sqrt(x2) * steradian_moment_1_minus_exp(n * log_x) / rest;
+    }
+    return x2 * steradian_moment_1_minus_exp((n - 1.0) * log_x) / rest;
+}
+
+// The half width by the paper's fit, over its limit for c -> 0 (pi/3 for f = x, pi/4 for f = 1).
+//
+// Error: up to 17 % (f = x) and 32 % (f = 1, n = 5000), 4 to 8 % on the average.
+// Source: eq. 7, with pi/4 outside the power.
+float steradian_moment_peak_half_width_ratio(float c, float n, int even_n) {
+    if (even_n == 1) {
+        float reduced = c - c / max(n - 1.0, 1.0);
+        return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
+    }
+    float k = max(c - c / max(n - 2.0, 1.0), 1.0e-6);
+    return steradian_phong_power(max(1.0 - steradian_phong_power(k, 2.5), 1.0e-8), 0.45);
+}
+
+// What the fits share for one edge and a lobe of exponent n.
+SteradianMomentPeak steradian_moment_peak_prepare(SteradianMomentEdge edge, float n, int even_n) {
+    float s2 = edge.s * edge.s;
+    float c2 = edge.c * edge.c;
+    float widest = 0.785398163397448310;
+    SteradianMomentPeak p;
+    p.smallest = 1.0;
+    if (even_n == 1) {
+        widest = 1.04719755119659775;
+        p.smallest = 0.0;
+    }
+    p.ratio_w = steradian_moment_peak_half_width_ratio(edge.c, n, even_n);
+    p.x_w = widest * p.ratio_w;
+    float k = 1.0 - p.ratio_w;  // eq. 14: its twelfth power
+    float k2 = k * k;
+    float k4 = k2 * k2;
+    p.x_t = min(p.x_w + 0.3946 * widest * (1.0 - k4 * k4 * k4), 1.57079632679489662);
+    p.peak = steradian_moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
+    float scale = 1.0 / max(p.peak, 1.0e-12);
+    p.y_w = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_w), steradian_moment_peak_sine(p.x_w));
+    p.y_t = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_t), steradian_moment_peak_sine(p.x_t));
+    p.y_w = clamp(p.y_w, 0.01, 0.99);
+    p.phi0 = steradian_trig_atan2(edge.y0, edge.x0);
+    p.phi1 = steradian_trig_atan2(edge.y1, edge.x1);
+    return p;
+}
+
+// A peak scaled to 1 at the foot and 0 at pi/2.
+//   integral  over the part in front
+//   tail      its value at x_t
+struct SteradianMomentFit {
+    float integral;
+    float tail;
+};
+
+// The scaled peak from a peak's integral, its value at the tail's place and its value at pi/2; at the foot it is 1.
+SteradianMomentFit steradian_moment_fit_scaled(SteradianMomentPeak p, float integral, float tail, float lowest) {
+    float scale = 1.0 / (1.0 - lowest);
+    SteradianMomentFit fit;
+    fit.integral = scale * (integral - lowest * (p.phi1 - p.phi0));
+    fit.tail = scale * (tail - lowest);
+    return fit;
+}
+
+// Width parameter of the Lorentzian. Source: eq. 11. Kept above 1.0e-3, where the scaled peak is its limit.
+float steradian_moment_lorentzian_width(SteradianMomentPeak p) {
+    float x2 = p.x_w * p.x_w;
+    return max((1.0 - p.y_w - 0.405284734569351086 * x2) / (p.y_w * x2), 1.0e-3);
+}
+
+// The Lorentzian peak 1/(1 + a phi^2). Source: eq. 11 and 12.
+SteradianMomentFit steradian_moment_fit_lorentzian(SteradianMomentPeak p) {
+    float a = steradian_moment_lorentzian_width(p);
+    float root = sqrt(a);
+    float integral = steradian_trig_atan2(root * (p.phi1 - p.phi0), 1.0 + a * p.phi0 * p.phi1) / root;
+    return steradian_moment_fit_scaled(p, integral, 1.0 / (1.0 + a * p.x_t * p.x_t), 1.0 / (1.0 + a * 2.46740110027233966));
+}
+
+// The peak of Pearson VII: (1 + b phi^2)^-2 with b = a/2.
+SteradianMomentFit steradian_moment_fit_pearson(SteradianMomentPeak p) {
+    float b = 0.5 * steradian_moment_lorentzian_width(p);
+    float root = sqrt(b);
+    float angle = steradian_trig_atan2(root * (p.phi1 - p.phi0), 1.0 + b * p.phi0 * p.phi1);
+    float ends = p.phi1 / (1.0 + b * p.phi1 * p.phi1) - p.phi0 / (1.0 + b * p.phi0 * p.phi0);
+    float t = 1.0 / (1.0 + b * p.x_t * p.x_t);
+    float l = 1.0 / (1.0 + b * 2.46740110027233966);
+    return steradian_moment_fit_scaled(p, 0.5 * (ends + angle / root), t * t, l * l);
+}
+
+// A width of exactly 1 is a constant peak, 0/0 when scaled: kept 4e-3 away.
+float steradian_moment_fit_not_one(float a) {
+    return steradian_select(abs(a - 1.0) < 0.004, 1.004, a);
+}
+
+// Width parameter of the ellipsoid. Source: eq. 15.
+float steradian_moment_ellipsoid_width(SteradianMomentPeak p) {
+    float cosine = steradian_moment_peak_cosine(p.x_w);
+    float sine = steradian_moment_peak_sine(p.x_w);
+    return p.y_w * sine * sine / (cosine * cosine * (1.0 - p.y_w));
+}
+
+// The ellipsoid peak a/(1 + (a - 1) cos^2 phi). Source: eq. 15 and 16.
+SteradianMomentFit steradian_moment_fit_ellipsoid(SteradianMomentEdge edge, SteradianMomentPeak p) {
+    float a = steradian_moment_fit_not_one(steradian_moment_ellipsoid_width(p));
+    float root = sqrt(a);
+    float cosine = steradian_moment_peak_cosine(p.x_t);
+    float integral = root * steradian_moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
+    return steradian_moment_fit_scaled(p, integral, a / (1.0 + (a - 1.0) * cosine * cosine), a);
+}
+
+// The squared ellipsoid peak (b/(1 + (b - 1) cos^2 phi))^2.
+SteradianMomentFit steradian_moment_fit_ellipsoid_squared(SteradianMomentEdge edge, SteradianMomentPeak p) {
+    float b = steradian_moment_fit_not_one(steradian_moment_ellipsoid_width(p) * (2.1 + 1.28 * p.ratio_w));
+    float root = sqrt(b);
+    float cosine = steradian_moment_peak_cosine(p.x_t);
+    float e0 = edge.x0 * edge.y0 / max(b * edge.x0 * edge.x0 + edge.y0 * edge.y0, steradian_smallest_divisor());
+    float e1 = edge.x1 * edge.y1 / max(b * edge.x1 * edge.x1 + edge.y1 * edge.y1, steradian_smallest_divisor());
+    float angle = steradian_moment_angle(root, edge.x0, edge.y0, edge.x1, edge.y1);
+    float integral = 0.5 * root * (b + 1.0) * angle - 0.5 * b * (b - 1.0) * (e1 - e0);
+    float t = b / (1.0 + (b - 1.0) * cosine * cosine);
+    return steradian_moment_fit_scaled(p, integral, t * t, b * b);
+}
+
+// Blend of a peak with too heavy a tail and one with too light a tail, so that the blend meets I in the tail.
+//
+// Source: eq. 13, clamped: its denominator vanishes where the two meet.
+SteradianMomentFit steradian_moment_fit_blended(SteradianMomentPeak p, SteradianMomentFit heavy, SteradianMomentFit light) {
+    float d = light.tail - heavy.tail;
+    float alpha = (light.tail - p.y_t) / steradian_select(d < 0.0, min(d, -1.0e-12), max(d, 1.0e-12));
+    alpha = clamp(alpha, 0.0, 1.0);
+    SteradianMomentFit fit;
+    fit.integral = alpha * heavy.integral + (1.0 - alpha) * light.integral;
+    fit.tail = alpha * heavy.tail + (1.0 - alpha) * light.tail;
+    return fit;
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, from a fit.
+//
+// Degenerate: a peak below 1e-12 (n = 1) leaves the smallest value alone.
+float steradian_moment_fit_front(SteradianMomentEdge edge, SteradianMomentPeak p, SteradianMomentFit fit, int even_n) {
+    float peak = steradian_select(p.peak > 1.0e-12, p.peak * fit.integral, 0.0);
+    float front = edge.s * (peak + p.smallest * (p.phi1 - p.phi0));
+    if (even_n == 1) {
+        front = front + steradian_moment_solid_angle_front(edge);
+    }
+    return max(front, 0.0);
+}
+
+// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
+float steradian_moment_lorentzian_front(SteradianMomentEdge edge, float n, int even_n) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+    return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), even_n);
+}
+
+// The blend of Lorentzian and Pearson VII for one edge.
+float steradian_moment_pearson_front(SteradianMomentEdge edge, float n, int even_n) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+    SteradianMomentFit fit = steradian_moment_fit_blended(p, steradian_moment_fit_lorentzian(p), steradian_moment_fit_pearson(p));
+    return steradian_moment_fit_front(edge, p, fit, even_n);
+}
+
+// The blend of ellipsoid and squared ellipsoid for one edge.
+float steradian_moment_ellipsoid_front(SteradianMomentEdge edge, float n, int even_n) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+    SteradianMomentFit fit = steradian_moment_fit_blended(p, steradian_moment_fit_ellipsoid(edge, p), steradian_moment_fit_ellipsoid_squared(edge, p));
+    return steradian_moment_fit_front(edge, p, fit, even_n);
+}
+
+// ==== representative_point ====
+
+// The representative point of a polygon light, for comparison: all of its light from the direction that is nearest to
+// the mirror direction, on a lobe widened to make up for it.
+//
+// Assumes that the light is small against the lobe, or the lobe against the light; between the two it is off by a third and more.
+//   1. The light is a point light of the light's solid angle, in the direction nearest to the mirror's.
+//   2. The lobe's peak falls by (alpha/alpha')^2, alpha' = alpha + radius/(2 distance). A sphere of that radius and distance
+//      has the solid angle W = pi (radius/distance)^2; of half vectors it covers W/(4 v.h), a disk of radius sqrt(W/(4 pi v.h)),
+//      which at the normal is radius/(2 distance). The factor 1/sqrt(v.h) is not in the source: without it a mirror that
+//      sees the light sends 1/v.h times the light's radiance, 14 times at 86 degrees.
+// Walk the outline clipped to the horizon (horizon_clip.glsl).
+// Source: Karis, "Real shading in Unreal Engine 4", 2013, section "Area lights", its sphere taken to a polygon. The half
+// radius: its alpha' with the factor 2 at which a mirror (alpha = 0) sends the radiance of the light it sees.
+
+// The state of a walk.
+//   turn     how far the outline has turned about the mirror direction [rad]: two pi at the end where that is inside,
+//            minus two pi where its opposite is, else zero; the other sign where the light is seen from behind
+//   nearest  direction on the outline nearest to it
+//   cosine   between the two
+struct SteradianRepresentativeWalk {
+    float turn;
+    float3 nearest;
+    float cosine;
+};
+
+// A walk with no edge yet.
+SteradianRepresentativeWalk steradian_representative_begin() {
+    SteradianRepresentativeWalk walk;
+    walk.turn = 0.0;
+    walk.nearest = float3(0.0, 0.0, 1.0);
+    walk.cosine = -2.0;  // below any cosine, so that the first edge counts
+    return walk;
+}
+
+// Adds one edge.
+//
+//   mirror   unit: the view mirrored at the normal
+//   a, b     unit directions of the edge's ends
+SteradianRepresentativeWalk steradian_representative_add_edge(SteradianRepresentativeWalk walk, float3 mirror, float3 a, float3 b) {
+    SteradianRepresentativeWalk next = walk;
+    float ca = dot(mirror, a);
+    float cb = dot(mirror, b);
+    next.turn = walk.turn + steradian_trig_atan2(dot(mirror, cross(a, b)), dot(a, b) - ca * cb);
+    // The nearest of the great circle, if it lies between the ends.
+    float3 n = cross(a, b);
+    float n2 = max(dot(n, n), steradian_smallest_divisor());
+    float3 p = mirror - n * (dot(mirror, n) / n2);
+    float3 on_circle = p * rsqrt(max(dot(p, p), steradian_smallest_divisor()));
+    bool between = dot(cross(a, p), n) > 0.0 && dot(cross(p, b), n) > 0.0;
+    float3 nearest = steradian_select(between, on_circle, steradian_select(ca > cb, a, b));
+    float cosine = dot(mirror, nearest);
+    bool better = cosine > walk.cosine;
+    next.nearest = steradian_select(better, nearest, walk.nearest);
+    next.cosine = steradian_select(better, cosine, walk.cosine);
+    return next;
+}
+
+// The direction that stands for the light: the mirror direction if the light holds it, else the nearest of the outline.
+float3 steradian_representative_direction(SteradianRepresentativeWalk walk, float3 mirror, bool reversed) {
+    float turn = steradian_select(reversed, -walk.turn, walk.turn);
+    return steradian_select(turn > steradian_pi(), mirror, walk.nearest);
+}
+
+// Radiance towards the view, per radiance of the light, without Fresnel.
+//
+//   view, mirror  unit, in the shading frame
+//   solid_angle   of the light's part above the horizon [sr]
+//   alpha         of the GGX lobe
+//   reversed      true where the light is seen from behind
+//
+// Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
+// towards alpha = 0 it is 1.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+float steradian_representative_radiance(SteradianRepresentativeWalk walk, float3 view, float3 mirror, float solid_angle, float alpha, bool reversed) {
+    float3 l = steradian_representative_direction(walk, mirror, reversed);
+    float3 h = steradian_microfacet_half_vector(l, view);
+    float wider = alpha + sqrt(solid_angle * 0.0795774715459476679 / max(dot(view, h), 1.0e-6));
+    float fall = alpha / wider;
+    return steradian_ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
+}
+
+// The half vector's cosine for Fresnel. Arguments as for steradian_representative_radiance.
+float steradian_representative_v_dot_h(SteradianRepresentativeWalk walk, float3 view, float3 mirror, bool reversed) {
+    float3 h = steradian_microfacet_half_vector(steradian_representative_direction(walk, mirror, reversed), view);
+    return dot(view, h);
+}

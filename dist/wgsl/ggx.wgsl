@@ -1,0 +1,486 @@
+// Steradian 0.1.0, ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann, for WGSL.
+//
+// Put it before your module's text; it has no bindings.
+// It comes after math.wgsl, polygon.wgsl, lobe.wgsl, round.wgsl, phong.wgsl.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+// ==== ggx_closed_form ====
+
+// The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and
+// Fresnel (ggx_cubature.glsl adds both).
+//
+// In stretched half vector space, u = normalize(h_x/ax, h_y/ay, h_z) and w = (ax v_x, ay v_y, v_z), the lobe is the plain
+// measure: D(h) (v.h) dh = (w.u) du / pi. The integral over the light is (w.E) / (pi v_z), E the irradiance vector of the
+// light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
+//   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
+//
+//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//
+// docs/ggx.md has the derivation.
+// Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
+
+// What the lobe's integrals need of the view and the surface.
+//   v        unit view, z > 0
+//   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
+//   ax, ay   widths: roughness squared, at least 1.0e-4
+//   masking  the view's |v|' / v_z of Smith's shadowing, at least 1
+struct SteradianGgxView {
+    v: vec3f,
+    w: vec3f,
+    ax: f32,
+    ay: f32,
+    masking: f32,
+}
+
+// Prepares a view.
+//
+// Degenerate: a view at or below the surface counts as v_z = 1.0e-6; callers give 0 for it.
+fn steradian_ggx_view(v: vec3f, ax: f32, ay: f32) -> SteradianGgxView {
+    var view: SteradianGgxView;
+    let z = max(v.z, 1.0e-6);
+    view.v = vec3f(v.x, v.y, z);
+    view.w = vec3f(ax * v.x, ay * v.y, z);
+    view.ax = ax;
+    view.ay = ay;
+    view.masking = sqrt(dot(view.w, view.w)) / z;
+    return view;
+}
+
+// One edge of a light as an arc in stretched half vector space.
+//
+//   a, b     unit directions of the ends, in walk order, not below the horizon
+//
+// tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
+// is further from it.
+// Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
+fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+    let chord = b - a;
+    let sum = a + b;
+    let chord2 = dot(chord, chord);
+    let sum2 = dot(sum, sum);
+    let usable = chord2 > steradian_smallest_divisor() && sum2 > 1.0e-12;
+    let middle = sum * inverseSqrt(max(sum2, steradian_smallest_divisor()));
+    let along = chord * inverseSqrt(max(chord2, steradian_smallest_square()));
+    let half_sine = 0.5 * sqrt(chord2);
+    let half_cosine = max(0.5 * sqrt(sum2), 1.0e-6);
+
+    let from_end = dot(middle, view.v) > 0.9;
+    let side = select(0.0, select(1.0, -1.0, dot(chord, view.v) > 0.0), from_end);
+    let turn_cosine = select(1.0, half_cosine, from_end);
+    let base = middle * turn_cosine + along * (side * half_sine);
+    let q = along * turn_cosine - middle * (side * half_sine);
+    let reach = select(0.0, half_sine / (half_cosine + select(1.0, 0.0, from_end)), usable);
+
+    let x = 1.0 / view.ax;
+    let y = 1.0 / view.ay;
+    let u0 = view.v + base;
+    let u2 = view.v - base;
+    return steradian_conic_prepare(
+        vec3f(u0.x * x, u0.y * y, u0.z), vec3f(q.x * x, q.y * y, q.z) * 2.0, vec3f(u2.x * x, u2.y * y, u2.z),
+        select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
+}
+
+// Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
+//
+//   e        sum over the edges of conic_vector, negated where the light is seen from behind
+//   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
+fn steradian_ggx_unshadowed(view: SteradianGgxView, e: vec3f) -> f32 {
+    return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
+}
+
+// ==== ggx_cubature ====
+
+// Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
+//
+// Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
+//   GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
+//   for each edge: c = ggx_cubature_edge(c, edge, extra_nodes);
+//   vec2 r = ggx_cubature_finish(c);         // or, without the second walk: ggx_draft(view, e, smith, facing)
+//   radiance = ggx_radiance(r, f0, f90)      // per channel
+//
+// In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
+// equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
+// The measure itself is exact; only the smooth factor G2 F is sampled.
+
+// The state of the second walk.
+//   centre          us
+//   amount          what the distribution alone sends (ggx_unshadowed)
+//   extent          the length of E
+//   smith           1 with shadowing, 0 without
+//   facing          -1 where the light is seen from behind
+//   weight          sum of the weights; weighted: of weight times (G2, G2 (1 - v.h)^5)
+//   centre_weight   share of the weights that belongs to the centre
+//   at_centre       (G2, G2 (1 - v.h)^5) there
+//   lowest, highest of all values with weight
+struct SteradianGgxCubature {
+    view: SteradianGgxView,
+    centre: vec3f,
+    amount: f32,
+    extent: f32,
+    smith: f32,
+    facing: f32,
+    weight: f32,
+    centre_weight: f32,
+    weighted: vec2f,
+    at_centre: vec2f,
+    lowest: vec2f,
+    highest: vec2f,
+}
+
+// Shadowing, and shadowing times Schlick's (1 - v.h)^5, at a direction of stretched half vector space.
+//
+//   u        unit
+//   smith    1 with shadowing, 0 without
+//   returns  (0, 0) where the mirrored light is not above the surface
+fn steradian_ggx_shadowing_and_fresnel(view: SteradianGgxView, u: vec3f, smith: f32) -> vec2f {
+    var h = vec3f(view.ax * u.x, view.ay * u.y, u.z);
+    h = h * inverseSqrt(max(dot(h, h), steradian_smallest_divisor()));
+    let v_dot_h = clamp(dot(view.v, h), 0.0, 1.0);
+    let l = h * (2.0 * v_dot_h) - view.v;
+    let lz = max(l.z, 0.0);
+    let shadowing = 2.0 * lz / max(lz * view.masking + steradian_ggx_stretched_length(l, view.ax, view.ay), steradian_smallest_divisor());
+    let g = select(0.0, 1.0 + smith * (shadowing - 1.0), l.z > 0.0);
+    let x = 1.0 - v_dot_h;
+    let x2 = x * x;
+    return vec2f(g, g * (x2 * x2 * x));
+}
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   smith    1.0: height-correlated shadowing; 0.0: none
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+fn steradian_ggx_cubature_begin(view: SteradianGgxView, e: vec3f, smith: f32, facing: f32) -> SteradianGgxCubature {
+    var c: SteradianGgxCubature;
+    let inward = e * facing;
+    let length2 = dot(inward, inward);
+    let usable = length2 > steradian_smallest_square();
+    c.view = view;
+    c.centre = select(vec3f(0.0, 0.0, 1.0), inward * inverseSqrt(max(length2, steradian_smallest_square())), usable);
+    c.amount = select(0.0, steradian_ggx_unshadowed(view, inward), usable);
+    c.extent = sqrt(length2);
+    c.smith = smith;
+    c.facing = facing;
+    c.weight = 0.0;
+    c.centre_weight = 0.0;
+    c.weighted = vec2f(0.0, 0.0);
+    c.at_centre = steradian_ggx_shadowing_and_fresnel(view, c.centre, smith);
+    c.lowest = c.at_centre;
+    c.highest = c.at_centre;
+    return c;
+}
+
+// Adds one node.
+//
+//   u        unit direction in stretched half vector space
+//   weight   0 for a lane that does not have this node
+fn steradian_ggx_cubature_add(c: SteradianGgxCubature, u: vec3f, weight: f32) -> SteradianGgxCubature {
+    var next = c;
+    let o = weight * max(dot(c.view.w, u), 0.0);
+    let g = steradian_ggx_shadowing_and_fresnel(c.view, u, c.smith);
+    let counts = abs(o) > 0.0;
+    next.weight = c.weight + o;
+    next.weighted = c.weighted + g * o;
+    next.lowest = select(c.lowest, vec2f(min(c.lowest.x, g.x), min(c.lowest.y, g.y)), counts);
+    next.highest = select(c.highest, vec2f(max(c.highest.x, g.x), max(c.highest.y, g.y)), counts);
+    return next;
+}
+
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
+fn steradian_ggx_rule(n: f32, j: i32) -> vec2f {
+    var r = steradian_gauss_legendre_node(1, j);
+    for (var k: i32 = 2; k <= 6; k++) {
+        r = select(r, steradian_gauss_legendre_node(k, j), n > f32(k) - 0.5);
+    }
+    return r;
+}
+
+// Adds the nodes of one edge.
+//
+//   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
+//
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc, extra: i32) -> SteradianGgxCubature {
+    var next = c;
+    let total = edge.sweep.x + edge.sweep.y;
+    let n = 1.0 + select(1.0, 0.0, total < 0.25) + select(1.0, 0.0, total < 0.8) + select(1.0, 0.0, total < 1.6) + f32(extra);
+    var fine = total >= 0.5;
+    if (extra > 0) {
+        fine = total > -1.0;
+    }
+    for (var j: i32 = 0; j < 4 + extra; j++) {
+        let present = n > f32(j) + 0.5 && total > 0.0;
+        if (present) {
+            let rule = steradian_ggx_rule(n, j);
+            let node = steradian_conic_node(edge, rule.x);
+            let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+            let du = edge.u1 + edge.u2 * (2.0 * node.tau);
+            let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+            let rim = u * sqrt(inverse2);
+            let rim_cosine = dot(rim, c.centre);
+            let out_of_centre = rim - c.centre * rim_cosine;
+            let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+            var om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+            om = select(0.0, om, present);
+
+            let first = select(0.666666666666666667, 0.355051025721682190, fine);
+            let first_weight = select(0.75, 0.512485826188421615, fine);
+            let centre_weight = select(0.25, 0.111111111111111111, fine);
+            var cosine = 1.0 - (1.0 - rim_cosine) * first;
+            var sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
+            next.centre_weight = next.centre_weight + om * centre_weight;
+            if (fine && present) {
+                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
+                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+                om = select(0.0, om * 0.376403062700467274, fine);
+                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            }
+        }
+    }
+    return next;
+}
+
+// Limits what leaves: with shadowing no lobe sends more than it gets.
+//
+//   mean     means of (G2, G2 (1 - v.h)^5)
+fn steradian_ggx_limited(amount: f32, mean: vec2f, smith: f32) -> vec2f {
+    var whole = amount * mean.x;
+    whole = select(whole, min(whole, 1.0), smith > 0.5);
+    return vec2f(whole, clamp(amount * mean.y, 0.0, whole));
+}
+
+// Ends the second walk.
+//
+//   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
+//
+// Degenerate: weights that cancel leave the centre's value.
+// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+fn steradian_ggx_cubature_finish(c: SteradianGgxCubature) -> vec2f {
+    // The centre's values are known all along, its weight only now.
+    let o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
+    let weight = c.weight + o;
+    let usable = weight > 1.0e-9 * c.extent;
+    let scale = 1.0 / select(1.0, weight, usable);
+    var mean = (c.weighted + c.at_centre * o) * scale;
+    mean = vec2f(clamp(mean.x, c.lowest.x, c.highest.x), clamp(mean.y, c.lowest.y, c.highest.y));
+    mean = select(c.at_centre, mean, usable);
+    return steradian_ggx_limited(c.amount, mean, c.smith);
+}
+
+// Shadowing and Fresnel at the centre only: one walk. Arguments as ggx_cubature_begin, result as ggx_cubature_finish.
+fn steradian_ggx_draft(view: SteradianGgxView, e: vec3f, smith: f32, facing: f32) -> vec2f {
+    let c = steradian_ggx_cubature_begin(view, e, smith, facing);
+    return steradian_ggx_limited(c.amount, c.at_centre, smith);
+}
+
+// Radiance of one channel, for radiance 1.
+//
+//   r        of ggx_cubature_finish or ggx_draft
+//   f0, f90  Schlick's reflectances
+fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
+    return f0 * (r.x - r.y) + f90 * r.y;
+}
+
+// ==== half_vector ====
+
+// Lobes of half vectors by edge splitting: a light's edge is split into arcs, each arc's image in half vector space is
+// replaced by the great circle between its ends, and the lobe's integral is closed along great circles.
+//
+// For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
+// ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
+//
+//   ConicArc edge = ggx_edge(view, a, b);
+//   for j in 0 .. count - 1:
+//       p = half_vector_at(view, edge, half_vector_split_pole_mapped(edge, j / count)), q the next one
+//       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
+//
+// Frame and order: as ggx_closed_form.glsl.
+
+// The GGX width whose lobe is as wide as Blinn-Phong's of exponent n: both have the mean squared slope 2 / (n + 2).
+fn steradian_blinn_phong_alpha(n: f32) -> f32 {
+    return sqrt(2.0 / (n + 2.0));
+}
+
+// Unit half vector at a place of an edge.
+fn steradian_half_vector_at(view: SteradianGgxView, edge: SteradianConicArc, tau: f32) -> vec3f {
+    let u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
+    let h = vec3f(view.ax * u.x, view.ay * u.y, u.z);
+    return h * inverseSqrt(max(dot(h, h), steradian_smallest_divisor()));
+}
+
+// The place at a share of the edge's angle, seen from the surface: equal arcs on the light.
+fn steradian_half_vector_split_uniform(edge: SteradianConicArc, share: f32) -> f32 {
+    let first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    let last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
+    let u = steradian_complex_unit(first + share * (last - first));
+    return clamp(u.y / max(u.x * edge.scale, steradian_smallest_length()), edge.begin, edge.end);
+}
+
+// The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
+// the edge passes the lobe, and some for the rest.
+//
+// Newton's steps where they halve what is left, else the middle of a bracket: 4 or 5 as a rule, 24 at most. A split that is
+// a little off costs nothing.
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+fn steradian_half_vector_split_pole_mapped(edge: SteradianConicArc, share: f32) -> f32 {
+    let first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    let last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
+    let weight = 0.3 / max(last - first, 1.0e-12);
+    let total = edge.sweep.x + edge.sweep.y + 0.3;
+    let node = steradian_conic_node(edge, share);
+    var tau = node.tau;
+    var low = edge.begin;
+    var high = edge.end;
+    var left = total;
+    var off = edge.end > edge.begin;
+    for (var i: i32 = 0; i < 24; i++) {
+        if (off) {
+            let t = edge.scale * tau;
+            let value = steradian_conic_sweep(edge.z1, edge.begin, tau) + steradian_conic_sweep(edge.z2, edge.begin, tau)
+                + weight * (steradian_trig_atan2(t, 1.0) - first) - share * total;
+            let x1 = tau - edge.z1.x;
+            let x2 = tau - edge.z2.x;
+            let slope = edge.z1.y / (x1 * x1 + edge.z1.y * edge.z1.y) + edge.z2.y / (x2 * x2 + edge.z2.y * edge.z2.y)
+                + weight * edge.scale / (1.0 + t * t);
+            low = select(low, tau, value < 0.0);
+            high = select(tau, high, value < 0.0);
+            let next = tau - value / slope;
+            let fast = next > low && next < high && abs(value) < 0.5 * left;
+            off = off && abs(value) > 1.0e-4 * total;
+            left = abs(value);
+            tau = select(tau, select(0.5 * (low + high), next, fast), off);
+        }
+    }
+    return tau;
+}
+
+// One arc's share of Blinn-Phong: 2 pi v_z times the radiance, exact along the great circle.
+//
+//   a, b     unit half vectors of the arc's ends, in walk order
+//   v        unit view
+//   n        exponent, at least 0
+//
+// (n + 2) / (2 pi) h_z^n (v.h) is a double-axis moment, of axes z and v.
+fn steradian_blinn_phong_arc(a: vec3f, b: vec3f, v: vec3f, n: f32) -> f32 {
+    let z = vec3f(0.0, 0.0, 1.0);
+    let edge = steradian_moment_edge(a, b, z);
+    let front = steradian_moment_quadrature_front(edge, max(n, 1.0e-6) - 1.0);
+    return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front.moment), front.power);
+}
+
+// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
+//
+//   series   of exponent n - 1, or of n + 1 where n < 2
+//   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
+//
+// Error: of the series, see docs/accuracy.md, "phong series".
+fn steradian_blinn_phong_arc_approximate(a: vec3f, b: vec3f, v: vec3f, series: SteradianMomentSeries, n: f32, range: i32) -> f32 {
+    let z = vec3f(0.0, 0.0, 1.0);
+    let edge = steradian_moment_edge(a, b, z);
+    var front = 0.0;
+    if (range == 2) {
+        front = steradian_moment_series_low_front(edge, series, n - 1.0);
+    } else {
+        front = steradian_moment_series_front(edge, series);
+    }
+    var low: i32 = 0;
+    if (range > 0) {
+        low = 1;
+    }
+    return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front), steradian_moment_cosine_front(edge, n, low));
+}
+
+// The error function. Error: 1.5e-7 absolute.
+// Source: Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 7.1.26.
+fn steradian_beckmann_error_function_approximate(x: f32) -> f32 {
+    let t = abs(x);
+    let e = 1.0 / (1.0 + 0.3275911 * t);
+    let p = ((((1.061405429 * e - 1.453152027) * e + 1.421413741) * e - 0.284496736) * e + 0.254829592) * e;
+    let y = 1.0 - p * exp(-min(t * t, 80.0));
+    return select(y, -y, x < 0.0);
+}
+
+// The series that beckmann_arc takes: that of an infinite exponent.
+fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
+    var series = steradian_moment_series_high_prepare(1.0e30);
+    series.m = 2.0;  // log_c below is the square of the distance
+    return series;
+}
+
+// One arc's share of Beckmann: 2 pi v_z times the radiance.
+//
+//   a, b     unit half vectors of the arc's ends, in walk order, above the surface
+//   series   beckmann_series()
+//
+// In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
+// w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
+// Error: of the series; see docs/accuracy.md, "half vector".
+fn steradian_beckmann_arc(view: SteradianGgxView, a: vec3f, b: vec3f, series: SteradianMomentSeriesHigh) -> f32 {
+    let za = 1.0 / max(a.z, 1.0e-6);
+    let zb = 1.0 / max(b.z, 1.0e-6);
+    let p = vec2f(a.x * za / view.ax, a.y * za / view.ay);
+    let q = vec2f(b.x * zb / view.ax, b.y * zb / view.ay);
+    var along = q - p;
+    let length2 = dot(along, along);
+    let usable = length2 > steradian_smallest_divisor();
+    along = along * inverseSqrt(max(length2, steradian_smallest_divisor()));
+    let d = p.x * along.y - p.y * along.x;
+    let low = dot(p, along);
+    let high = dot(q, along);
+
+    var edge: SteradianMomentEdge;
+    edge.side = select(1.0, -1.0, d < 0.0);
+    edge.s = max(abs(d), 1.0e-6);
+    edge.c = 1.0;
+    edge.x0 = 1.0;
+    edge.y0 = low;
+    edge.x1 = 1.0;
+    edge.y1 = high;
+    edge.log_c = min(edge.s * edge.s, 80.0);
+    edge.swept = 0.0;
+    let around = steradian_moment_edge_share(edge, steradian_moment_series_high_front(edge, series));
+    let across = exp(-edge.log_c) * 0.886226925452758014
+        * (steradian_beckmann_error_function_approximate(high) - steradian_beckmann_error_function_approximate(low));
+    let share = view.w.z * around + (view.w.y * along.x - view.w.x * along.y) * across;
+    return select(0.0, share, usable);
+}
+
+// One arc's share of E (ggx_closed_form.glsl) for GGX, exact along the great circle.
+fn steradian_ggx_arc(view: SteradianGgxView, a: vec3f, b: vec3f) -> vec3f {
+    let p = steradian_polygon_direction(vec3f(a.x / view.ax, a.y / view.ay, a.z));
+    let q = steradian_polygon_direction(vec3f(b.x / view.ax, b.y / view.ay, b.z));
+    return steradian_polygon_edge(p, q);
+}
+
+// Radiance from the sum over the arcs, for radiance 1; not negative.
+//
+//   facing   1.0; -1.0 where the light is seen from behind
+fn steradian_half_vector_radiance(view: SteradianGgxView, sum: f32, facing: f32) -> f32 {
+    return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
+}

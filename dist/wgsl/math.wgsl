@@ -1,0 +1,339 @@
+// Steradian 0.1.0, math: arithmetic that all topics share, for WGSL.
+//
+// Put it before your module's text; it has no bindings.
+// Made by dist/make_dist.py from kernels/: change those.
+//
+// MIT License
+//
+// Copyright (c) 2026 The Steradian authors
+//
+// Permission is hereby granted, free of charge, to any person obtaining a copy
+// of this software and associated documentation files (the "Software"), to deal
+// in the Software without restriction, including without limitation the rights
+// to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+// copies of the Software, and to permit persons to whom the Software is
+// furnished to do so, subject to the following conditions:
+//
+// The above copyright notice and this permission notice shall be included in all
+// copies or substantial portions of the Software.
+//
+// THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+// IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+// FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+// AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+// LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+// OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+// SOFTWARE.
+
+fn steradian_xy(v: vec3f) -> vec2f { return v.xy; }
+
+// Matrix of three columns times vector, and its transpose times vector.
+fn steradian_transform(m: mat3x3f, v: vec3f) -> vec3f { return m[0] * v.x + m[1] * v.y + m[2] * v.z; }
+fn steradian_transform_transposed(m: mat3x3f, v: vec3f) -> vec3f {
+    return vec3f(dot(m[0], v), dot(m[1], v), dot(m[2], v));
+}
+
+// ==== constants ====
+
+// The constants that all kernels share. A constant is a function: the same in every language.
+
+// The circle's constant.
+fn steradian_pi() -> f32 { return 3.14159265358979324; }
+
+// 1 / pi.
+fn steradian_inverse_pi() -> f32 { return 0.318309886183790672; }
+
+// 1 / (2 pi).
+fn steradian_inverse_two_pi() -> f32 { return 0.159154943091895336; }
+
+// False in every lane.
+fn steradian_mask_none() -> bool {
+    let zero = 0.0;
+    return zero > 0.0;
+}
+
+// True in every lane.
+fn steradian_mask_all() -> bool { return !steradian_mask_none(); }
+
+// Squared lengths are kept above this before a division or an inverse root: the smallest normal float is 1.2e-38, and below it
+// GPUs and packs count every number as 0.
+fn steradian_smallest_square() -> f32 { return 1.0e-36; }
+
+// Lengths are kept above this before a division: the root of smallest_square.
+fn steradian_smallest_length() -> f32 { return 1.0e-18; }
+
+// Divisors of numbers of the order of 1 are kept above this, so that the quotient may still be multiplied by 1.0e8 within float.
+// What is smaller is rounding: a cross product of two unit vectors of float has a square of about 1.0e-14 where they are equal.
+fn steradian_smallest_divisor() -> f32 { return 1.0e-30; }
+
+// ==== complex ====
+
+// Complex numbers: vec2(real part, imaginary part).
+
+// The product a b.
+fn steradian_complex_product(a: vec2f, b: vec2f) -> vec2f {
+    return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// The quotient a / b. Degenerate: |b|^2 below 1.0e-36 counts as 1.0e-36.
+fn steradian_complex_quotient(a: vec2f, b: vec2f) -> vec2f {
+    let scale = 1.0 / max(dot(b, b), steradian_smallest_square());
+    return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y) * scale;
+}
+
+// The unit number in the direction of a: a / |a|. Degenerate: zero stays zero.
+fn steradian_complex_sign(a: vec2f) -> vec2f {
+    return a * inverseSqrt(max(dot(a, a), steradian_smallest_square()));
+}
+
+// The unit number of angle x, exp(i x), for x in [-pi, pi].
+//
+// Taylor series of the cosine and the sine of x / 2, then the square. Error: the first terms left out, (pi/2)^14/14! =
+// 6.4e-9 for 24 bits and (pi/2)^22/22! = 1.8e-17 for 53.
+fn steradian_complex_unit(x: f32) -> vec2f {
+    let y = 0.5 * x;
+    let t = y * y;
+    var c = 1.0;
+    var s = 1.0;
+    c = 1.0 - t * 0.0111111111111111111 * (1.0 - t * 0.00757575757575757576 * c);
+    c = 1.0 - t * 0.0333333333333333333 * (1.0 - t * 0.0178571428571428571 * c);
+    c = 1.0 - t * 0.5 * (1.0 - t * 0.0833333333333333333 * c);
+    s = 1.0 - t * 0.0138888888888888889 * (1.0 - t * 0.00909090909090909091 * s);
+    s = 1.0 - t * 0.05 * (1.0 - t * 0.0238095238095238095 * s);
+    s = y * (1.0 - t * 0.166666666666666667 * s);
+    return vec2f(c * c - s * s, 2.0 * c * s);
+}
+
+// ==== frame ====
+
+// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// vector into it, transform(frame, l) back.
+
+// Orthonormal right-handed frame with z along n and x, y in any direction.
+//
+//   n        unit normal
+//
+// Source: Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin, "Building an orthonormal basis, revisited", 2017.
+fn steradian_frame_from_normal(n: vec3f) -> mat3x3f {
+    let s = select(1.0, -1.0, n.z < 0.0);
+    let a = -1.0 / (s + n.z);
+    let b = n.x * n.y * a;
+    let x = vec3f(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    let y = vec3f(b, s + n.y * n.y * a, -n.y);
+    return mat3x3f(x, y, n);
+}
+
+// Orthonormal right-handed frame with z along n and the view in the half plane of x and z.
+//
+//   n, v     unit normal and view
+//
+// Degenerate: a view along the normal (closer than 1e-6) gives any x.
+fn steradian_frame_from_normal_and_view(n: vec3f, v: vec3f) -> mat3x3f {
+    let other = steradian_frame_from_normal(n);
+    let t = v - n * dot(n, v);
+    let t2 = dot(t, t);
+    let x = select(steradian_transform(other, vec3f(1.0, 0.0, 0.0)), t * inverseSqrt(max(t2, 1.0e-12)), t2 > 1.0e-12);
+    return mat3x3f(x, cross(n, x), n);
+}
+
+// ==== gauss_legendre ====
+
+// Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
+//
+// The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
+
+// Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
+//
+// Degenerate: a rule or node that there is not gives (1/2, 0).
+fn steradian_gauss_legendre_node(n: i32, j: i32) -> vec2f {
+    var r = vec2f(0.5, 0.0);
+    if (n == 1) {
+        if (j == 0) { r = vec2f(0.5, 1.0); }
+    }
+    if (n == 2) {
+        if (j == 0) { r = vec2f(0.211324865405187118, 0.5); }
+        if (j == 1) { r = vec2f(0.788675134594812882, 0.5); }
+    }
+    if (n == 3) {
+        if (j == 0) { r = vec2f(0.112701665379258311, 0.277777777777777778); }
+        if (j == 1) { r = vec2f(0.5, 0.444444444444444444); }
+        if (j == 2) { r = vec2f(0.887298334620741689, 0.277777777777777778); }
+    }
+    if (n == 4) {
+        if (j == 0) { r = vec2f(0.069431844202973712, 0.173927422568726929); }
+        if (j == 1) { r = vec2f(0.330009478207571868, 0.326072577431273071); }
+        if (j == 2) { r = vec2f(0.669990521792428132, 0.326072577431273071); }
+        if (j == 3) { r = vec2f(0.930568155797026288, 0.173927422568726929); }
+    }
+    if (n == 5) {
+        if (j == 0) { r = vec2f(0.046910077030668004, 0.118463442528094544); }
+        if (j == 1) { r = vec2f(0.230765344947158454, 0.239314335249683234); }
+        if (j == 2) { r = vec2f(0.5, 0.284444444444444444); }
+        if (j == 3) { r = vec2f(0.769234655052841546, 0.239314335249683234); }
+        if (j == 4) { r = vec2f(0.953089922969331996, 0.118463442528094544); }
+    }
+    if (n == 6) {
+        if (j == 0) { r = vec2f(0.033765242898423986, 0.085662246189585173); }
+        if (j == 1) { r = vec2f(0.169395306766867743, 0.180380786524069304); }
+        if (j == 2) { r = vec2f(0.380690406958401546, 0.233956967286345524); }
+        if (j == 3) { r = vec2f(0.619309593041598454, 0.233956967286345524); }
+        if (j == 4) { r = vec2f(0.830604693233132257, 0.180380786524069304); }
+        if (j == 5) { r = vec2f(0.966234757101576014, 0.085662246189585173); }
+    }
+    if (n == 8) {
+        if (j == 0) { r = vec2f(0.019855071751231884, 0.05061426814518813); }
+        if (j == 1) { r = vec2f(0.10166676129318663, 0.111190517226687235); }
+        if (j == 2) { r = vec2f(0.237233795041835507, 0.156853322938943644); }
+        if (j == 3) { r = vec2f(0.408282678752175098, 0.181341891689180991); }
+        if (j == 4) { r = vec2f(0.591717321247824902, 0.181341891689180991); }
+        if (j == 5) { r = vec2f(0.762766204958164493, 0.156853322938943644); }
+        if (j == 6) { r = vec2f(0.89833323870681337, 0.111190517226687235); }
+        if (j == 7) { r = vec2f(0.980144928248768116, 0.05061426814518813); }
+    }
+    return r;
+}
+
+// ==== inverse_trig ====
+
+// Inverse trigonometry for the kernels, the same in every language.
+//
+// The built-in acos and atan of shader compilers differ by up to 8e-5; these polynomials do not. Each exists for 24
+// bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
+// Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
+
+// Degree 9, largest relative error 1.3e-08 before rounding.
+fn steradian_trig_angle_over_sine_24_bits(t: f32) -> f32 {
+    var p = 0.01116282422619877;
+    p = p * t - 0.032591688733997218;
+    p = p * t + 0.05097575847577638;
+    p = p * t - 0.033552997791327491;
+    p = p * t + 0.030059175970996568;
+    p = p * t + 0.020163489805166888;
+    p = p * t + 0.057977801513775039;
+    p = p * t + 0.13326657225500885;
+    p = p * t + 0.33333538143391106;
+    p = p * t + 0.9999999897346874;
+    return p;
+}
+
+// Degree 8, largest relative error 1.8e-08 before rounding.
+fn steradian_trig_atan_over_argument_24_bits(q: f32) -> f32 {
+    var p = 0.002766283501762026;
+    p = p * q - 0.015731249122183651;
+    p = p * q + 0.042137623589193041;
+    p = p * q - 0.07456854826004547;
+    p = p * q + 0.10618370636953849;
+    p = p * q - 0.14197797794085124;
+    p = p * q + 0.19991872029109073;
+    p = p * q - 0.33333036709286273;
+    p = p * q + 0.99999998178865568;
+    return p;
+}
+
+// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c).
+//
+//   t        1 - c, in [0, 1]
+//   returns  1 at t = 0 to pi/2 at t = 1
+//
+// Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
+fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
+    return steradian_trig_angle_over_sine_24_bits(t);
+}
+
+// Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
+//
+//   c        cosine, in [-1, 1]; the polynomial goes on smoothly where rounding exceeds it
+//   s2       sine squared, computed on its own (a squared cross product), not as 1 - c*c, which cancels near pi
+//
+// Degenerate: towards pi the value grows like pi/sine; it stops at s2 = 1.0e-30, where products with the sine are 0.
+fn steradian_trig_angle_over_sine(c: f32, s2: f32) -> f32 {
+    var f = steradian_trig_angle_over_sine_acute(1.0 - abs(c));
+    let obtuse = c < 0.0;
+    if (obtuse) {
+        f = select(f, steradian_pi() * inverseSqrt(max(s2, steradian_smallest_divisor())) - f, obtuse);
+    }
+    return f;
+}
+
+// The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
+//
+// Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
+// Error: see docs/accuracy.md, "atan2".
+fn steradian_trig_atan2(y: f32, x: f32) -> f32 {
+    let ax = abs(x);
+    let ay = abs(y);
+    let larger = max(ax, ay);
+    let t = min(ax, ay) / max(larger, 1.0e-37);
+    let q = t * t;
+    let p = steradian_trig_atan_over_argument_24_bits(q);
+    var angle = t * p;
+    angle = select(angle, 0.5 * steradian_pi() - angle, ay > ax);
+    angle = select(angle, steradian_pi() - angle, x < 0.0);
+    return select(angle, -angle, y < 0.0);
+}
+
+// The same angle, counted from -pi/2 to 3 pi/2: for angles known to lie in [0, pi], whose rounding must not wrap.
+fn steradian_trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
+    let angle = steradian_trig_atan2(y, x);
+    return select(angle, angle + 2.0 * steradian_pi(), angle < -0.5 * steradian_pi());
+}
+
+// ==== quartic ====
+
+// Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
+
+// The roots of a real quartic without real roots: one of each conjugate pair, the one with positive imaginary part.
+struct SteradianQuarticPoles {
+    z1: vec2f,
+    z2: vec2f,
+}
+
+// Largest root of 4 c^3 - 3 c = x: the cosine of a third of the angle whose cosine is x, in [1/2, 1].
+//
+//   x        in [-1, 1]
+//
+// The start in t = sqrt((1 + x)/2), the cosine of half the angle, has the right value at both ends and the right slope
+// at x = -1, where the root has infinite slope in x; then two steps of Newton.
+// Error: 1e-7 at worst before rounding; test Quartic.CosineOfTheThirdOfAnAngle.
+fn steradian_quartic_third_cosine(x: f32) -> f32 {
+    let t = sqrt(max(0.5 + 0.5 * x, 0.0));
+    var c = 0.5 + t * (0.577350269189625765 - 0.0773502691896257645 * t);
+    for (var i: i32 = 0; i < 2; i++) {
+        let c2 = c * c;
+        c = c - (c * (4.0 * c2 - 3.0) - x) / max(12.0 * c2 - 3.0, 1.0e-6);
+    }
+    return c;
+}
+
+// Roots of t^4 + c3 t^3 + c2 t^2 + c1 t + c0, good enough to start an iteration from.
+//
+//   c0..c3   the roots should be of the order of 1: scale the variable so that c0 = 1
+//   returns  imaginary parts at least 1.0e-3: below, the square is the noise of 24 bits
+//
+// Ferrari: with y = t + c3/4 the quartic is (y^2 + s y + a)(y^2 - s y + b). s^2, the squared distance of the pairs along
+// the real axis, is the only root of the resolvent that is not negative; all three are real, so that it is a
+// cosine. Where s is small, b - a comes from a + b and a b instead of from a quotient of noise.
+// Error: a start; float loses half the digits where pairs are nearly equal.
+// Source: Ferrari in Cardano, "Ars magna", 1545; the three real roots: Viete.
+fn steradian_quartic_poles_approximate(c0: f32, c1: f32, c2: f32, c3: f32) -> SteradianQuarticPoles {
+    let shift = 0.25 * c3;
+    let shift2 = shift * shift;
+    let p = c2 - 6.0 * shift2;
+    let q = c1 - 2.0 * c2 * shift + 8.0 * shift2 * shift;
+    let r = c0 - c1 * shift + c2 * shift2 - 3.0 * shift2 * shift2;
+
+    // Largest root of the resolvent z^3 + 2 p z^2 + (p^2 - 4 r) z - q^2.
+    let radius2 = max(p * p + 12.0 * r, 1.0e-12);
+    let radius = sqrt(radius2);
+    let cosine = clamp((p * (p * p - 36.0 * r) + 13.5 * q * q) / (radius2 * radius), -1.0, 1.0);
+    let z = max(0.666666666666666667 * (radius * steradian_quartic_third_cosine(cosine) - p), 0.0);
+    let s = sqrt(z);
+
+    let sum = p + z;
+    let root = sqrt(max(sum * sum - 4.0 * r, 0.0));
+    let difference = select(select(root, -root, q < 0.0), q / max(s, steradian_smallest_length()), z > 1.0e-3 * abs(p));
+    var poles: SteradianQuarticPoles;
+    poles.z1 = vec2f(-0.5 * s - shift, sqrt(max(0.5 * (sum - difference) - 0.25 * z, 1.0e-6)));
+    poles.z2 = vec2f(0.5 * s - shift, sqrt(max(0.5 * (sum + difference) - 0.25 * z, 1.0e-6)));
+    return poles;
+}
