@@ -15,9 +15,9 @@ struct Floor {
   std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, zero, alpha, plain, fresnel;
   PackLight light;
 
-  GgxPoints points() const {
-    return {{x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()},
-            vx.data(), vy.data(), vz.data(), zero.data(), zero.data(), zero.data(), alpha.data(), alpha.data()};
+  Points points() const {
+    return {x.size(), {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {vx.data(), vy.data(), vz.data()},
+            {zero.data(), zero.data(), zero.data()}, alpha.data(), alpha.data()};
   }
 };
 

@@ -19,9 +19,7 @@ struct Floor {
   PreparedPolygon light;
   PackLight pack_light;
 
-  SurfacePoints points() const {
-    return {x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()};
-  }
+  Points points() const { return {x.size(), {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {}}; }
 };
 
 // A floor of 8 by 8 m with gentle waves in its normals, and an upright quad that dips below it.

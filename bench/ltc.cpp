@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t kSide = 128;
 
 struct GlossyFloor {
-  std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, roughness, irradiance, specular, grazing;
+  std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, alpha, irradiance, specular, grazing;
   PackLight light;
   LtcPackTables tables;
 
-  SeenPoints points() const {
-    return {{x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()}, vx.data(), vy.data(), vz.data(), roughness.data()};
+  Points points() const {
+    return {x.size(), {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {vx.data(), vy.data(), vz.data()}, {}, alpha.data()};
   }
 };
 
@@ -37,7 +37,8 @@ std::shared_ptr<GlossyFloor> make_floor(const LtcPackTables& tables) {
       push(floor->x, p.x), push(floor->y, p.y), push(floor->z, p.z);
       push(floor->nx, n.x), push(floor->ny, n.y), push(floor->nz, n.z);
       push(floor->vx, v.x), push(floor->vy, v.y), push(floor->vz, v.z);
-      push(floor->roughness, 0.1 + 0.8 * static_cast<double>(j) / kSide);
+      const double roughness = 0.1 + 0.8 * static_cast<double>(j) / kSide;
+      push(floor->alpha, roughness * roughness);
     }
   for (auto* out : {&floor->irradiance, &floor->specular, &floor->grazing}) out->resize(floor->x.size());
   PolygonLight quad;

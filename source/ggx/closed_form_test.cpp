@@ -263,8 +263,8 @@ TEST(GgxClosedFormPack, AgreesWithDoubleOnEveryInstructionSet) {
           a[13][i] = static_cast<float>(m.alpha_y);
         }
         const auto plane = [&](std::size_t k) { return a[k].data(); };
-        const GgxPoints points = {{plane(0), plane(1), plane(2), plane(3), plane(4), plane(5), kCount},
-                                  plane(6), plane(7), plane(8), plane(9), plane(10), plane(11), plane(12), plane(13)};
+        const Points points = {kCount, {plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}, {plane(6), plane(7), plane(8)},
+                               {plane(9), plane(10), plane(11)}, plane(12), plane(13)};
         std::vector<float> plain(kCount), fresnel(kCount);
         closed_form_table_for(simd).ggx(prepare_light(light), points, quality, plain.data(), fresnel.data());
         for (std::size_t i = 0; i < kCount; ++i) {

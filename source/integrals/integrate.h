@@ -107,7 +107,6 @@ STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shadin
   if (!any_lane(lit)) return nothing;
   const auto end = [&](const auto& u) { return integral.end(u); };
   if constexpr (Integral::kClip == Clip::horizon) {
-    static_assert(Outline::kInOrder, "the clip to the horizon joins a contour's crossings in their order");
     auto clip = k.horizon_clip_begin();
     outline.walk(end, [&](const auto& a, const auto& b) {
       clip = k.horizon_clip_edge(clip, a, b);

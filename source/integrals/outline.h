@@ -2,16 +2,14 @@
 //
 // An outline is a type with
 //
-//   static constexpr bool kInOrder;                                    // every edge but a contour's first begins where the last one ended
 //   template <class End, class Add> void walk(End end, Add add) const;
 //
-// walk calls add(end(a), end(b)) for each edge from a to b in walk order (kernels/outline/polygon.glsl). Taken together the edges are
-// closed. `end` says what an integral keeps of a corner; in order, it is asked once a corner. An integral does not know
-// whether the edges are a polygon's contours, the corners that stand for a round light, or pieces that shadows have left.
+// which calls add(end(a), end(b)) for each edge from a to b in walk order (kernels/outline/polygon.glsl). Taken together the
+// edges are closed. `end` says what an integral keeps of a corner; along a contour it is asked once a corner. An integral does
+// not know whether the edges are a polygon's contours, the corners that stand for a round light, or what occluders leave of one.
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "steradian/kernels.h"
 #include "steradian/polygon_light.h"
@@ -21,15 +19,18 @@ namespace integrals {
 
 // The loop over contours: add(end(v), end(w)) for each edge from the vertex v to the vertex w.
 //
-//   contours  where each contour begins, and the number of vertices at the end
+//   contours  where each contour begins, and the number of vertices at the end. One of two vertices is the one edge from the
+//             first to the second: such contours, in any order, bound what is seen behind occluders. They lie above the
+//             horizon, since clipping joins a contour's crossings in their order
 template <class Vertex, class End, class Add>
 STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* contours, std::size_t contour_count, End end,
                                     Add add) {
   for (std::size_t c = 0; c < contour_count; ++c) {
     const std::size_t first = contours[c], last = contours[c + 1];
     if (first == last) continue;
-    auto previous = end(vertices[last - 1]);
-    for (std::size_t i = first; i < last; ++i) {
+    const bool closed = last - first > 2;
+    auto previous = end(vertices[closed ? last - 1 : first]);
+    for (std::size_t i = closed ? first : first + 1; i < last; ++i) {
       const auto next = end(vertices[i]);
       add(previous, next);
       previous = next;
@@ -40,7 +41,6 @@ STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* c
 // The contours of a flat light. direction(vertex) is the unit direction in the shading frame.
 template <class Vertex, class Direction>
 struct Contours {
-  static constexpr bool kInOrder = true;
   const Vertex* vertices;
   const std::size_t* contours;
   std::size_t contour_count;
@@ -58,9 +58,9 @@ Contours<Vec3d, Direction> contours_of(const PreparedPolygon& light, Direction d
   return {light.vertices.data(), light.contours.data(), count, direction};
 }
 
-template <class S>
-typename Kernels<S>::vec3 to_kernel(Vec3d v) {
-  return {v.x, v.y, v.z};
+template <class S, class T>
+STERADIAN_INLINE typename Kernels<S>::vec3 to_kernel(Vector3<T> v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 // A light from a point, turned into the shading frame in double, or in S.
@@ -76,22 +76,6 @@ auto contours_in(const PreparedPolygon& light, const Mat3<Real<S>>& frame, Vec3d
     return Kernels<S>().polygon_direction(transform_transposed(frame, to_kernel<S>(v - position)));
   });
 }
-
-// Edges of a plane light in any order.
-template <class S>
-struct Pieces {
-  using vec3 = typename Kernels<S>::vec3;
-  struct Edge {
-    vec3 a, b;
-  };
-  static constexpr bool kInOrder = false;
-  std::span<const Edge> edges;
-
-  template <class End, class Add>
-  STERADIAN_INLINE void walk(End end, Add add) const {
-    for (const Edge& edge : edges) add(end(edge.a), end(edge.b));
-  }
-};
 
 }  // namespace integrals
 STERADIAN_END_ISA

@@ -81,7 +81,8 @@ class Phong {
     return shading.lit && shading.view.z > Real<S>(0.0);
   }
   STERADIAN_INLINE vec3 end(const vec3& u) const { return u; }
-  STERADIAN_INLINE void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
+  // Not always inlined: clipping calls it at three places, and in dual numbers one copy is the quicker.
+  void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) { return {Kernels<S>().moment_phong_radiance(sum_, reversed), Real<S>(0.0)}; }
 
  private:

@@ -180,7 +180,10 @@ TEST(LtcPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
   // Dips below the floor: both kinds of clipping happen.
   const PreparedPolygon light = rectangle({0.3, 0.8, 0.4}, {0.9, 0, 0.2}, {0, 0.3, 0.8});
   const PackLight pack_light = prepare_light(light);
-  const SeenPoints points = {{a[0].data(), a[1].data(), a[2].data(), a[3].data(), a[4].data(), a[5].data(), kCount}, a[6].data(), a[7].data(), a[8].data(), a[9].data()};
+  std::vector<float> alpha;
+  for (const float roughness : a[9]) alpha.push_back(roughness * roughness);
+  const auto arrays = [&](int first) { return VectorArrays{a[first].data(), a[first + 1].data(), a[first + 2].data()}; };
+  const Points points = {kCount, arrays(0), arrays(3), arrays(6), {}, alpha.data()};
   std::vector<float> irradiance(kCount), specular(kCount), grazing(kCount);
   const LtcSums sums = {irradiance.data(), specular.data(), grazing.data()};
   for (Simd simd : available_simd())

@@ -106,8 +106,8 @@ TEST(PhongPacks, AgreeWithScalarFloatForEveryMethodAndInstructionSet) {
       }
       at.push_back({p, c.at.normal, c.at.view});
     }
-    const ViewedPoints points{{a[0].data(), a[1].data(), a[2].data(), a[3].data(), a[4].data(), a[5].data(), 16},
-                              a[6].data(), a[7].data(), a[8].data()};
+    const auto arrays = [&](int first) { return VectorArrays{a[first].data(), a[first + 1].data(), a[first + 2].data()}; };
+    const Points points{16, arrays(0), arrays(3), arrays(6)};
     for (const auto& method : moment::compared_methods()) {
       if (method.options.method == PhongMethod::arvo && n != std::floor(n)) continue;
       for (const Simd simd : available_simd()) {

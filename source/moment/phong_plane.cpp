@@ -63,8 +63,8 @@ PhongPlane make_phong_plane(int width, int height) {
   return plane;
 }
 
-ViewedPoints PhongPlane::points() const {
-  return {{x.data(), y.data(), z.data(), nx.data(), ny.data(), nz.data(), x.size()}, vx.data(), vy.data(), vz.data()};
+Points PhongPlane::points() const {
+  return {x.size(), {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {vx.data(), vy.data(), vz.data()}};
 }
 
 ShadingPoint PhongPlane::at(std::size_t i) const {

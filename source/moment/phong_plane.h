@@ -25,7 +25,7 @@ struct PhongPlane {
   std::size_t count = 0;    // points; the arrays are filled up to a multiple of 16 with copies of the last
   std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz;
 
-  ViewedPoints points() const;
+  Points points() const;
   ShadingPoint at(std::size_t i) const;  // the same numbers in double
 };
 

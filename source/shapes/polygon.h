@@ -1,9 +1,45 @@
-// Polygons as lights.
+// Polygons as lights: which side is lit, and their contours as an outline.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "integrals/outline.h"
 #include "steradian/polygon_light.h"
 
-namespace steradian::shapes {
+namespace steradian::packed {
+
+// In single precision, as packs read it.
+struct Polygon {
+  std::vector<Vec3f> vertices;        // in walk order
+  std::vector<std::size_t> contours;  // as of PreparedPolygon
+  Vec3f normal{}, point{};            // of its plane; the normal to the lit side
+  bool two_sided = false;
+
+  // Whether `use(point, radius)` holds for one of the balls in whose hull the light lies.
+  template <class Use>
+  bool any_bound(Use use) const {
+    return std::any_of(vertices.begin(), vertices.end(), [&](Vec3f v) { return use(v, 0.0f); });
+  }
+};
+
+inline Polygon prepare(const PreparedPolygon& light) {
+  Polygon result;
+  for (const Vec3d& v : light.vertices) result.vertices.push_back(static_cast<Vec3f>(v));
+  result.contours = light.contours;
+  result.normal = static_cast<Vec3f>(light.normal);
+  result.point = static_cast<Vec3f>(light.centroid);
+  result.two_sided = light.two_sided;
+  return result;
+}
+
+}  // namespace steradian::packed
+
+STERADIAN_BEGIN_ISA
+namespace shapes {
+
+using integrals::to_kernel;
 
 // 1 or -1 as the light is seen from the front or the back, 0 where it sends nothing.
 inline int lit_side(const PreparedPolygon& light, Vec3d position) {
@@ -11,4 +47,42 @@ inline int lit_side(const PreparedPolygon& light, Vec3d position) {
   return side < 0 && !light.two_sided ? 0 : side;
 }
 
-}  // namespace steradian::shapes
+// How points see a light. outline: of disks and ellipsoids, relative to the point.
+template <class S>
+struct Seen {
+  Mask<S> lit, reversed;
+  typename Kernels<S>::EllipsoidOutline outline;
+};
+
+template <class S>
+STERADIAN_INLINE Mask<S> nowhere() {
+  return Real<S>(1.0) < Real<S>(0.0);
+}
+
+// Of a flat light: polygon or disk.
+template <class S, class Flat>
+STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {
+  Seen<S> seen;
+  const Real<S> height = dot(p - to_kernel<S>(light.point), to_kernel<S>(light.normal)), zero(0.0);
+  seen.reversed = height < zero;
+  seen.lit = light.two_sided ? seen.reversed || height > zero : height > zero;
+  return seen;
+}
+
+template <class S>
+STERADIAN_INLINE Seen<S> see(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
+  return see_plane<S>(light, p);
+}
+
+template <class S>
+STERADIAN_INLINE auto contours_in(const packed::Polygon& light, const typename Kernels<S>::mat3& frame,
+                                  const typename Kernels<S>::vec3& p) {
+  const auto direction = [&frame, &p](const Vec3f& v) {
+    return Kernels<S>().polygon_direction(transform_transposed(frame, to_kernel<S>(v) - p));
+  };
+  return integrals::Contours<Vec3f, decltype(direction)>{light.vertices.data(), light.contours.data(), light.contours.size() - 1,
+                                                         direction};
+}
+
+}  // namespace shapes
+STERADIAN_END_ISA

@@ -2,28 +2,16 @@
 #pragma once
 
 #include "core/simd.h"
-#include "render/cpu/irradiance.h"
+#include "render/cpu/light_list.h"
+#include "render/cpu/points.h"
 #include "steradian/closed_form.h"
 
 namespace steradian {
 
-// As SurfacePoints, with the lobe: unit views, tangents (zero: any) and widths.
-struct GgxPoints {
-  SurfacePoints surface;
-  const float* vx;
-  const float* vy;
-  const float* vz;
-  const float* tx;
-  const float* ty;
-  const float* tz;
-  const float* alpha_x;
-  const float* alpha_y;
-};
-
 struct ClosedFormTable {
   // Radiance towards the views for radiance 1 with shadowing: into `plain` with F = 1, into `fresnel` with
   // F = (1 - v.h)^5. A channel is f0 (plain - fresnel) + f90 fresnel.
-  void (*ggx)(const PackLight& light, const GgxPoints& points, Quality quality, float* plain, float* fresnel);
+  void (*ggx)(const PackLight& light, const Points& points, Quality quality, float* plain, float* fresnel);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(ClosedFormTable, closed_form_table)

@@ -1,33 +1,30 @@
 #include "render/cpu/closed_form.h"
 
 #include "integrals/ggx.h"
-#include "render/cpu/polygon_pack.h"
+#include "render/cpu/seen_light_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
 
-__attribute__((flatten)) void ggx(const PackLight& light, const GgxPoints& points, Quality quality, float* plain,
+__attribute__((flatten)) void ggx(const PackLight& light, const Points& points, Quality quality, float* plain,
                                float* fresnel) {
   PackKernels k;
-  const SurfacePoints& surface = points.surface;
   integrals::Ggx<Pack> integral;
   integral.quality = quality;
-  for (std::size_t i = 0; i < surface.count; i += kLanes) {
-    const PackVec3 p(load(surface.x + i), load(surface.y + i), load(surface.z + i));
-    const PackVec3 n(load(surface.nx + i), load(surface.ny + i), load(surface.nz + i));
-    const PackVec3 v(load(points.vx + i), load(points.vy + i), load(points.vz + i));
+  for (std::size_t i = 0; i < points.count; i += kLanes) {
+    const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
     const SeenLight seen(light, p);
-    if (!any_lane(seen.lit && dot(n, v) > PackReal(0.0))) {
+    if (!any_lane(seen.seen.lit && dot(n, v) > PackReal(0.0))) {
       store(plain + i, PackReal(0.0));
       store(fresnel + i, PackReal(0.0));
       continue;
     }
     // x along the tangent as far as it is perpendicular to the normal; any x where it is not.
-    const auto frame = k.frame_from_normal_and_view(n, PackVec3(load(points.tx + i), load(points.ty + i), load(points.tz + i)));
+    const auto frame = k.frame_from_normal_and_view(n, load(points.tangent, i));
     const PackVec3 view = transform_transposed(frame, v);
     integral.alpha_x = load(points.alpha_x + i);
     integral.alpha_y = load(points.alpha_y + i);
-    const PackLobe lobe = {k.phong_mirror(view), PackReal(2.0) * max(integral.alpha_x, integral.alpha_y),
+    const AboutLobe lobe = {k.phong_mirror(view), PackReal(2.0) * max(integral.alpha_x, integral.alpha_y),
                            quality == Quality::high ? 16 : 12};
     const auto r = integrate(AnyOutline{{seen, frame, p, lobe}}, seen.shading(view), integral);
     store(plain + i, r.x);

@@ -14,7 +14,7 @@ struct DirectTable {
   // Adds albedo / pi times the irradiance of the lights to tile.radiance.
   void (*add_diffuse)(SurfaceTile& tile, const PackLight* const* lights, std::size_t light_count);
   // Radiance of GGX towards the views under a punctual light of intensity 1: see ClosedFormTable.
-  void (*punctual_ggx)(const PackLight& light, const GgxPoints& points, float* plain, float* fresnel);
+  void (*punctual_ggx)(const PackLight& light, const Points& points, float* plain, float* fresnel);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(DirectTable, direct_table)

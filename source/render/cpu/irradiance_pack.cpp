@@ -1,16 +1,16 @@
 #include "render/cpu/irradiance.h"
-#include "render/cpu/polygon_pack.h"
+#include "render/cpu/seen_light_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
 
-__attribute__((flatten)) void irradiance(const PackLight& light, const SurfacePoints& points, float* result) {
+__attribute__((flatten)) void irradiance(const PackLight& light, const Points& points, float* result) {
   PackKernels k;
   for (std::size_t i = 0; i < points.count; i += kLanes) {
-    const PackVec3 p(load(points.x + i), load(points.y + i), load(points.z + i));
-    const PackVec3 n(load(points.nx + i), load(points.ny + i), load(points.nz + i));
+    const PackVec3 p = load(points.position, i);
     const SeenLight seen(light, p);
-    store(result + i, any_lane(seen.lit) ? area_light_irradiance(seen, k.frame_from_normal(n), p) : PackReal(0.0));
+    const bool lit = any_lane(seen.seen.lit);
+    store(result + i, lit ? irradiance_vector(seen, k.frame_from_normal(load(points.normal, i)), p).z : PackReal(0.0));
   }
 }
 

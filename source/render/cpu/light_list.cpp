@@ -9,83 +9,25 @@
 namespace steradian {
 namespace {
 
-Vec3f single(Vec3d v) { return static_cast<Vec3f>(v); }
-
-// Three axes of one length, at right angles, up to the rounding of a node's rotation.
-bool is_ball(const AreaLight& a) {
-  const double r2 = dot(a.x, a.x), least = 1e-6 * r2;
-  const auto off = [&](double x) { return std::fabs(x) > least; };
-  return !off(dot(a.y, a.y) - r2) && !off(dot(a.z, a.z) - r2) && !off(dot(a.x, a.y)) && !off(dot(a.y, a.z)) && !off(dot(a.z, a.x));
-}
-
-PackLight from_ellipsoid(const AreaLight& a) {
-  PackLight light;
-  light.kind = PackLight::Kind::ellipsoid;
-  light.radiance = single(a.polygon.radiance);
-  light.center = single(a.center);
-  light.axis_x = single(a.x);
-  light.axis_y = single(a.y);
-  light.axis_z = single(a.z);
-  const double det = dot(a.x, cross(a.y, a.z));
-  light.unit_x = single(cross(a.y, a.z) / det);
-  light.unit_y = single(cross(a.z, a.x) / det);
-  light.unit_z = single(cross(a.x, a.y) / det);
-  if (is_ball(a)) {
-    light.radius = static_cast<float>(length(a.x));
-    light.end_a = light.end_b = light.center;
-  }
-  return light;
-}
-
-PackLight from_disk(const AreaLight& a) {
-  PackLight light;
-  light.kind = PackLight::Kind::ellipse;
-  light.radiance = single(a.polygon.radiance);
-  light.two_sided = a.polygon.two_sided;
-  light.center = light.plane_point = single(a.center);
-  light.axis_x = single(a.x);
-  light.axis_y = single(a.y);
-  const Vec3d normal = cross(a.x, a.y);
-  light.plane_normal = single(normal / length(normal));  // not a number where it has no area
-  return light;
-}
-
-PackLight from_capsule(const AreaLight& a) {
-  PackLight light;
-  light.kind = PackLight::Kind::capsule;
-  light.radiance = single(a.polygon.radiance);
-  light.end_a = single(capsule_of(a).end_a);
-  light.end_b = single(capsule_of(a).end_b);
-  light.radius = static_cast<float>(a.radius);
-  return light;
-}
-
 PackLight from_area_light(const AreaLight& a) {
-  switch (a.shape) {
-    case LightShape::disk: return from_disk(a);
-    case LightShape::sphere: return from_ellipsoid(a);
-    case LightShape::capsule: return from_capsule(a);
-    case LightShape::polygon: break;
-  }
-  return prepare_light(prepare_polygon(a.polygon));
-}
-
-PackLight from_punctual(const PunctualLight& p) {
   PackLight light;
-  light.kind = p.kind == PunctualKind::point  ? PackLight::Kind::point
-               : p.kind == PunctualKind::spot ? PackLight::Kind::spot
-                                              : PackLight::Kind::directional;
-  light.radiance = single(p.intensity);
-  light.position = single(p.position);
-  light.direction = single(p.direction);
-  if (std::isfinite(p.range) && p.range > 0) light.inverse_range2 = static_cast<float>(1 / (p.range * p.range));
-  if (p.kind == PunctualKind::spot) {  // KHR_lights_punctual, "inner and outer cone angles"
-    const double scale = 1 / std::max(0.001, p.cos_inner - p.cos_outer);
-    light.spot_scale = static_cast<float>(scale);
-    light.spot_offset = static_cast<float>(-p.cos_outer * scale);
+  switch (a.shape) {
+    case LightShape::polygon: light = prepare_light(prepare_polygon(a.polygon)); break;
+    case LightShape::disk: light.shape = packed::prepare_disk(a); break;
+    case LightShape::sphere: light.shape = packed::prepare_ellipsoid(a); break;
+    case LightShape::capsule: light.shape = packed::prepare_capsule(capsule_of(a)); break;
   }
+  light.radiance = static_cast<Vec3f>(a.polygon.radiance);
+  light.area = &a;
   return light;
 }
+
+// Whether it has an area or a volume.
+bool has_extent(const packed::Polygon& light) { return !light.vertices.empty(); }
+bool has_extent(const packed::Disk& light) { return is_finite(light.normal); }
+bool has_extent(const packed::Ellipsoid& light) { return is_finite(light.inverse_x); }
+bool has_extent(const packed::Capsule& light) { return light.radius > 0; }
+bool has_extent(const packed::Punctual&) { return true; }
 
 struct Interval {
   float low = INFINITY, high = -INFINITY;
@@ -128,66 +70,54 @@ Interval heights(const Box& box, Vec3f normal, Vec3f point) {
   return h;
 }
 
+bool faces(const auto& flat, const Box& positions) {
+  return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0;
+}
+bool faces(const packed::Ellipsoid&, const Box&) { return true; }
+bool faces(const packed::Capsule&, const Box&) { return true; }
+bool faces(const packed::Punctual&, const Box&) { return true; }
+
 bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
-  switch (light.kind) {
-    case PackLight::Kind::polygon: {
-      if (!light.two_sided && heights(positions, light.plane_normal, light.plane_point).high <= 0) return false;
-      return std::any_of(light.vertices.begin(), light.vertices.end(),
-                         [&](Vec3f v) { return largest_height(v, positions, normals) > 0; });
-    }
-    case PackLight::Kind::ellipse:
-      if (!light.two_sided && heights(positions, light.plane_normal, light.plane_point).high <= 0) return false;
-      [[fallthrough]];  // axis_z is 0
-    case PackLight::Kind::ellipsoid:
-      for (int i = 0; i < 8; ++i) {  // corners of the box around the ellipsoid
-        const Vec3f v = light.center + light.axis_x * ((i & 1) != 0 ? 1.0f : -1.0f) +
-                        light.axis_y * ((i & 2) != 0 ? 1.0f : -1.0f) + light.axis_z * ((i & 4) != 0 ? 1.0f : -1.0f);
-        if (largest_height(v, positions, normals) > 0) return true;
-      }
-      return false;
-    case PackLight::Kind::capsule:
-      return std::max(largest_height(light.end_a, positions, normals), largest_height(light.end_b, positions, normals)) >
-             -light.radius;
-    case PackLight::Kind::point:
-    case PackLight::Kind::spot: return largest_height(light.position, positions, normals) > 0;
-    case PackLight::Kind::directional: {
-      const Interval zero{0, 0};
-      return largest_height(-light.direction, {zero, zero, zero}, normals) > 0;
-    }
+  if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape); punctual != nullptr && punctual->kind == PunctualKind::directional) {
+    const Interval zero{0, 0};
+    return largest_height(-static_cast<Vec3f>(punctual->direction), {zero, zero, zero}, normals) > 0;
   }
-  return true;
+  return std::visit(
+      [&](const auto& shape) {
+        return faces(shape, positions) &&
+               shape.any_bound([&](Vec3f point, float radius) { return largest_height(point, positions, normals) > -radius; });
+      },
+      light.shape);
 }
 
 }  // namespace
 
 PackLight prepare_light(const PreparedPolygon& polygon) {
   PackLight light;
+  light.shape = packed::prepare(polygon);
   light.polygon = polygon;
-  light.radiance = single(polygon.radiance);
-  for (const Vec3d& v : polygon.vertices) light.vertices.push_back(single(v));
-  light.contours = polygon.contours;
-  light.plane_normal = single(polygon.normal);
-  light.plane_point = single(polygon.centroid);
-  light.two_sided = polygon.two_sided;
+  light.radiance = static_cast<Vec3f>(polygon.radiance);
   return light;
 }
 
 std::vector<PackLight> prepare_lights(const Scene& scene) {
   std::vector<PackLight> lights;
-  const auto shines = [](Vec3f r) { return r.x > 0 || r.y > 0 || r.z > 0; };
+  const auto add = [&](PackLight light) {
+    const Vec3f& r = light.radiance;
+    const bool shines = r.x > 0 || r.y > 0 || r.z > 0;
+    if (shines && std::visit([](const auto& shape) { return has_extent(shape); }, light.shape)) lights.push_back(std::move(light));
+  };
   for (const AreaLight& a : scene.area_lights) {
     PackLight light = from_area_light(a);
-    light.area = &a;
-    if (light.kind == PackLight::Kind::polygon && light.vertices.empty()) continue;
-    if (light.kind == PackLight::Kind::capsule && !(light.radius > 0)) continue;
-    if (!is_finite(light.unit_x) || !is_finite(light.plane_normal) || !shines(light.radiance)) continue;
-    if (a.texture && a.texture->use.present())
+    if (a.texture && a.texture->use.present() && !light.polygon.vertices.empty())
       light.textured = std::make_shared<TexturedLight>(a, light.polygon, scene.images);
-    lights.push_back(std::move(light));
+    add(std::move(light));
   }
   for (const PunctualLight& p : scene.punctual_lights) {
-    PackLight light = from_punctual(p);
-    if (shines(light.radiance)) lights.push_back(std::move(light));
+    PackLight light;
+    light.shape = packed::prepare(p);
+    light.radiance = static_cast<Vec3f>(p.intensity);
+    add(std::move(light));
   }
   return lights;
 }

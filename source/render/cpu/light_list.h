@@ -2,9 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "render/cpu/tile.h"
+#include "shapes/capsule.h"
+#include "shapes/ellipse.h"
+#include "shapes/punctual.h"
 #include "steradian/scene.h"
 
 namespace steradian {
@@ -12,34 +16,26 @@ namespace steradian {
 class TexturedLight;
 
 struct PackLight {
-  enum class Kind { polygon, ellipse, ellipsoid, capsule, point, spot, directional };
-  Kind kind = Kind::polygon;
-  bool is_area() const { return kind == Kind::polygon || is_round(); }
-  bool is_round() const { return kind == Kind::ellipse || kind == Kind::ellipsoid || kind == Kind::capsule; }
+  std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual> shape;
+  Vec3f radiance{};                 // punctual lights: intensity (illuminance for directional)
   const AreaLight* area = nullptr;  // what it was made of; null for punctual lights
   PreparedPolygon polygon;          // polygon, in double
   std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
 
-  Vec3f radiance{};  // punctual lights: intensity (illuminance for directional)
+  bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
+  bool is_area() const { return !std::holds_alternative<packed::Punctual>(shape); }
+  bool is_round() const { return !is_polygon() && is_area(); }
 
-  // polygon, in walk order
-  std::vector<Vec3f> vertices;
-  std::vector<std::size_t> contours;
-  Vec3f plane_normal{}, plane_point{};  // of an ellipse too
-  bool two_sided = false;
-
-  // ellipse: centre and half axes. ellipsoid: the same, and the rows of the matrix that takes it to the unit sphere
-  Vec3f center{}, axis_x{}, axis_y{}, axis_z{};
-  Vec3f unit_x{}, unit_y{}, unit_z{};
-
-  // capsule. An ellipsoid that is a ball is one, too, without length: its irradiance is the quicker
-  Vec3f end_a{}, end_b{};
-  float radius = 0;
-
-  // punctual
-  Vec3f position{}, direction{};
-  float inverse_range2 = 0;  // 1 / range^2, 0 without a limit
-  float spot_scale = 0, spot_offset = 1;
+  // Calls use(shape) with the shape of a round light.
+  template <class Use>
+  STERADIAN_INLINE void with_round(Use use) const {
+    if (const auto* disk = std::get_if<packed::Disk>(&shape))
+      use(*disk);
+    else if (const auto* ellipsoid = std::get_if<packed::Ellipsoid>(&shape))
+      use(*ellipsoid);
+    else
+      use(*std::get_if<packed::Capsule>(&shape));
+  }
 };
 
 PackLight prepare_light(const PreparedPolygon& polygon);

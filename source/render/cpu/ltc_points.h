@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "core/simd.h"
-#include "render/cpu/irradiance.h"
+#include "render/cpu/light_list.h"
+#include "render/cpu/points.h"
 
 namespace steradian {
 
@@ -23,15 +24,6 @@ LtcPackTables ltc_classic_pack_tables();
 LtcPackTables ltc_compact_pack_tables();
 LtcPackTables ltc_sheen_pack_tables();
 
-// Surface points that are seen from somewhere. All arrays hold at.count floats.
-struct SeenPoints {
-  SurfacePoints at;
-  const float* vx;  // unit views
-  const float* vy;
-  const float* vz;
-  const float* roughness;  // perceptual
-};
-
 // What light of radiance 1 does to every point.
 struct LtcSums {
   float* irradiance;  // in [0, pi]; null: not wanted
@@ -40,10 +32,10 @@ struct LtcSums {
 };
 
 struct LtcPackTable {
-  void (*classic)(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums);
-  void (*compact)(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums);
+  void (*classic)(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums);
+  void (*compact)(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums);
   // Charlie's lobe of colour 1: its specular; it has no grazing.
-  void (*sheen)(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums);
+  void (*sheen)(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(LtcPackTable, ltc_pack_table)

@@ -1,6 +1,6 @@
 #include "integrals/ltc.h"
 #include "render/cpu/ltc_points.h"
-#include "render/cpu/polygon_pack.h"
+#include "render/cpu/seen_light_pack.h"
 #include "render/cpu/table_pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -35,20 +35,17 @@ __attribute__((flatten, noinline)) Both integrate_polygon(const SeenLight& seen,
 
 template <bool with_diffuse>
 __attribute__((flatten, noinline)) Both integrate_round(const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
-                                                        const PackVec3& view, const Lobe& lobe, const PackLobe& about) {
+                                                        const PackVec3& view, const Lobe& lobe, const AboutLobe& about) {
   return integrate_over<with_diffuse>(RoundOutline{seen, frame, p, about}, seen.shading(view), lobe);
 }
 
 template <bool with_diffuse, class Decode>
-STERADIAN_INLINE void run(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums,
+STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums,
                           Decode decode) {
   PackKernels k;
-  const SurfacePoints& at = points.at;
-  for (std::size_t i = 0; i < at.count; i += kLanes) {
-    const PackVec3 p(load(at.x + i), load(at.y + i), load(at.z + i));
-    const PackVec3 n(load(at.nx + i), load(at.ny + i), load(at.nz + i));
-    const PackVec3 v(load(points.vx + i), load(points.vy + i), load(points.vz + i));
-    const PackReal roughness = load(points.roughness + i);
+  for (std::size_t i = 0; i < points.count; i += kLanes) {
+    const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
+    const PackReal roughness = sqrt(load(points.alpha_x + i));
     const auto frame = k.frame_from_normal_and_view(n, v);
     const PackReal c = dot(n, v);
     const PackVec3 view(dot(frame.c0, v), PackReal(0.0), c);
@@ -59,8 +56,8 @@ STERADIAN_INLINE void run(const PackLight& light, const SeenPoints& points, cons
 
     const SeenLight seen(light, p);
     Both both = {PackReal(0.0), {PackReal(0.0), PackReal(0.0)}};
-    if (any_lane(seen.lit)) {
-      const PackLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
+    if (any_lane(seen.seen.lit)) {
+      const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
       both = light.is_round() ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
                               : integrate_polygon<with_diffuse>(seen, frame, p, view, lobe);
     }
@@ -71,7 +68,7 @@ STERADIAN_INLINE void run(const PackLight& light, const SeenPoints& points, cons
 }
 
 template <class Decode>
-STERADIAN_INLINE void run(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables, const LtcSums& sums,
+STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums,
                           Decode decode) {
   if (sums.irradiance != nullptr)
     run<true>(light, points, tables, sums, decode);
@@ -79,19 +76,19 @@ STERADIAN_INLINE void run(const PackLight& light, const SeenPoints& points, cons
     run<false>(light, points, tables, sums, decode);
 }
 
-__attribute__((flatten)) void classic(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables,
+__attribute__((flatten)) void classic(const PackLight& light, const Points& points, const LtcPackTables& tables,
                                       const LtcSums& sums) {
   run(light, points, tables, sums, [](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
 }
 
-__attribute__((flatten)) void compact(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables,
+__attribute__((flatten)) void compact(const PackLight& light, const Points& points, const LtcPackTables& tables,
                                       const LtcSums& sums) {
   run(light, points, tables, sums, [](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
     return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
   });
 }
 
-__attribute__((flatten)) void sheen(const PackLight& light, const SeenPoints& points, const LtcPackTables& tables,
+__attribute__((flatten)) void sheen(const PackLight& light, const Points& points, const LtcPackTables& tables,
                                     const LtcSums& sums) {
   run<false>(light, points, tables, sums, [](const PackKernels::vec4& e, PackReal, const PackVec3&) {
     return PackKernels{}.ltc_from_compact(e, PackReal(1.0), PackVec3(0.0, 0.0, 1.0));

@@ -7,6 +7,8 @@
 #include "reference/azimuth_sampler.h"
 #include "reference/lobe.h"
 #include "reference/spherical_region.h"
+#include "shapes/polygon.h"
+#include "shapes/punctual.h"
 #include "steradian/capsule_light.h"
 
 namespace steradian {
@@ -14,29 +16,6 @@ namespace {
 
 using reference::AzimuthSampler;
 using reference::Lobe;
-
-double saturate(double x) { return std::clamp(x, 0.0, 1.0); }
-
-// Intensity towards p over distance squared, and the unit direction to the light (KHR_lights_punctual).
-struct Incident {
-  Vec3d irradiance;  // across the direction
-  Vec3d direction;
-  Vec3d origin;
-};
-Incident punctual_incident(const PunctualLight& light, Vec3d p) {
-  if (light.kind == PunctualKind::directional) return {light.intensity, -light.direction, p - light.direction * 1e6};
-  const Vec3d to = light.position - p;
-  const double d2 = std::max(dot(to, to), 1e-12);
-  const Vec3d direction = to / std::sqrt(d2);
-  double f = 1 / d2;
-  if (std::isfinite(light.range)) f *= saturate(1 - d2 * d2 / std::pow(light.range, 4));
-  if (light.kind == PunctualKind::spot) {
-    const double scale = 1 / std::max(0.001, light.cos_inner - light.cos_outer);
-    const double c = saturate((-dot(light.direction, direction) - light.cos_outer) * scale);
-    f *= c * c;
-  }
-  return {light.intensity * f, direction, light.position};
-}
 
 // Sum over the lobes; radiance of a unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
@@ -91,11 +70,12 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
   if (lobes.empty()) return result;
 
   for (const PunctualLight& light : scene_.punctual_lights) {
-    const Incident incident = punctual_incident(light, p);
-    const Vec3d l = frame.to_local(incident.direction);
+    const auto incident = shapes::incident<double>(packed::prepare(light), shapes::to_kernel<double>(p));
+    const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v}, l = frame.to_local(to);
     if (l.z <= 0) continue;
-    if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(incident.origin))) continue;
-    result.mean += incident.irradiance * evaluate(lobes, l);
+    const Vec3d origin = light.kind == PunctualKind::directional ? p + to * 1e6 : light.position;
+    if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(origin))) continue;
+    result.mean += light.intensity * incident.irradiance.v * evaluate(lobes, l);
   }
 
   for (const Light& light : lights_) {

@@ -30,12 +30,6 @@ namespace {
 
 constexpr double kCoatF0 = 0.04;
 
-SurfacePoints points_of(const SurfaceTile& tile) {
-  return {tile.position.x.data(), tile.position.y.data(), tile.position.z.data(),
-          tile.normal.x.data(),   tile.normal.y.data(),   tile.normal.z.data(),
-          kTilePixels};
-}
-
 Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 void add_to(TileVector& v, std::size_t i, Vec3f a) {
@@ -91,10 +85,10 @@ std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
 
 // The light as the point sees it: round ones as a polygon about the lobe. No vertices: it does not shine there.
 PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const Material& material, Quality quality) {
-  if (light.kind == PackLight::Kind::polygon) return light.polygon;
+  if (light.is_polygon()) return light.polygon;
   const int corners = quality == Quality::high ? 16 : 12;
   PolygonLight seen;
-  if (light.kind == PackLight::Kind::capsule) {
+  if (light.area->shape == LightShape::capsule) {
     seen = polygon_for_lobe(capsule_of(*light.area), at.position, lobe_axis(material, at), corners);
   } else if (const std::optional<Ellipse> outline = outline_at(*light.area, at.position)) {
     seen = polygon_for_lobe(*outline, at.position, lobe_axis(material, at), corners);
@@ -140,24 +134,12 @@ Vec3d point_radiance(const Method& method, const PackLight& light, const Shading
 
 // The same under a punctual light: the lobe in one direction.
 Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, const Material& material) {
-  Vec3d to = -static_cast<Vec3d>(light.direction);
-  double e = 1;
-  if (light.kind != PackLight::Kind::directional) {
-    const Vec3d d = static_cast<Vec3d>(light.position) - at.position;
-    const double d2 = std::max(dot(d, d), 1e-12), q = d2 * static_cast<double>(light.inverse_range2);
-    to = d / std::sqrt(d2);
-    e = std::clamp(1 - q * q, 0.0, 1.0) / d2;
-    if (light.kind == PackLight::Kind::spot) {
-      const double f = std::clamp(-dot(static_cast<Vec3d>(light.direction), to) * static_cast<double>(light.spot_scale) +
-                                      static_cast<double>(light.spot_offset),
-                                  0.0, 1.0);
-      e *= f * f;
-    }
-  }
+  const auto incident = shapes::incident<double>(*std::get_if<packed::Punctual>(&light.shape), shapes::to_kernel<double>(at.position));
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const reference::Lobe lobe(material, frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
-  return lobe.radiance(lobe.evaluate(frame.to_local(to))) * static_cast<Vec3d>(light.radiance) * e;
+  const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v};
+  return lobe.radiance(lobe.evaluate(frame.to_local(to))) * static_cast<Vec3d>(light.radiance) * incident.irradiance.v;
 }
 
 }  // namespace
@@ -171,15 +153,13 @@ SpecularPass::SpecularPass(const Method& method)
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == LobeMethod::ltc || method_.ggx == LobeMethod::ltc_compact;
-  return ltc && tile.any_specular && tile.any_diffuse && light.kind == PackLight::Kind::polygon && light.textured == nullptr;
+  return ltc && tile.any_specular && tile.any_diffuse && light.is_polygon() && light.textured == nullptr;
 }
 
 // False where the method does not run on packs.
 bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light,
                                  const LtcSums& sums) const {
-  const GgxPoints points = {points_of(tile),         tile.view.x.data(),    tile.view.y.data(),
-                            tile.view.z.data(),      tile.tangent.x.data(), tile.tangent.y.data(),
-                            tile.tangent.z.data(),   lobe.alpha_x.data(),   lobe.alpha_y.data()};
+  const Points points = points_of(tile, lobe.alpha_x, lobe.alpha_y);
   if (!light.is_area()) {
     direct_table_for(active_simd()).punctual_ggx(light, points, sums.specular, sums.grazing);
     return true;
@@ -189,11 +169,8 @@ bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, cons
     return true;
   }
   if (method_.ggx != LobeMethod::ltc && method_.ggx != LobeMethod::ltc_compact) return false;
-  alignas(64) TilePlane roughness;
-  for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(lobe.alpha_x[i]);
-  const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
   const LtcPackTable& table = ltc_pack_table_for(active_simd());
-  (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(light, seen, tables_, sums);
+  (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(light, points, tables_, sums);
   return true;
 }
 
@@ -237,12 +214,10 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
 
 // By its table whatever the method of GGX: nobody has a closed form for it.
 void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
-  alignas(64) TilePlane plain, grazing, roughness;
-  for (std::size_t i = 0; i < kTilePixels; ++i) roughness[i] = std::sqrt(tile.sheen_alpha[i]);
-  const SeenPoints seen = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data(), roughness.data()};
+  alignas(64) TilePlane plain, grazing;
   for (const PackLight* light : lights) {
     if (light->is_area()) {
-      ltc_pack_table_for(active_simd()).sheen(*light, seen, sheen_tables_, {nullptr, plain.data(), grazing.data()});
+      ltc_pack_table_for(active_simd()).sheen(*light, points_of(tile, tile.sheen_alpha, tile.sheen_alpha), sheen_tables_, {nullptr, plain.data(), grazing.data()});
       for (std::size_t i = 0; i < kTilePixels; ++i) add_to(tile.radiance, i, get(tile.sheen, i) * light->radiance * plain[i]);
       continue;
     }
@@ -262,12 +237,11 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
     for (const Material& material : surface->specular_override) {
       if (material.brdf == Brdf::lambert) continue;
       for (const PackLight* light : lights) {
-        if (material.brdf == Brdf::phong && light->kind == PackLight::Kind::polygon) {
+        if (material.brdf == Brdf::phong && light->is_polygon()) {
           alignas(64) TilePlane result;
-          const ViewedPoints points = {points_of(tile), tile.view.x.data(), tile.view.y.data(), tile.view.z.data()};
           const PhongQuality quality = method_.quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
           phong_table_for(active_simd())
-              .radiance(*light, points, material.exponent, {phong_method(method_.phong), quality}, result.data());
+              .radiance(*light, points_of(tile), material.exponent, {phong_method(method_.phong), quality}, result.data());
           const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
           for (std::size_t i = 0; i < kTilePixels; ++i)
             if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);

@@ -18,13 +18,10 @@ std::vector<const PackLight*> without_textured(const std::vector<const PackLight
 }
 
 void add_diffuse_from_textured(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-  const SurfacePoints points = {tile.position.x.data(), tile.position.y.data(), tile.position.z.data(),
-                                tile.normal.x.data(),   tile.normal.y.data(),   tile.normal.z.data(),
-                                kTilePixels};
   alignas(64) TilePlane irradiance;
   for (const PackLight* light : lights) {
     if (light->textured == nullptr) continue;
-    irradiance_table_for(active_simd()).irradiance(*light, points, irradiance.data());
+    irradiance_table_for(active_simd()).irradiance(*light, points_of(tile), irradiance.data());
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       if (tile.material[i] == nullptr || !(irradiance[i] > 0)) continue;
       const Vec3f albedo{tile.albedo.x[i], tile.albedo.y[i], tile.albedo.z[i]};

@@ -1,0 +1,31 @@
+// Points: surface points as packs read them, a structure of arrays.
+#pragma once
+
+#include <cstddef>
+
+#include "render/cpu/tile.h"
+
+namespace steradian {
+
+struct VectorArrays {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;
+};
+
+// All arrays hold `count` floats, and `count` is a multiple of 16 (repeat the last point). What a function does not read may
+// be null.
+struct Points {
+  std::size_t count = 0;
+  VectorArrays position, normal, view;     // unit normals and views
+  VectorArrays tangent = {};               // of alpha_x; zero: any
+  const float *alpha_x = nullptr, *alpha_y = nullptr;  // a lobe's widths; an isotropic one's is alpha_x
+};
+
+inline VectorArrays arrays_of(const TileVector& v) { return {v.x.data(), v.y.data(), v.z.data()}; }
+
+// Every slot of a tile, with one lobe's widths.
+inline Points points_of(const SurfaceTile& tile, const TilePlane& alpha_x, const TilePlane& alpha_y) {
+  return {kTilePixels, arrays_of(tile.position), arrays_of(tile.normal), arrays_of(tile.view), arrays_of(tile.tangent), alpha_x.data(), alpha_y.data()};
+}
+inline Points points_of(const SurfaceTile& tile) { return points_of(tile, tile.alpha_x, tile.alpha_y); }
+
+}  // namespace steradian

@@ -1,0 +1,84 @@
+// Capsules (tubes) as lights.
+#pragma once
+
+#include <array>
+
+#include "shapes/polygon.h"
+#include "steradian/area_light.h"
+
+namespace steradian::packed {
+
+struct Capsule {
+  Vec3f end_a{}, end_b{};
+  float radius = 0;
+
+  template <class Use>
+  bool any_bound(Use use) const {
+    return use(end_a, radius) || use(end_b, radius);
+  }
+};
+
+inline Capsule prepare_capsule(const steradian::Capsule& c) {
+  return {static_cast<Vec3f>(c.end_a), static_cast<Vec3f>(c.end_b), static_cast<float>(c.radius)};
+}
+
+}  // namespace steradian::packed
+
+STERADIAN_BEGIN_ISA
+namespace shapes {
+
+// A lobe as the polygons of round lights need it: its axis in the shading frame, its width [rad], and how many corners.
+template <class S>
+struct AboutLobe {
+  typename Kernels<S>::vec3 axis;
+  Real<S> width;
+  int corners;  // 12, or 16 for high quality (docs/ggx.md)
+};
+inline constexpr std::size_t kMostCorners = 16;
+
+// From the point p in the shading frame, in units of its distance.
+template <class S>
+STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
+  const auto a = transform_transposed(frame, to_kernel<S>(light.end_a) - p);
+  const auto b = transform_transposed(frame, to_kernel<S>(light.end_b) - p);
+  const Real<S> radius(static_cast<double>(light.radius));
+  const Real<S> unit = inversesqrt(max(dot(a, a) + dot(b, b) + radius * radius, Real<S>(1.0e-30)));
+  return Kernels<S>().capsule_prepare(a * unit, b * unit, radius * unit);
+}
+
+// Functions of their own: inlined, they would take registers from the walks of polygons.
+template <class S>
+__attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
+  using vec3 = typename Kernels<S>::vec3;
+  Seen<S> seen;
+  seen.lit = capsule_in<S>(light, typename Kernels<S>::mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)), p).outside;
+  seen.reversed = nowhere<S>();
+  return seen;
+}
+
+template <class S>
+__attribute__((flatten, noinline)) typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light, const Seen<S>&,
+                                                                               const typename Kernels<S>::mat3& frame,
+                                                                               const typename Kernels<S>::vec3& p) {
+  return Kernels<S>().capsule_irradiance_vector(capsule_in<S>(light, frame, p));
+}
+
+template <class S>
+__attribute__((flatten, noinline)) void fill_corners(const packed::Capsule& light, const AboutLobe<S>& lobe,
+                                                     const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p,
+                                                     std::array<typename Kernels<S>::vec3, kMostCorners>& corners) {
+  Kernels<S> k;
+  const auto fan = k.capsule_fan(capsule_in<S>(light, frame, p), lobe.axis, lobe.width, lobe.corners);
+  for (int i = 0; i < lobe.corners; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.capsule_fan_corner(fan, i));
+}
+
+template <class S, class Use>
+STERADIAN_INLINE void with_corners(const packed::Capsule& light, const Seen<S>&, const AboutLobe<S>& lobe,
+                                   const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p, Use use) {
+  std::array<typename Kernels<S>::vec3, kMostCorners> corners;
+  fill_corners<S>(light, lobe, frame, p, corners);
+  use([&](int i) { return corners[static_cast<std::size_t>(i)]; });
+}
+
+}  // namespace shapes
+STERADIAN_END_ISA
