@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "eval/curved_light.h"
 #include "eval/point_light.h"
 #include "steradian/error.h"
 #include "steradian/polygon_derivatives.h"
@@ -82,8 +83,7 @@ Answer evaluate(const Query& query) {
   const bool seen = dot(at.normal, at.view) > 0.0;
   MethodOptions options = {query.precision, query.quality, query.spp, query.seed};
 
-  const auto* round = std::get_if<RoundLight>(&query.light);
-  const auto* capsule = std::get_if<CapsuleLight>(&query.light);
+  const auto* curved = std::get_if<CurvedLight>(&query.light);
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
   if (query.derivatives && polygon == nullptr)
@@ -96,10 +96,8 @@ Answer evaluate(const Query& query) {
       sum.add(entry, LobeAnswer{});
     else if (polygon != nullptr)
       sum.add(entry, entry.polygon(prepared, at, material, options));
-    else if (round != nullptr)
-      sum.add(entry, round_light_answer(*round, at, material, entry, options));
-    else if (capsule != nullptr)
-      sum.add(entry, capsule_light_answer(*capsule, at, material, entry, options));
+    else if (curved != nullptr)
+      sum.add(entry, curved_light_answer(*curved, at, material, entry, options));
     else
       sum.add(entry, point_answer(std::get<PointLight>(query.light), at, material, entry.method));
     options.seed += 0x9e3779b97f4a7c15u;  // far from the seeds that people choose

@@ -76,10 +76,10 @@ Light rect_of(LightKeys&& k) {
   return std::move(k.polygon);
 }
 Light disk_of(LightKeys&& k) {
-  return RoundLight{LightShape::disk, k.center, k.x, k.y, {}, k.polygon.radiance, k.polygon.two_sided};
+  return CurvedLight{Ellipse{k.center, k.x, k.y}, k.polygon.radiance, k.polygon.two_sided};
 }
 Light ellipsoid_of(LightKeys&& k) {
-  return RoundLight{LightShape::sphere, k.center, k.x, k.y, k.z, k.polygon.radiance, false};
+  return CurvedLight{Ellipsoid{k.center, k.x, k.y, k.z}, k.polygon.radiance};
 }
 Light sphere_of(LightKeys&& k) {
   k.x = {k.radius, 0, 0};
@@ -88,7 +88,7 @@ Light sphere_of(LightKeys&& k) {
   return ellipsoid_of(std::move(k));
 }
 Light capsule_of(LightKeys&& k) {
-  return CapsuleLight{{k.shape.end_a, k.shape.end_b, k.radius}, k.polygon.radiance};
+  return CurvedLight{capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k.polygon.radiance};
 }
 Light point_of(LightKeys&& k) { return k.point_light; }
 

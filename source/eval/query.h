@@ -8,9 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "eval/capsule_light.h"
 #include "eval/methods.h"
-#include "eval/round_light.h"
+#include "shapes/shape.h"
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
 
@@ -21,7 +20,7 @@ struct PointLight {
   Vec3d intensity{1, 1, 1};  // W/sr or candela, linear RGB
 };
 
-using Light = std::variant<PolygonLight, RoundLight, CapsuleLight, PointLight>;
+using Light = std::variant<PolygonLight, CurvedLight, PointLight>;
 
 struct Query {
   Light light;

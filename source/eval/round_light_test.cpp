@@ -1,5 +1,5 @@
 // Round lights in `steradian eval`: form factors against closed forms, every lobe against the reference, degenerate cases.
-#include "eval/round_light.h"
+#include "eval/curved_light.h"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,8 @@ using reference::Random;
 using reference::random_direction;
 constexpr double kPi = std::numbers::pi;
 
-RoundLight sphere(Vec3d center, double radius) {
-  return {LightShape::sphere, center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, {1, 1, 1}, false};
-}
-RoundLight disk(Vec3d center, Vec3d x, Vec3d y) { return {LightShape::disk, center, x, y, {}, {1, 1, 1}, false}; }
+CurvedLight sphere(Vec3d center, double radius) { return {Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
+CurvedLight disk(Vec3d center, Vec3d x, Vec3d y) { return {Ellipse{center, x, y}}; }
 
 Material material_of(Brdf brdf) {
   Material m;
@@ -32,7 +30,7 @@ Material ggx(double alpha) {
   return m;
 }
 
-Answer ask(const RoundLight& light, const ShadingPoint& at, const Material& m, Method method = Method::automatic,
+Answer ask(const CurvedLight& light, const ShadingPoint& at, const Material& m, Method method = Method::automatic,
            Quality quality = Quality::normal) {
   Query q;
   q.light = light;
@@ -93,8 +91,8 @@ TEST(EvalRoundLight, EveryLobeAgreesWithTheReference) {
       Vec3d direction = random_direction(random);
       direction.y = std::fabs(direction.y);
       const double size = random.uniform(0.1, 0.6);
-      RoundLight light = sphere(direction, size);
-      if (i % 3 == 1) light.z = light.z * 0.4;
+      CurvedLight light = sphere(direction, size);
+      if (i % 3 == 1) std::get<Ellipsoid>(light.shape).z *= 0.4;
       if (i % 3 == 2) {
         light = disk(direction, {size, 0, 0}, Vec3d{0.2, 0.3, 0.9} * size);
         light.two_sided = true;
@@ -115,7 +113,7 @@ TEST(EvalRoundLight, EveryLobeAgreesWithTheReference) {
 }
 
 TEST(EvalRoundLight, AutoTakesGgxByQuality) {
-  const RoundLight light = sphere({0, 2, 0}, 0.5);
+  const CurvedLight light = sphere({0, 2, 0}, 0.5);
   Material stretched = ggx(0.2);
   stretched.alpha_y = 0.4;
   EXPECT_EQ(ask(light, kFloor, ggx(0.2), Method::automatic, Quality::draft).method, "ltc-compact");
@@ -125,14 +123,14 @@ TEST(EvalRoundLight, AutoTakesGgxByQuality) {
 }
 
 TEST(EvalRoundLight, SampledAgreesWithinItsStandardError) {
-  const RoundLight light = sphere({0.5, 1, 0}, 0.4);
+  const CurvedLight light = sphere({0.5, 1, 0}, 0.4);
   const Answer truth = ask(light, kFloor, ggx(0.3), Method::reference), sampled = ask(light, kFloor, ggx(0.3), Method::sampled);
   EXPECT_NEAR(sampled.radiance.x, truth.radiance.x, 4 * *sampled.standard_error);
   EXPECT_LT(*sampled.standard_error, 0.05 * truth.radiance.x);
 }
 
 TEST(EvalRoundLight, HiddenSidesInsidesAndNoAreaGiveZero) {
-  const RoundLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),   // its back
+  const CurvedLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),   // its back
                              disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),   // its plane
                              disk({0, 2, 0}, {1, 0, 0}, {2, 0, 0}),   // no area
                              disk({0, 2, 0}, {}, {}),
@@ -140,11 +138,11 @@ TEST(EvalRoundLight, HiddenSidesInsidesAndNoAreaGiveZero) {
                              sphere({0, 1, 0}, 0),
                              sphere({0, 0, 0}, 0),
                              sphere({0, -2, 0}, 1)};                  // below the horizon
-  for (const RoundLight& light : dark)
+  for (const CurvedLight& light : dark)
     for (const Material& m : {material_of(Brdf::lambert), ggx(0.3)})
       for (Method method : {Method::automatic, Method::reference, Method::sampled})
         EXPECT_EQ(ask(light, kFloor, m, method).radiance, Vec3d{}) << name_of(m.brdf) << " light " << (&light - dark);
-  RoundLight both = dark[0];
+  CurvedLight both = dark[0];
   both.two_sided = true;
   EXPECT_NEAR(ask(both, kFloor, material_of(Brdf::lambert)).radiance.x, 0.2, 1e-14);
 }
