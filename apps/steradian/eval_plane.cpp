@@ -25,7 +25,7 @@ T number(const ordered_json& query, const char* key, T otherwise) {
 const PlaneWorld& PlaneAnswers::world(const std::string& path) {
   const auto known = worlds_.find(path);
   if (known != worlds_.end()) return known->second;
-  return worlds_.emplace(path, PlaneWorld(load_plane_scene(path).scene)).first->second;
+  return worlds_.emplace(path, PlaneWorld(load_plane_scene(path, defaults_.limits).scene, defaults_.limits)).first->second;
 }
 
 std::string PlaneAnswers::answer(std::string_view line) {

@@ -12,6 +12,7 @@ namespace steradian::app {
 struct PlaneQueryDefaults {
   PlaneMethod method = PlaneMethod::exact;
   PlaneSampling sampling;
+  Limits limits;
 };
 
 // Reads a scene once, however many queries name it.

@@ -20,19 +20,20 @@ bool is_plane_scene(const std::string& path) {
 }
 
 void render_plane_scene(const PlaneRender& job) {
-  PlaneSvg loaded = load_plane_scene(job.scene);
+  PlaneSvg loaded = load_plane_scene(job.scene, job.limits);
   if (!loaded.ignored.empty()) {
     std::string names;
     for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;
     fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);
   }
   PlaneFrameOptions options = job.frame;
+  options.limits = job.limits;
   try {
     options.method = plane_method_from_name(job.method == "auto" ? "exact" : job.method);
   } catch (const Error& e) {
     throw UsageError("--method", e.problem(), e.hint());
   }
-  const PlaneWorld world(std::move(loaded.scene));
+  const PlaneWorld world(std::move(loaded.scene), job.limits);
 
   std::unique_ptr<Progress> progress;
   std::once_flag once;

@@ -12,6 +12,7 @@ struct PlaneRender {
   std::string scene, output, method, stats;  // method "auto" is exact
   PlaneFrameOptions frame;
   float exposure = 0;
+  Limits limits;
 };
 
 bool is_plane_scene(const std::string& path);  // by its ending, .svg

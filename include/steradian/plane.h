@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "steradian/limits.h"
 #include "steradian/picture.h"
 #include "steradian/vector.h"
 #include "steradian/vector2.h"
@@ -73,6 +74,7 @@ struct PlaneScene {
   Vec2d origin;  // of the picture: the viewBox
   double width = 512, height = 512;
   std::vector<PlaneBody> bodies;
+  std::string name = "scene";  // for messages: the file it came from
 };
 
 enum class PlaneMethod {
@@ -98,8 +100,9 @@ struct PlaneLight {
 // A scene made ready. Holds its own copy; const, and safe to use from several threads.
 class PlaneWorld {
  public:
-  // Throws Error, with the body's name, for coordinates that are not finite and outlines without vertices.
-  explicit PlaneWorld(PlaneScene scene);
+  // Throws Error, with the body's name, for coordinates that are not finite or beyond a million pictures, and outlines
+  // without vertices; with the scene's, where it asks for more than the limits.
+  explicit PlaneWorld(PlaneScene scene, const Limits& limits = {});
   ~PlaneWorld();
   PlaneWorld(PlaneWorld&&) noexcept;
   PlaneWorld& operator=(PlaneWorld&&) noexcept;
@@ -124,6 +127,7 @@ struct PlaneFrameOptions {
   bool moments = false;       // layers "moment_x" and "moment_y"; in double, pixel by pixel
   int aa = 1;                 // point values a pixel, on a square grid (rounded up to a square number)
   int threads = 0;            // 0: all
+  Limits limits;              // of the picture, and of the lights and blockers that may meet in it
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
 };
 
@@ -148,8 +152,8 @@ struct PlaneSvg {
 
 // Reads an SVG file as a scene; see docs/plane.md for what counts as light and occluder. Throws Error with file, line
 // and a hint. load_plane_scene_from_text takes the SVG itself; `name` stands for the file in messages.
-PlaneSvg load_plane_scene(const std::string& path);
-PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name);
+PlaneSvg load_plane_scene(const std::string& path, const Limits& limits = {});
+PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name, const Limits& limits = {});
 
 // The scene as SVG text that reads back as the same scene.
 std::string plane_scene_to_svg(const PlaneScene& scene);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "steradian/kernels.h"
 
@@ -26,13 +27,6 @@ double window(double r, double range) {
   return q < 1 ? (1 - q * q) * (1 - q * q) : 0;
 }
 
-Vec3d radiance_on(const Curve& curve, const PlaneEmission& emission, Vec2d p) {
-  if (curve.kind == Curve::Kind::arc) return radiance_at(emission, p);
-  const Vec2d e = curve.b - curve.a;
-  const double t = std::clamp(dot(p - curve.a, e) / dot(e, e), 0.0, 1.0);
-  return curve.radiance_a * (1 - t) + curve.radiance_b * t;
-}
-
 double cosine(const Curve& curve, Vec2d p, Vec2d u) {
   Vec2d along = curve.b - curve.a;
   if (curve.kind == Curve::Kind::arc) {
@@ -54,6 +48,7 @@ double profile_at(const PlaneEmission& emission, const Curve& curve, Vec2d p, Ve
 // Segments: everything is a polynomial in tan f times a power of cos f.
 class SegmentIntegral {
  public:
+  // On the curve, radiance is linear.
   SegmentIntegral(const Curve& curve, const PlaneEmission& emission, Vec2d from) : emission_(emission) {
     const Vec2d e = curve.b - curve.a;
     const double size = length(e);
@@ -62,13 +57,21 @@ class SegmentIntegral {
     d_ = dot(curve.a - from, normal_);
     if (d_ < 0) normal_ = -normal_, d_ = -d_;
     const double foot = dot(from - curve.a, along_) / size;
-    constant_ = curve.radiance_a * (1 - foot) + curve.radiance_b * foot;
-    slope_ = (curve.radiance_b - curve.radiance_a) * (d_ / size);
+    const RadianceEnds ends = radiance_ends(emission, curve.a, curve.b);
+    constant_ = ends.a * (1 - foot) + ends.b * foot;
+    slope_ = (ends.b - ends.a) * (d_ / size);
+    low_ = -foot * size / d_;
+    high_ = low_ + size / d_;
   }
 
   void add(double begin, double end, PlaneLight& sum) const {
     double from = tangent(direction(begin)), to = tangent(direction(end));
     if (from > to) std::swap(from, to);
+    if (emission_.gradient) {
+      // The piece may be of a longer curve.
+      from = std::clamp(from, low_, high_);
+      to = std::clamp(to, low_, high_);
+    }
     double q = 0;
     if (emission_.range < 1e300) {
       const double reach2 = emission_.range * emission_.range - d_ * d_;
@@ -105,7 +108,7 @@ class SegmentIntegral {
 
   const PlaneEmission& emission_;
   Vec2d along_, normal_;
-  double d_;
+  double d_, low_, high_;  // tangents of the curve's ends
   Vec3d constant_, slope_;
 };
 
@@ -123,7 +126,10 @@ class ArcQuadrature {
       double t1 = parameter(begin + (end - begin) * (i + 1) / parts, back);
       if (back && t1 < t0) t1 += 2 * pi;
       if (!back && t1 > t0) t1 -= 2 * pi;
-      add_part(t0, t1, 0, sum);
+      if (emission_.gradient)
+        add_between_stops(t0, t1, sum);
+      else
+        add_part(t0, t1, 0, sum);
     }
   }
 
@@ -131,6 +137,20 @@ class ArcQuadrature {
   double parameter(double angle, bool back) const {
     const Vec2d u = direction(angle);
     return angle_of(curve_.ellipse.to_unit(from_ + u * distance_along(curve_, back, from_, u)));
+  }
+
+  // Cut where the gradient has a stop: smooth in between.
+  void add_between_stops(double t0, double t1, PlaneLight& sum) const {
+    std::vector<double> cuts{t0};
+    for (double cut : gradient_cuts(*emission_.gradient, curve_)) {
+      double tau = curve_.tau0 + cut * curve_.tau_span;
+      tau -= 2 * pi * std::floor((tau - std::min(t0, t1)) / (2 * pi));
+      if (tau < std::max(t0, t1)) cuts.push_back(tau);
+    }
+    std::sort(cuts.begin() + 1, cuts.end());
+    if (t1 < t0) std::reverse(cuts.begin() + 1, cuts.end());
+    cuts.push_back(t1);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) add_part(cuts[i], cuts[i + 1], 0, sum);
   }
 
   void add_part(double t0, double t1, int depth, PlaneLight& sum) const {
@@ -195,7 +215,13 @@ void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, Em
     const double s0 = std::sin(v.begin), s1 = std::sin(v.end), c0 = std::cos(v.begin), c1 = std::cos(v.end);
     add(sum, emission.radiance, v.end - v.begin, {s1 - s0, c0 - c1});
   } else if (curve.kind == Curve::Kind::segment) {
-    SegmentIntegral(curve, emission, from).add(v.begin, v.end, sum);
+    if (!emission.gradient) {
+      SegmentIntegral(curve, emission, from).add(v.begin, v.end, sum);
+      return;
+    }
+    const std::vector<double> cuts = gradient_cuts(*emission.gradient, curve);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+      SegmentIntegral(part_of(curve, cuts[i], cuts[i + 1]), emission, from).add(v.begin, v.end, sum);
   } else {
     PlaneLight part;
     const bool closed = plain && !v.back && is_circle(curve.ellipse);
@@ -241,7 +267,7 @@ void add_interior(const Visible& v, const PlaneEmission& emission, Vec2d from, P
 Vec3d radiance_along(const Curve& curve, const PlaneEmission& emission, Vec2d from, Vec2d u, double r) {
   if (!within_spot(emission, u)) return {};
   const Vec2d hit = from + u * r;
-  return radiance_on(curve, emission, hit) * (window(r, emission.range) * profile_at(emission, curve, hit, u, r));
+  return radiance_at(emission, hit) * (window(r, emission.range) * profile_at(emission, curve, hit, u, r));
 }
 
 }  // namespace steradian::plane

@@ -196,7 +196,7 @@ std::vector<Vec2d> points_outside(const PlaneWorld& world, int count, std::uint6
   std::vector<Vec2d> result;
   for (int i = 0; i < count; ++i) {
     const Vec2d p{random.uniform(), random.uniform()};
-    if (world.impl().inside(p).body < 0) result.push_back(p);
+    if (world.impl().inside(p * world.impl().scale).body < 0) result.push_back(p);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/exact/edge_rows.h"
 #include "steradian/error.h"
 
 namespace steradian::plane {
@@ -18,26 +19,10 @@ double gradient_offset(const PlaneGradient& g, Vec2d p) {
   return length2 > 0 ? dot(p - g.from, axis) / length2 : 0;
 }
 
-bool crosses_properly(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
-  const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
-  const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
-  return c_side * d_side < 0 && a_side * b_side < 0;
-}
-
-// Beyond this many edges an outline is not searched for crossings; its edges are taken as seen from both sides, which
+// Turns every edge so that the body lies to its left. Edges that cross are taken as seen from both sides instead, which
 // costs time and changes no value.
-constexpr std::size_t kMostEdgesOriented = 4000;
-
-bool has_crossings(const std::vector<Curve>& edges) {
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t j = i + 1; j < edges.size(); ++j)
-      if (crosses_properly(edges[i].a, edges[i].b, edges[j].a, edges[j].b)) return true;
-  return false;
-}
-
-// Turns every edge so that the body lies to its left.
-void orient(const PlaneBody& body, std::vector<Curve>& edges) {
-  if (edges.size() > kMostEdgesOriented || has_crossings(edges)) {
+void orient(const PlaneBody& body, const EdgeRows& rows, std::vector<Curve>& edges) {
+  if (rows.may_cross()) {
     for (Curve& e : edges) e.two_sided = true;
     return;
   }
@@ -46,7 +31,7 @@ void orient(const PlaneBody& body, std::vector<Curve>& edges) {
   for (Curve& e : edges) {
     const Vec2d along = (e.b - e.a) / length(e.b - e.a);
     const Vec2d left{-along.y * step, along.x * step}, middle = (e.a + e.b) * 0.5;
-    const bool in_left = contains(body, middle + left), in_right = contains(body, middle - left);
+    const bool in_left = rows.contains(middle + left, body.even_odd), in_right = rows.contains(middle - left, body.even_odd);
     if (in_left == in_right) e.two_sided = true;
     if (in_right && !in_left) std::swap(e.a, e.b);
   }
@@ -79,72 +64,12 @@ Curve arc(const Ellipse& ellipse, double tau0, double span, int index) {
   return c;
 }
 
-// Where on the curve, from 0 at its start to 1 at its end, the gradient has a stop.
-std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& c) {
-  std::vector<double> cuts{0};
-  const auto cut = [&](double t) {
-    if (t > 1e-9 && t < 1 - 1e-9) cuts.push_back(t);
-  };
-  for (const PlaneStop& stop : gradient.stops) {
-    if (c.kind == Curve::Kind::segment) {
-      const double from = gradient_offset(gradient, c.a), to = gradient_offset(gradient, c.b);
-      cut((stop.offset - from) / (to - from));
-      continue;
-    }
-    // On an ellipse the offset is a constant plus a cosine of tau.
-    const double middle = gradient_offset(gradient, c.ellipse.center);
-    const double x = gradient_offset(gradient, c.ellipse.center + c.ellipse.x) - middle;
-    const double y = gradient_offset(gradient, c.ellipse.center + c.ellipse.y) - middle;
-    const double cosine = (stop.offset - middle) / std::hypot(x, y);
-    if (!(std::fabs(cosine) < 1)) continue;
-    for (double sign : {-1.0, 1.0}) {
-      double along = std::atan2(y, x) + sign * std::acos(cosine) - c.tau0;
-      along -= 2 * pi * std::floor(along / (2 * pi));
-      cut(along / c.tau_span);
-    }
-  }
-  cuts.push_back(1);
-  std::sort(cuts.begin(), cuts.end());
-  return cuts;
-}
-
-Curve part_of(const Curve& c, double from, double to) {
-  Curve piece = c;
-  if (c.kind == Curve::Kind::segment) {
-    piece.a = c.a + (c.b - c.a) * from;
-    piece.b = c.a + (c.b - c.a) * to;
-  } else {
-    piece.tau0 = c.tau0 + c.tau_span * from;
-    piece.tau_span = c.tau_span * (to - from);
-    piece.a = c.ellipse.at(piece.tau0);
-    piece.b = c.ellipse.at(piece.tau0 + piece.tau_span);
-  }
-  return piece;
-}
-
-// Cuts the curves where the gradient has a stop, so that radiance is linear on each.
-std::vector<Curve> with_radiance(const PlaneEmission& emission, const std::vector<Curve>& curves) {
-  std::vector<Curve> result;
-  for (const Curve& c : curves) {
-    const std::vector<double> cuts = emission.gradient ? gradient_cuts(*emission.gradient, c) : std::vector<double>{0, 1};
-    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-      Curve piece = cuts.size() > 2 ? part_of(c, cuts[i], cuts[i + 1]) : c;
-      // Values just inside the piece: two stops may share an offset.
-      const Vec2d inside = (piece.b - piece.a) * 1e-9;
-      piece.radiance_a = radiance_at(emission, piece.a + inside);
-      piece.radiance_b = radiance_at(emission, piece.b - inside);
-      result.push_back(piece);
-    }
-  }
-  return result;
-}
-
 void check(const PlaneBody& body, int index) {
   const std::string place = body.name.empty() ? "body " + std::to_string(index) : "body '" + body.name + "'";
   const auto finite = [&](Vec2d p) {
     // Squares and products of larger coordinates leave no digits for a pixel.
     if (!is_finite(p) || std::fabs(p.x) > 1e9 || std::fabs(p.y) > 1e9)
-      throw Error(place, "a coordinate is not finite or beyond 1e9");
+      throw Error(place, "a coordinate is not finite or beyond a million times the picture's size", "move or scale it");
   };
   for (const auto& contour : body.contours)
     for (Vec2d p : contour) finite(p);
@@ -168,14 +93,60 @@ Vec3d radiance_at(const PlaneEmission& emission, Vec2d p) {
   if (!emission.gradient) return emission.radiance;
   const std::vector<PlaneStop>& stops = emission.gradient->stops;
   const double t = gradient_offset(*emission.gradient, p);
-  if (t <= stops.front().offset) return stops.front().radiance;
-  for (std::size_t i = 1; i < stops.size(); ++i) {
-    if (t > stops[i].offset) continue;
-    const double width = stops[i].offset - stops[i - 1].offset;
-    const double s = width > 0 ? (t - stops[i - 1].offset) / width : 1;
-    return stops[i - 1].radiance * (1 - s) + stops[i].radiance * s;
+  if (!(t > stops.front().offset)) return stops.front().radiance;
+  const auto next = std::lower_bound(stops.begin() + 1, stops.end(), t, [](const PlaneStop& stop, double at) { return stop.offset < at; });
+  if (next == stops.end()) return stops.back().radiance;
+  const PlaneStop& before = *(next - 1);
+  const double width = next->offset - before.offset, s = width > 0 ? (t - before.offset) / width : 1;
+  return before.radiance * (1 - s) + next->radiance * s;
+}
+
+std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& c) {
+  std::vector<double> cuts{0};
+  const auto cut = [&](double t) {
+    if (t > 1e-9 && t < 1 - 1e-9) cuts.push_back(t);
+  };
+  if (c.kind == Curve::Kind::segment) {
+    const double from = gradient_offset(gradient, c.a), to = gradient_offset(gradient, c.b);
+    for (const PlaneStop& stop : gradient.stops) cut((stop.offset - from) / (to - from));
+  } else {
+    // On an ellipse the offset is a constant plus a cosine of tau.
+    const double middle = gradient_offset(gradient, c.ellipse.center);
+    const double x = gradient_offset(gradient, c.ellipse.center + c.ellipse.x) - middle;
+    const double y = gradient_offset(gradient, c.ellipse.center + c.ellipse.y) - middle;
+    for (const PlaneStop& stop : gradient.stops) {
+      const double cosine = (stop.offset - middle) / std::hypot(x, y);
+      if (!(std::fabs(cosine) < 1)) continue;
+      for (double sign : {-1.0, 1.0}) {
+        double along = std::atan2(y, x) + sign * std::acos(cosine) - c.tau0;
+        along -= 2 * pi * std::floor(along / (2 * pi));
+        cut(along / c.tau_span);
+      }
+    }
   }
-  return stops.back().radiance;
+  cuts.push_back(1);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+Curve part_of(const Curve& c, double from, double to) {
+  Curve piece = c;
+  if (c.kind == Curve::Kind::segment) {
+    piece.a = c.a + (c.b - c.a) * from;
+    piece.b = c.a + (c.b - c.a) * to;
+  } else {
+    piece.tau0 = c.tau0 + c.tau_span * from;
+    piece.tau_span = c.tau_span * (to - from);
+    piece.a = c.ellipse.at(piece.tau0);
+    piece.b = c.ellipse.at(piece.tau0 + piece.tau_span);
+  }
+  return piece;
+}
+
+RadianceEnds radiance_ends(const PlaneEmission& emission, Vec2d a, Vec2d b) {
+  // Just inside: two stops may share an offset.
+  const Vec2d inside = (b - a) * 1e-9;
+  return {radiance_at(emission, a + inside), radiance_at(emission, b - inside)};
 }
 
 std::vector<Curve> outline_of(const PlaneBody& body, int index) {
@@ -184,7 +155,7 @@ std::vector<Curve> outline_of(const PlaneBody& body, int index) {
   switch (body.shape) {
     case PlaneBody::Shape::polygon:
       for (const auto& contour : body.contours) append_edges(contour, true, index, curves);
-      orient(body, curves);
+      orient(body, EdgeRows(body.contours), curves);
       break;
     case PlaneBody::Shape::polyline:
       for (const auto& contour : body.contours) append_edges(contour, false, index, curves);
@@ -209,7 +180,7 @@ std::vector<Curve> outline_of(const PlaneBody& body, int index) {
       break;
     }
   }
-  return body.light ? with_radiance(*body.light, curves) : curves;
+  return curves;
 }
 
 bool contains(const PlaneBody& body, Vec2d p) {
@@ -228,21 +199,10 @@ bool contains(const PlaneBody& body, Vec2d p) {
     }
     case PlaneBody::Shape::polygon: break;
   }
-  int winding = 0, crossings = 0;
-  for (const auto& contour : body.contours) {
-    const std::size_t n = contour.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2d a = contour[i] - p, b = contour[(i + 1) % n] - p;
-      const double side = cross(a, b);
-      if (side == 0 && dot(a, b) <= 0) return true;  // on the edge
-      if ((a.y <= 0) == (b.y <= 0)) continue;
-      if ((b.y > a.y) == (side > 0)) {
-        winding += b.y > a.y ? 1 : -1;
-        ++crossings;
-      }
-    }
-  }
-  return body.even_odd ? crossings % 2 != 0 : winding != 0;
+  Winding winding(p);
+  for (const auto& contour : body.contours)
+    for (std::size_t i = 0; i < contour.size(); ++i) winding.add(contour[i], contour[i + 1 < contour.size() ? i + 1 : 0]);
+  return winding.within(body.even_odd);
 }
 
 Box bounds_of(const PlaneBody& body) {

@@ -27,10 +27,9 @@ struct Curve {
   Vec2d a, b;              // segment, the body to the left of a -> b; arc: its ends
   Ellipse ellipse;         // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
   double tau0 = 0, tau_span = 0;
-  Vec3d radiance_a, radiance_b;  // at a segment's ends, linear between; zero for occluders
 };
 
-// Curves of a body, gradients cut where their stops are. Throws Error for what is not finite or empty.
+// Curves of a body. Throws Error for what is not finite or empty.
 std::vector<Curve> outline_of(const PlaneBody& body, int index);
 
 // Is p in the body or on its edge? Always false for polylines.
@@ -38,6 +37,18 @@ bool contains(const PlaneBody& body, Vec2d p);
 
 // The gradient's radiance at a point.
 Vec3d radiance_at(const PlaneEmission& emission, Vec2d p);
+
+// Where on a curve, from 0 at its start to 1 at its end, the gradient has a stop: rising, 0 and 1 among them.
+std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& curve);
+
+// The part of a curve between two such places.
+Curve part_of(const Curve& curve, double from, double to);
+
+// Radiance at the ends of a segment on which it is linear.
+struct RadianceEnds {
+  Vec3d a, b;
+};
+RadianceEnds radiance_ends(const PlaneEmission& emission, Vec2d a, Vec2d b);
 
 struct Box {
   Vec2d low{1e300, 1e300}, high{-1e300, -1e300};

@@ -79,8 +79,20 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
   // A cell is never so small that a thin scene would need millions.
   cell_ = std::max(std::sqrt(std::max(size.x, larger * 1e-3) * std::max(size.y, larger * 1e-3) / wanted),
                    larger / 2000);
-  columns_ = static_cast<int>(size.x / cell_) + 1;
-  rows_ = static_cast<int>(size.y / cell_) + 1;
+  std::vector<Box> body_boxes;
+  for (const PlaneBody& body : bodies) body_boxes.push_back(bounds_of(body));
+  // Things that reach over many cells are entered in all of them: coarser, until that is no more than a few entries each.
+  const auto lay_out = [&] {
+    columns_ = static_cast<int>(size.x / cell_) + 1;
+    rows_ = static_cast<int>(size.y / cell_) + 1;
+    std::size_t entries = 0;
+    for (const std::vector<Box>* some : {&boxes, &body_boxes})
+      for (const Box& box : *some)
+        if (box.low.x <= box.high.x)
+          entries += static_cast<std::size_t>(row(box.high.y) - row(box.low.y) + 1) * static_cast<std::size_t>(column(box.high.x) - column(box.low.x) + 1);
+    return entries;
+  };
+  while (lay_out() > 64 * (boxes.size() + body_boxes.size()) + 10'000 && columns_ * rows_ > 1) cell_ *= 2;
   cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   cell_bodies_.resize(cells_.size());
   const auto cells_of = [&](const Box& box, auto&& put) {
@@ -99,11 +111,8 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
       }
       cells_[cell].push_back(&c);
     });
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Box box = bounds_of(bodies[i]);
-    if (box.low.x > box.high.x) continue;
-    cells_of(box, [&](std::size_t cell, int, int) { cell_bodies_[cell].push_back(static_cast<int>(i)); });
-  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (body_boxes[i].low.x <= body_boxes[i].high.x) cells_of(body_boxes[i], [&](std::size_t cell, int, int) { cell_bodies_[cell].push_back(static_cast<int>(i)); });
 }
 
 int RayGrid::column(double x) const {

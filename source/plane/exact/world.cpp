@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
+#include <string>
 
+#include "core/budget.h"
 #include "plane/exact/emission.h"
-#include "steradian/error.h"
 
 namespace steradian {
 
@@ -29,7 +31,7 @@ PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
   Inside result;
   for (int i : grid.bodies_near(p)) {
     const std::size_t k = static_cast<std::size_t>(i);
-    if (!boxes[k].holds(p) || !plane::contains(scene.bodies[k], p)) continue;
+    if (!boxes[k].holds(p) || !contains(k, p)) continue;
     if (!scene.bodies[k].light) return {i, true};
     result.body = std::max(result.body, i);
   }
@@ -160,26 +162,98 @@ std::vector<const Curve*> curves_that_matter(const World& world, Vec2d p) {
 
 namespace steradian {
 
-PlaneWorld::PlaneWorld(PlaneScene scene) : impl_(std::make_unique<Impl>()) {
-  impl_->scene = std::move(scene);
-  for (std::size_t i = 0; i < impl_->scene.bodies.size(); ++i) {
-    impl_->first_curve.push_back(impl_->curves.size());
-    const std::vector<plane::Curve> outline = plane::outline_of(impl_->scene.bodies[i], static_cast<int>(i));
-    impl_->curves.insert(impl_->curves.end(), outline.begin(), outline.end());
-    impl_->boxes.push_back(plane::bounds_of(impl_->scene.bodies[i]));
-  }
-  impl_->first_curve.push_back(impl_->curves.size());
-  impl_->grid = plane::RayGrid(impl_->curves, impl_->scene.bodies);
+namespace {
+
+double scale_of(const PlaneScene& scene) {
+  const double side = std::max(scene.width, scene.height);
+  return side > 1e-12 && side < 1e12 ? std::ldexp(1.0, 10 - std::ilogb(side)) : 1;
 }
+
+PlaneScene scaled(PlaneScene scene, double scale) {
+  scene.origin = scene.origin * scale;
+  scene.width *= scale;
+  scene.height *= scale;
+  for (PlaneBody& body : scene.bodies) {
+    for (auto& contour : body.contours)
+      for (Vec2d& p : contour) p = p * scale;
+    body.center = body.center * scale;
+    body.x_axis = body.x_axis * scale;
+    body.y_axis = body.y_axis * scale;
+    body.radius *= scale;
+    if (!body.light) continue;
+    PlaneEmission& light = *body.light;
+    light.range *= scale;
+    const double brighter = light.profile == PlaneProfile::inverse ? scale : 1;  // divided by a longer distance
+    light.radiance = light.radiance * brighter;
+    if (!light.gradient) continue;
+    light.gradient->from = light.gradient->from * scale;
+    light.gradient->to = light.gradient->to * scale;
+    for (PlaneStop& stop : light.gradient->stops) stop.radiance = stop.radiance * brighter;
+  }
+  return scene;
+}
+
+std::size_t edges_of(const PlaneBody& body) {
+  std::size_t edges = 4;
+  for (const auto& contour : body.contours) edges += contour.size();
+  return edges;
+}
+
+// From this many edges on, rows find those at a point's height faster than a look at all of them.
+constexpr std::size_t kManyEdges = 24;
+
+}  // namespace
+
+PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits) : scene(std::move(from)), scale(scale_of(scene)) {
+  if (scale != 1) {
+    given = std::move(scene);
+    scene = scaled(*given, scale);
+  }
+  std::size_t edges = 0;
+  for (const PlaneBody& body : scene.bodies) edges += edges_of(body);
+  Budget budget(limits);
+  const std::string what = "the " + std::to_string(edges) + " edges of its shapes";
+  budget.take_memory(scene.name, what, edges * 3 * sizeof(plane::Curve));
+  budget.take_work(scene.name, what, edges * 1000);
+  try {
+    take_apart(edges);
+  } catch (const std::bad_alloc&) {
+    throw budget.out_of_memory();
+  }
+}
+
+void PlaneWorld::Impl::take_apart(std::size_t edges) {
+  curves.reserve(edges);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const PlaneBody& body = scene.bodies[i];
+    first_curve.push_back(curves.size());
+    const std::vector<plane::Curve> outline = plane::outline_of(body, static_cast<int>(i));
+    curves.insert(curves.end(), outline.begin(), outline.end());
+    boxes.push_back(plane::bounds_of(body));
+    const bool many = body.shape == PlaneBody::Shape::polygon && edges_of(body) > kManyEdges;
+    rows_of.push_back(many ? static_cast<int>(rows.size()) : -1);
+    if (many) rows.emplace_back(body.contours);
+  }
+  first_curve.push_back(curves.size());
+  grid = plane::RayGrid(curves, scene.bodies);
+}
+
+bool PlaneWorld::Impl::contains(std::size_t i, Vec2d p) const {
+  const int with = rows_of[i];
+  return with < 0 ? plane::contains(scene.bodies[i], p) : rows[static_cast<std::size_t>(with)].contains(p, scene.bodies[i].even_odd);
+}
+
+PlaneWorld::PlaneWorld(PlaneScene scene, const Limits& limits) : impl_(std::make_unique<Impl>(std::move(scene), limits)) {}
 
 PlaneWorld::~PlaneWorld() = default;
 PlaneWorld::PlaneWorld(PlaneWorld&&) noexcept = default;
 PlaneWorld& PlaneWorld::operator=(PlaneWorld&&) noexcept = default;
 
-const PlaneScene& PlaneWorld::scene() const { return impl_->scene; }
+const PlaneScene& PlaneWorld::scene() const { return impl_->given ? *impl_->given : impl_->scene; }
 
 PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSampling& sampling) const {
   if (!is_finite(position)) throw Error("position", "a coordinate is not finite");
+  position = position * impl_->scale;
   if (method == PlaneMethod::par) return plane::par_light(*impl_, position);
   const Impl::Inside inside = impl_->inside(position);
   if (inside.dark) return {};

@@ -1,8 +1,10 @@
 // The inside of a PlaneWorld: bodies, their curves, and where they are.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "plane/exact/edge_rows.h"
 #include "plane/exact/emission.h"
 #include "plane/exact/outline.h"
 #include "plane/exact/ray_grid.h"
@@ -10,11 +12,25 @@
 namespace steradian {
 
 struct PlaneWorld::Impl {
+  Impl(PlaneScene scene, const Limits& limits);
+
+  // Bodies to curves, and what finds them; the number of curves at most.
+  void take_apart(std::size_t edges);
+
+  // Is p in body i or on its edge?
+  bool contains(std::size_t i, Vec2d p) const;
+
+  // In units of which the picture's larger side has 1024 to 2048, so that no threshold depends on the user's units; the
+  // scale is a power of two, and nothing is rounded.
   PlaneScene scene;
+  double scale = 1;                 // from the user's units
+  std::optional<PlaneScene> given;  // as the user gave it, where the scale is not 1
   std::vector<plane::Curve> curves;      // of all bodies, in the scene's order
   std::vector<std::size_t> first_curve;  // by body, and the number of curves at the end
   std::vector<plane::Box> boxes;         // by body
   plane::RayGrid grid;
+  std::vector<plane::EdgeRows> rows;     // of outlines with many edges
+  std::vector<int> rows_of;              // by body: which of them, or -1
 
   // What fills the point: an occluder wins, then the last light. -1: nothing.
   struct Inside {

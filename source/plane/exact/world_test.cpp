@@ -19,6 +19,7 @@ using std::numbers::pi;
 // adds at most one step of angle, 2 pi / count, to the sum of 2 pi.
 Vec3d mean_of_rays(const PlaneWorld& world, Vec2d p, int count) {
   const auto& impl = world.impl();
+  p = p * impl.scale;
   const auto inside = impl.inside(p);
   if (inside.dark) return {};
   Vec3d sum;

@@ -41,12 +41,35 @@ class BlockerBins {
   }
 
  private:
+  friend class BinCounts;
   int cell(double offset) const { return std::clamp(static_cast<int>(offset / cell_), 0, 32); }
   std::size_t bin(Vec2d p) const { return static_cast<std::size_t>(cell(p.y - low_.y) * 33 + cell(p.x - low_.x)); }
 
   std::vector<std::vector<int>> bins_;
   Vec2d low_, high_;  // of all centres
   double cell_ = 1, largest_ = 0;
+};
+
+// How many blockers for_each_within would look at, at most: sums over rectangles of bins.
+class BinCounts {
+ public:
+  explicit BinCounts(const BlockerBins& bins) : bins_(bins), sum_(34 * 34, 0) {
+    for (std::size_t y = 0; y < 33; ++y)
+      for (std::size_t x = 0; x < 33; ++x)
+        sum_[(y + 1) * 34 + x + 1] = bins.bins_[y * 33 + x].size() + sum_[y * 34 + x + 1] + sum_[(y + 1) * 34 + x] - sum_[y * 34 + x];
+  }
+  std::size_t within(Vec2d p, double reach) const {
+    const double r = std::min(reach + bins_.largest_, 1e9);
+    const auto low = [&](double at) { return static_cast<std::size_t>(bins_.cell(std::max(at - r, 0.0))); };
+    const auto high = [&](double at) { return static_cast<std::size_t>(bins_.cell(std::clamp(at + r, 0.0, 64 * bins_.cell_))) + 1; };
+    const Vec2d at = p - bins_.low_;
+    const std::size_t x0 = low(at.x), x1 = high(at.x), y0 = low(at.y), y1 = high(at.y);
+    return sum_[y1 * 34 + x1] - sum_[y0 * 34 + x1] - sum_[y1 * 34 + x0] + sum_[y0 * 34 + x0];
+  }
+
+ private:
+  const BlockerBins& bins_;
+  std::vector<std::size_t> sum_;
 };
 
 }  // namespace steradian::plane

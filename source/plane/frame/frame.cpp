@@ -1,4 +1,5 @@
 // Frames of the plane: by tiles where that is possible, pixel by pixel otherwise.
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -7,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/budget.h"
 #include "plane/frame/tiles.h"
 #include "steradian/error.h"
 
@@ -76,18 +78,26 @@ Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, 
 
 void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
   const PlaneScene& scene = world.scene();
+  const plane::World& inner = world.impl();
   const int n = static_cast<int>(std::ceil(std::sqrt(std::max(options.aa, 1)) - 1e-9));
   const int width = options.width > 0 ? options.width : std::max(static_cast<int>(std::lround(scene.width)), 1);
   const int height = options.height > 0 ? options.height : std::max(static_cast<int>(std::lround(scene.height)), 1);
   if (static_cast<double>(width) * n > 65536 || static_cast<double>(height) * n > 65536)
     throw Error("size", "the picture would have more than 65536 pixels a side", "set a smaller size");
-  const plane::PixelGrid grid = plane::grid_of(scene, width * n, height * n);
+  Budget budget(options.limits);
+  const auto pixels = static_cast<std::uint64_t>(width * n) * static_cast<std::uint64_t>(height * n);
+  budget.take_memory(scene.name, fmt::format("a picture of {} x {} pixels (--size makes it smaller)", width * n, height * n),
+                     pixels * sizeof(Vec3f) * (options.moments ? 3 : 1) * (n > 1 ? 2 : 1));
   Picture fine;
   Picture& picture = n > 1 ? fine : result;
   picture.layers.clear();
-  picture.width = grid.width;
-  picture.height = grid.height;
-  picture.pixels.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  picture.width = width * n;
+  picture.height = height * n;
+  try {
+    picture.pixels.resize(pixels);
+  } catch (const std::bad_alloc&) {
+    throw budget.out_of_memory();
+  }
   PlaneFrameStats own;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   own.threads = arena.max_concurrency();
@@ -95,15 +105,19 @@ void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFram
   arena.execute([&] {
     const auto start = Clock::now();
     if (options.method != PlaneMethod::exact || options.moments) {
-      plane::by_query(world, options, grid, picture);
+      plane::by_query(world, options, plane::grid_of(scene, picture.width, picture.height), picture);
       own.frame_ms = ms_since(start);
       return;
     }
-    const plane::FrameScene frame = plane::prepare_frame(world.impl());
-    own.prepare_ms = ms_since(start);
-    const auto tiles = Clock::now();
-    plane::render_tiles(frame, options, grid, picture, own);
-    own.frame_ms = ms_since(tiles);
+    try {
+      const plane::FrameScene frame = plane::prepare_frame(inner, budget);
+      own.prepare_ms = ms_since(start);
+      const auto tiles = Clock::now();
+      plane::render_tiles(frame, options, plane::grid_of(inner.scene, picture.width, picture.height), picture, own);
+      own.frame_ms = ms_since(tiles);
+    } catch (const std::bad_alloc&) {
+      throw budget.out_of_memory();
+    }
   });
   if (stats != nullptr) *stats = own;
   if (n > 1) result = plane::averaged(picture, n);

@@ -123,6 +123,51 @@ TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
   }
 }
 
+// The same drawing in units a thousand times smaller, or larger, has the same pixels, to the last bit of the scale's rounding.
+TEST(PlaneFrame, IsTheSameInAnyUnit) {
+  const auto drawing = [](double unit) {
+    PlaneScene scene;
+    scene.width = 200 * unit;
+    scene.height = 150 * unit;
+    const auto at = [&](double x, double y) { return Vec2d{x * unit, y * unit}; };
+    scene.bodies = {plane_circle(at(40.3, 50.1), 6.02 * unit), plane_polygon({at(100.3, 20.2), at(110.1, 30.7), at(90.6, 90.4)}), plane_polygon({at(150.3, 100.2), at(170.7, 100.4), at(160.1, 120.6)}),
+                    plane_circle(at(70.2, 80.3), 10.04 * unit)};
+    scene.bodies[0].light.emplace().range = 150 * unit;
+    scene.bodies[2].light.emplace().profile = PlaneProfile::lambert;
+    PlaneFrameOptions options;
+    options.width = 100;
+    options.height = 75;
+    return render_plane(PlaneWorld(scene), options);
+  };
+  const Picture one = drawing(1);
+  for (double unit : {1e-6, 0.013, 4000.0}) {
+    const Picture other = drawing(unit);
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(one.pixels[i].x, other.pixels[i].x, 2e-6) << unit << ", pixel " << i;
+  }
+}
+
+// Shapes with many edges on the way to a light, in numbers that take the merged spans and the bounded searches of shadows.
+TEST(PlaneFrame, EqualsTheQueryBehindOutlinesOfManyEdges) {
+  SceneRandom random(5);
+  PlaneScene scene;
+  scene.width = 160;
+  scene.height = 120;
+  for (int i = 0; i < 12; ++i) {
+    std::vector<Vec2d> outline;
+    const Vec2d c{random.uniform(30, 130), random.uniform(20, 100)};
+    for (int k = 0; k < 150; ++k) {
+      const double t = 2 * M_PI * k / 150, r = 7 * (1 + 0.4 * std::sin((3 + i % 4) * t));
+      outline.push_back(c + Vec2d{r * std::cos(t), r * std::sin(t)});
+    }
+    scene.bodies.push_back(plane_polygon(outline));
+  }
+  for (Vec2d at : {Vec2d{10, 60}, Vec2d{150, 20}, Vec2d{80, 112}}) {
+    scene.bodies.push_back(plane_circle(at, 5));
+    scene.bodies.back().light.emplace();
+  }
+  expect_query(scene, 160, 120, 7, "outlines of many edges");
+}
+
 TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   const PlaneWorld world(make_plane_family(8, 2));
   PlaneFrameOptions options;

@@ -245,11 +245,8 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
     light.ny = f(n.y);
     light.begin = f(dot(light_.b, t));
     light.end = f(dot(light_.a, t));
-    // The curve's ends by place: a two-sided curve also serves an emitter that runs the other way.
-    const bool same = e.a == e.curve->a;
-    const Vec3d at_a = same ? e.curve->radiance_a : e.curve->radiance_b, at_b = same ? e.curve->radiance_b : e.curve->radiance_a;
-    from = at_b;
-    slope = (at_a - at_b) / length(e.b - e.a);
+    from = e.radiance.b;
+    slope = (e.radiance.a - e.radiance.b) / length(e.b - e.a);
     light.linear = slope.x != 0 || slope.y != 0 || slope.z != 0;
   }
   light.x = f(light_.a.x);
@@ -267,7 +264,7 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
 LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, std::size_t count) {
   light_ = {e.a - tile_.center, e.b - tile_.center, e.center - tile_.center, e.radius, e.bound};
   seen_ = see(e);
-  shadows_.clear(pool_);
+  shadows_.clear(pool_, light_.center);
   for (std::size_t i = 0; i < count; ++i) {
     if (frame_.blockers[static_cast<std::size_t>(blockers[i])].kind == Blocker::Kind::convex)
       add_convex(blockers[i]);

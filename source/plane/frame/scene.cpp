@@ -1,5 +1,7 @@
 #include "plane/frame/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +31,7 @@ double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
 
 class Preparation {
  public:
-  explicit Preparation(const World& world) : world_(world) {
+  Preparation(const World& world, Budget& budget) : world_(world), budget_(budget) {
     frame_.world = &world;
     frame_.general.assign(world.scene.bodies.size(), 0);
     frame_.convex.assign(world.scene.bodies.size(), 0);
@@ -37,6 +39,8 @@ class Preparation {
 
   FrameScene run() {
     const std::size_t bodies = world_.scene.bodies.size();
+    const std::string& name = world_.scene.name;
+    budget_.take_memory(name, "what may block its lights", (world_.curves.size() + 3 * bodies) * kBlockerBytes);
     for (std::size_t i = 0; i < bodies; ++i) {
       first_blocker_.push_back(frame_.blockers.size());
       add_blockers(i);
@@ -48,18 +52,54 @@ class Preparation {
     const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
     slack_ = 32 * 0x1p-24 * std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x),
                                       std::fabs(high.y - origin.y), world_.scene.width, world_.scene.height});
+    if (!frame_.emitters.empty()) check_pairs();
+    check_general();
     interior();
     frame_.first_nearby.push_back(0);
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
       find_nearby(e);
       frame_.first_nearby.push_back(frame_.nearby.size);
     }
+    spend(0);
     for (char g : frame_.general) frame_.any_general = frame_.any_general || g != 0;
     return std::move(frame_);
   }
 
  private:
   const PlaneBody& body(std::size_t i) const { return world_.scene.bodies[i]; }
+
+  // A blocker with its outline, its place in a list and a tile's view of it.
+  static constexpr std::size_t kBlockerBytes = sizeof(Blocker) + sizeof(PaddedOutline) + 2 * sizeof(Vec2d) + sizeof(Silhouette);
+  // What it takes to hold a pair of a light's piece and a blocker in its range through the levels of a frame, and to look at it.
+  static constexpr std::size_t kPairBytes = 60, kPairSteps = 600;
+
+  void check_pairs() {
+    const BinCounts counts(bins_);
+    std::uint64_t pairs = 0;
+    for (const Emitter& e : frame_.emitters) pairs += counts.within(e.center, std::min(e.range, 1e8) + e.bound);
+    const std::string what = fmt::format("the {} pairs of its {} pieces of light and what may block them", pairs, frame_.emitters.size());
+    budget_.take_work(world_.scene.name, what, pairs * kPairSteps);
+    budget_.take_memory(world_.scene.name, what, pairs * kPairBytes);
+  }
+
+  // Lights that only the general method serves are asked of every pixel on its own. What counts is the scene, not the picture:
+  // as if it were small.
+  void check_general() {
+    const std::uint64_t lights = static_cast<std::uint64_t>(std::count(frame_.general.begin(), frame_.general.end(), 1));
+    constexpr std::uint64_t kPixels = 64 * 48;
+    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are ellipses, strokes, spots or shaded by profile", lights),
+                      lights * kPixels * (1000 + 4 * world_.curves.size()));
+  }
+
+  // Steps that are known only as they are made.
+  void spend(std::uint64_t steps) {
+    steps_ += steps;
+    if (steps != 0 && steps_ < 10'000'000) return;
+    budget_.take_work(world_.scene.name, "the overlaps of its lights with other shapes", steps_);
+    budget_.take_memory(world_.scene.name, "the parts of shapes that overlap its lights", (frame_.outlines.size() - outlines_held_) * kBlockerBytes);
+    outlines_held_ = frame_.outlines.size();
+    steps_ = 0;
+  }
 
   void add_convex(std::vector<Vec2d> vertices, int owner, std::vector<Blocker>& to) {
     Blocker b;
@@ -158,14 +198,20 @@ class Preparation {
       const Curve& curve = world_.curves[c];
       Emitter e;
       e.body = static_cast<int>(i);
-      e.curve = &curve;
       if (curve.kind == Curve::Kind::segment && !spot) {
         e.kind = Emitter::Kind::edge;
-        e.a = curve.a;
-        e.b = curve.b;
-        add_emitter(e);
-        if (curve.two_sided) {
+        // Cut where the gradient has a stop, so that radiance is linear on each.
+        const std::vector<double> cuts = light.gradient ? gradient_cuts(*light.gradient, curve) : std::vector<double>{0, 1};
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+          const Curve part = part_of(curve, cuts[k], cuts[k + 1]);
+          if (part.a == part.b) continue;
+          e.a = part.a;
+          e.b = part.b;
+          e.radiance = radiance_ends(light, e.a, e.b);
+          add_emitter(e);
+          if (!curve.two_sided) continue;
           std::swap(e.a, e.b);
+          std::swap(e.radiance.a, e.radiance.b);
           add_emitter(e);
         }
       } else if (is_full_circle(curve) && plain && !spot) {
@@ -198,6 +244,7 @@ class Preparation {
       std::vector<std::size_t> others{i};
       const Vec2d middle = (mine.low + mine.high) * 0.5;
       bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
+        spend(20);
         const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
         const Box& box = world_.boxes[o];
         if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
@@ -208,6 +255,10 @@ class Preparation {
       others.erase(std::unique(others.begin(), others.end()), others.end());
       if (others.size() == 1) continue;  // nothing inside: the light alone
       LightInterior& inside = frame_.interior[i];
+      std::size_t reaching = 0;
+      for (std::size_t o : others) reaching += world_.first_curve[o + 1] - world_.first_curve[o];
+      spend(20 * reaching);
+      budget_.take_memory(world_.scene.name, "what reaches into its lights", reaching * (sizeof(Curve*) + sizeof(Curve)));
       for (std::size_t o : others)
         for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) inside.curves.push_back(&world_.curves[c]);
       const Curve& own = world_.curves[world_.first_curve[i]];
@@ -234,7 +285,7 @@ class Preparation {
   }
 
   // Exact for round lights and among polygons; others go by their boxes.
-  bool may_be_inside(std::size_t light, const Blocker& b) const {
+  bool may_be_inside(std::size_t light, const Blocker& b) {
     if (b.body == static_cast<int>(light)) return true;
     const Curve& curve = world_.curves[world_.first_curve[light]];
     if (b.kind == Blocker::Kind::convex && body(light).shape == PlaneBody::Shape::polygon) return reaches_into(light, b);
@@ -245,17 +296,18 @@ class Preparation {
     return overlaps(disk, b);
   }
 
-  bool reaches_into(std::size_t polygon, const Blocker& b) const {
+  bool reaches_into(std::size_t polygon, const Blocker& b) {
     for (std::size_t k = 0; k < b.count; ++k) {
       const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
-      if (contains(body(polygon), p)) return true;
+      spend(30 + 2 * (world_.first_curve[polygon + 1] - world_.first_curve[polygon]));
+      if (world_.contains(polygon, p)) return true;
       for (std::size_t c = world_.first_curve[polygon]; c < world_.first_curve[polygon + 1]; ++c) {
         const Curve& edge = world_.curves[c];
         const Vec2d along = edge.b - edge.a, d = q - p;
         const bool apart = cross(along, p - edge.a) * cross(along, q - edge.a) > 0 || cross(d, edge.a - p) * cross(d, edge.b - p) > 0;
         if (!apart) return true;
       }
-      if (b.count == 2) return contains(body(polygon), q);
+      if (b.count == 2) return world_.contains(polygon, q);
     }
     // The polygon within the body: nothing of the body's outline is in it.
     return false;
@@ -269,7 +321,7 @@ class Preparation {
       const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       if (b.body == e.body) {
         // The rest of a concave light blocks its own edges; a convex one lies behind them.
-        if (e.kind == Emitter::Kind::edge && b.count == 2) own_edge(e, b, list);
+        if (e.kind == Emitter::Kind::edge && b.count == 2) own_edge(e, k, list);
         return;
       }
       if (overlaps(e, b))
@@ -323,6 +375,7 @@ class Preparation {
   }
 
   void add_private(std::vector<Vec2d> vertices, int owner, std::vector<int>& list) {
+    spend(300);
     list.push_back(static_cast<int>(frame_.blockers.size()));
     add_convex(std::move(vertices), owner, frame_.blockers);
   }
@@ -337,8 +390,15 @@ class Preparation {
     add_private({p, q}, owner, list);
   }
 
-  void own_edge(const Emitter& e, const Blocker& b, std::vector<int>& list) {
-    add_in_front(e, frame_.vertices[b.first], frame_.vertices[b.first + 1], b.body, list);
+  void own_edge(const Emitter& e, int blocker, std::vector<int>& list) {
+    const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+    const Vec2d p = frame_.vertices[b.first], q = frame_.vertices[b.first + 1];
+    const double hp = dot(p - e.a, e.normal), hq = dot(q - e.a, e.normal);
+    if (std::max(hp, hq) <= kTouching) return;
+    if (std::min(hp, hq) >= 0)
+      list.push_back(blocker);  // all of it in front: as it is
+    else
+      add_in_front(e, p, q, b.body, list);
   }
 
   // Replaces a blocker that overlaps the emitter; false where no rule serves.
@@ -397,11 +457,14 @@ class Preparation {
   FrameScene frame_;
   std::vector<std::size_t> first_blocker_;
   BlockerBins bins_;
+  Budget& budget_;
+  std::uint64_t steps_ = 0;
+  std::size_t outlines_held_ = 0;
   double slack_ = 0;  // of circles in float: a few roundings of the scene's size
 };
 
 }  // namespace
 
-FrameScene prepare_frame(const World& world) { return Preparation(world).run(); }
+FrameScene prepare_frame(const World& world, Budget& budget) { return Preparation(world, budget).run(); }
 
 }  // namespace steradian::plane

@@ -10,6 +10,7 @@
 #include "plane/frame/cull.h"
 #include "plane/frame/interior.h"
 #include "plane/frame/silhouette.h"
+#include "core/budget.h"
 #include "plane/exact/world.h"
 
 namespace steradian::plane {
@@ -20,7 +21,7 @@ struct Emitter {
   int body = 0;
   Vec2d a, b;              // an edge's ends, lit side to the right of a -> b; a disk's centre, twice
   double radius = 0;       // disk
-  const Curve* curve = nullptr;
+  RadianceEnds radiance;   // of an edge; linear between
 
   Vec2d center;            // of a bounding circle
   double bound = 0;
@@ -58,6 +59,7 @@ struct FrameScene {
   std::vector<char> convex;               // by body: all of a row within it is one run
 };
 
-FrameScene prepare_frame(const World& world);
+// Throws Error where the lights and what may block them are more than the budget allows.
+FrameScene prepare_frame(const World& world, Budget& budget);
 
 }  // namespace steradian::plane

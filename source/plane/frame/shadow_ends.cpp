@@ -11,6 +11,20 @@ float f(double x) { return static_cast<float>(x); }
 TileVertex vertex(Vec2d p) { return {f(p.x), f(p.y)}; }
 TileDisk disk(const Silhouette& s) { return {f(s.center.x), f(s.center.y), f(s.radius)}; }
 
+// However many ends there are, these are the ones that others are compared with.
+constexpr std::size_t kFurthest = 16, kLooks = 24;
+
+// The furthest ends come first, as the tile's centre sees them; all are ahead of it, within half a turn.
+template <class Further>
+void bring_forward(std::vector<Vec2d>& ends, Further further) {
+  if (ends.size() > kFurthest) std::nth_element(ends.begin(), ends.begin() + kFurthest, ends.end(), further);
+}
+template <class Further>
+void keep_furthest(std::vector<Vec2d>& ends, Further further) {
+  bring_forward(ends, further);
+  if (ends.size() > kFurthest) ends.resize(kFurthest);
+}
+
 template <class F>
 void for_each(unsigned set, F call) {
   for (; set != 0; set &= set - 1) call(std::countr_zero(set));
@@ -24,7 +38,8 @@ bool any_of(unsigned set, F test) {
 
 }  // namespace
 
-void ShadowEnds::clear(const std::vector<Silhouette>& pool) {
+void ShadowEnds::clear(const std::vector<Silhouette>& pool, Vec2d to_light) {
+  axis_ = to_light;
   hidden_ = false;
   pool_ = &pool;
   held_.clear();
@@ -109,37 +124,52 @@ bool ShadowEnds::covered(const Held& h) const {
 
 // Ends that another is always beyond. Not by what merely moved a front on: that still relies on the ends before it.
 void ShadowEnds::drop_dominated() {
-  const auto thin = [](std::vector<Vec2d>& ends, auto beyond) {
+  const auto thin = [](std::vector<Vec2d>& ends, auto further, auto beyond) {
+    // The furthest first, as the tile's centre sees them.
+    bring_forward(ends, further);
     for (std::size_t i = ends.size(); i-- > 0;)
-      for (std::size_t k = 0; k < ends.size(); ++k)
+      for (std::size_t k = 0; k < std::min(ends.size(), kFurthest); ++k)
         if (k != i && beyond(ends[i], ends[k])) {
           ends[i] = ends.back();
           ends.pop_back();
           break;
         }
   };
-  thin(low_points_, [&](Vec2d end, Vec2d v) { return follows(end, v); });
-  thin(high_points_, [&](Vec2d end, Vec2d v) { return follows(v, end); });
+  thin(low_points_, [](Vec2d a, Vec2d b) { return cross(a, b) < 0; }, [&](Vec2d end, Vec2d v) { return follows(end, v); });
+  thin(high_points_, [](Vec2d a, Vec2d b) { return cross(a, b) > 0; }, [&](Vec2d end, Vec2d v) { return follows(v, end); });
 }
 
 bool ShadowEnds::hidden() {
   if (hidden_) return true;
-  for (std::size_t i = 0; i < low_front_.size(); ++i)
+  // Growing further is worth only so much: what is left to the pixels is as right.
+  std::size_t looks = kLooks * (held_.size() + 16);
+  const auto worth = [&] { return looks > held_.size() && (looks -= held_.size()) != 0; };
+  for (std::size_t i = 0; i < low_front_.size() && worth(); ++i)
     for (Held& h : held_) {
       if (h.dropped || h.deep || h.low_done) continue;
       const Silhouette& s = of(h);
       if (any_of(s.begins & h.ahead, [&, low = low_front_[i]](int k) { return follows(s.at(k), low); })) grow_low(h);
     }
-  for (std::size_t i = 0; i < high_front_.size(); ++i)
+  looks = kLooks * (held_.size() + 16);
+  for (std::size_t i = 0; i < high_front_.size() && worth(); ++i)
     for (Held& h : held_) {
       if (h.dropped || h.deep || h.high_done) continue;
       const Silhouette& s = of(h);
       if (any_of(s.ends & h.ahead, [&, high = high_front_[i]](int k) { return follows(high, s.at(k)); })) grow_high(h);
     }
+  keep_furthest(low_front_, [](Vec2d a, Vec2d b) { return cross(a, b) < 0; });
+  keep_furthest(high_front_, [](Vec2d a, Vec2d b) { return cross(a, b) > 0; });
   for (Vec2d low : low_front_)
     for (Vec2d high : high_front_)
       if (follows(high, low)) return true;
   return false;
+}
+
+// Rises with the angle from the light's direction, -2 to 2.
+double ShadowEnds::turn_of(Vec2d v) const {
+  const double across = cross(axis_, v), along = dot(axis_, v), sum = std::fabs(across) + std::fabs(along);
+  if (!(sum > 0)) return 0;
+  return along >= 0 ? across / sum : std::copysign(2, across) - across / sum;
 }
 
 void ShadowEnds::write(TileLight& light) {
@@ -155,6 +185,14 @@ void ShadowEnds::write(TileLight& light) {
   rounds_.clear();
   for (Vec2d v : low_points_) lows_.push_back(vertex(v));
   for (Vec2d v : high_points_) highs_.push_back(vertex(v));
+  // By where the tile's centre sees them begin: spans that follow each other then merge as they are taken.
+  if (held_.size() > kFurthest) {
+    const auto begin = [&](const Held& h) { return of(h).at(std::countr_zero(static_cast<unsigned>(of(h).begins))); };
+    std::sort(held_.begin(), held_.end(), [&](const Held& a, const Held& b) {
+      const double turn_a = turn_of(begin(a)), turn_b = turn_of(begin(b));
+      return turn_a != turn_b ? turn_a < turn_b : a.silhouette < b.silhouette;
+    });
+  }
   for (const Held& h : held_) {
     // One whose own ends are among the front's would cover itself.
     if (h.dropped || (!h.low_done && !h.high_done && covered(h))) continue;

@@ -22,7 +22,7 @@ class ShadowEnds {
  public:
   void enter(const TileArea& tile) { half_ = tile.half, radius_ = tile.radius; }
   // For another light. Silhouettes that are taken stay where they are in `pool`.
-  void clear(const std::vector<Silhouette>& pool);
+  void clear(const std::vector<Silhouette>& pool, Vec2d to_light);
   // A convex blocker in front of the light for all of the tile. Marks of the vertices that are ahead of all pixels;
   // whether it reaches past the light on either side.
   void take_front(int silhouette, std::uint8_t ahead, bool from_low, bool to_high);
@@ -52,8 +52,9 @@ class ShadowEnds {
   bool covered(const Held& h) const;
   bool covered(Vec2d center, double radius) const;
   void drop_dominated();
+  double turn_of(Vec2d v) const;
 
-  Vec2d half_;
+  Vec2d half_, axis_;
   double radius_ = 0;
   bool hidden_ = false;
   const std::vector<Silhouette>* pool_ = nullptr;

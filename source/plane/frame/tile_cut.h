@@ -40,19 +40,32 @@ struct Cut {
     if (any_lane(within && to > low && from < high && from < to)) insert(select(within, from, PackReal(kBeyond)), select(within, to, PackReal(kBeyond)));
   }
 
-  // Sorted by begin, lane by lane.
+  // Sorted by begin, lane by lane. Mostly they come in that order already, and go on where the last one ends: then the last
+  // one grows. Lanes that take nothing have both ends beyond.
   STERADIAN_INLINE void insert(PackReal from, PackReal to) {
-    for (int k = 0; k < count; ++k) {
-      const PackReal b = load(begin_of(k)), e = load(end_of(k));
-      const PackMask swap = from < b;
-      store(begin_of(k), select(swap, from, b));
-      store(end_of(k), select(swap, to, e));
-      from = select(swap, b, from);
-      to = select(swap, e, to);
+    if (count > 0) {
+      const PackReal b = load(begin_of(count - 1)), e = load(end_of(count - 1));
+      const PackMask nothing = from >= PackReal(kBeyond), empty = b >= PackReal(kBeyond);
+      PackMask joins = nothing || empty || (from <= e && to >= b);
+      if (count > 1) joins = joins && (nothing || from >= load(begin_of(count - 2)));
+      if (all_lanes(joins)) {
+        store(begin_of(count - 1), min(b, from));
+        store(end_of(count - 1), select(nothing, e, select(empty, to, max(e, to))));
+        return;
+      }
     }
-    store(begin_of(count), from);
-    store(end_of(count), to);
-    ++count;
+    int at = count++;
+    store(begin_of(at), from);
+    store(end_of(at), to);
+    for (; at > 0; --at) {
+      const PackReal b = load(begin_of(at - 1)), e = load(end_of(at - 1)), late_b = load(begin_of(at)), late_e = load(end_of(at));
+      const PackMask swap = late_b < b;
+      if (!any_lane(swap)) return;
+      store(begin_of(at - 1), select(swap, late_b, b));
+      store(end_of(at - 1), select(swap, late_e, e));
+      store(begin_of(at), select(swap, b, late_b));
+      store(end_of(at), select(swap, e, late_e));
+    }
   }
 
   // What is taken from within [low, high], without overlaps.

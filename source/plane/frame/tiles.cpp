@@ -79,14 +79,15 @@ class Worker {
     top.bodies.clear();
     top.general.clear();
     const TileArea tile = area(x, y, kSides[0]);
+    for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
+      if (touches(world_.boxes[i], tile)) top.bodies.push_back(static_cast<int>(i));
+      if (frame_.general[i] != 0 && in_range(i, tile)) top.general.push_back(static_cast<int>(i));
+    }
+    if (stays_dark(top, x, y, kSides[0])) return;
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
       const Emitter& emitter = frame_.emitters[e];
       if (frame_.general[static_cast<std::size_t>(emitter.body)] != 0) continue;
       filter(static_cast<int>(e), frame_.nearby, frame_.first_nearby[e], frame_.first_nearby[e + 1], tile, top);
-    }
-    for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
-      if (touches(world_.boxes[i], tile)) top.bodies.push_back(static_cast<int>(i));
-      if (frame_.general[i] != 0 && in_range(i, tile)) top.general.push_back(static_cast<int>(i));
     }
     descend(0, x, y);
   }
@@ -151,6 +152,19 @@ class Worker {
     return plane::hides(&frame_.vertices[b.first], b.count, e, tile);
   }
 
+  // Fills a tile that one convex occluder holds all of.
+  bool stays_dark(const Level& level, int x0, int y0, int side) {
+    const int x1 = std::min(x0 + side, grid_.width) - 1, y1 = std::min(y0 + side, grid_.height) - 1;
+    for (int i : level.bodies) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      const auto holds = [&](int x, int y) { return world_.boxes[k].holds(grid_.at(x, y)) && world_.contains(k, grid_.at(x, y)); };
+      if (world_.scene.bodies[k].light || frame_.convex[k] == 0 || !holds(x0, y0) || !holds(x1, y1) || !holds(x0, y1) || !holds(x1, y0)) continue;
+      for (int y = y0; y <= y1; ++y) std::fill(&picture_.at(x0, y), &picture_.at(x1, y) + 1, Vec3f{});
+      return true;
+    }
+    return false;
+  }
+
   void descend(int level, int x, int y) {
     if (level + 1 == kLevels) {
       leaf(levels_[static_cast<std::size_t>(level)], x, y);
@@ -166,9 +180,10 @@ class Worker {
         to.blockers.clear();
         to.bodies.clear();
         to.general.clear();
-        for (const Entry& e : from.entries) filter(e.emitter, from.blockers, e.begin, e.end, tile, to);
         for (int i : from.bodies)
           if (touches(world_.boxes[static_cast<std::size_t>(i)], tile)) to.bodies.push_back(i);
+        if (stays_dark(to, x + dx, y + dy, side)) continue;
+        for (const Entry& e : from.entries) filter(e.emitter, from.blockers, e.begin, e.end, tile, to);
         for (int i : from.general)
           if (in_range(static_cast<std::size_t>(i), tile)) to.general.push_back(i);
         descend(level + 1, x + dx, y + dy);
@@ -181,7 +196,11 @@ class Worker {
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
     leaf_.enter(tile);
+    mark_inside(level, x0, y0);
+    // Where something fills every pixel, no light arrives from outside.
+    const bool filled = marked_.size() == static_cast<std::size_t>(std::min(kTileSide, grid_.width - x0) * std::min(kTileSide, grid_.height - y0));
     for (const Entry& e : level.entries) {
+      if (filled) break;
       const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
       table_.add_light(light, buffer_);
@@ -190,11 +209,9 @@ class Worker {
     }
     table_.write(buffer_, std::min(kTileSide, grid_.width - x0), std::min(kTileSide, grid_.height - y0), &picture_.at(x0, y0).x,
                  3 * static_cast<std::size_t>(grid_.width));
-    if (level.bodies.empty() && level.general.empty()) return;
-    mark_inside(level, x0, y0);
     for (int i : marked_) {
       const int x = x0 + i % kTileSide, y = y0 + i / kTileSide, inside = inside_[i];
-      if (x < grid_.width && y < grid_.height) picture_.at(x, y) = inside == kDark ? Vec3f{} : static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x, y)));
+      picture_.at(x, y) = inside == kDark ? Vec3f{} : static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x, y)));
     }
     if (!level.general.empty()) add_general(level, tile, x0, y0);
     for (int i : marked_) inside_[i] = kOutside;
@@ -222,19 +239,24 @@ class Worker {
 
   // Which body fills each pixel: in double and by the same test as a query.
   void mark_inside(const Level& level, int x0, int y0) {
+    const int columns = std::min(kTileSide, grid_.width - x0), rows = std::min(kTileSide, grid_.height - y0);
+    int dark = 0;
     for (int index : level.bodies) {
+      if (dark == columns * rows) return;
       const PlaneBody& body = world_.scene.bodies[static_cast<std::size_t>(index)];
       const Box& box = world_.boxes[static_cast<std::size_t>(index)];
       const Vec2d first = grid_.at(x0, y0);
-      const auto low = [](double at, double origin, double step) { return std::max(static_cast<int>(std::ceil((at - origin) / step - 1e-9)), 0); };
-      const auto high = [](double at, double origin, double step) { return std::min(static_cast<int>(std::floor((at - origin) / step + 1e-9)), kTileSide - 1); };
-      const int x0_box = low(box.low.x, first.x, grid_.step.x), x1_box = high(box.high.x, first.x, grid_.step.x);
-      for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y); ++y) {
-        const auto within = [&](int x) { return contains(body, grid_.at(x0 + x, y0 + y)); };
+      const auto low = [](double at, double origin, double step) { return static_cast<int>(std::ceil(std::clamp((at - origin) / step - 1e-9, 0.0, 1.0 * kTileSide))); };
+      const auto high = [](double at, double origin, double step, int count) { return static_cast<int>(std::floor(std::min((at - origin) / step + 1e-9, count - 1.0))); };
+      const int x0_box = low(box.low.x, first.x, grid_.step.x), x1_box = high(box.high.x, first.x, grid_.step.x, columns);
+      for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y, rows); ++y) {
+        const auto within = [&](int x) { return world_.contains(static_cast<std::size_t>(index), grid_.at(x0 + x, y0 + y)); };
         const auto mark = [&](int x) {
           int& inside = inside_[y * kTileSide + x];
           if (inside == kOutside) marked_.push_back(y * kTileSide + x);
-          if (inside != kDark) inside = body.light ? index : kDark;
+          if (inside == kDark) return;
+          inside = body.light ? index : kDark;
+          dark += inside == kDark ? 1 : 0;
         };
         int begin = x0_box, end = x1_box;
         if (frame_.convex[static_cast<std::size_t>(index)] != 0) {

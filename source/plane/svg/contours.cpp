@@ -25,28 +25,40 @@ void Pen::move(Vec2d to) {
   points_.push_back(transform_.apply(at_));
 }
 
-void Pen::begin() {
+// Before `more` points of a line or curve.
+void Pen::begin(int more) {
+  if (before_) before_(static_cast<std::size_t>(more));
   if (points_.empty()) points_.push_back(transform_.apply(at_));  // after a close the pen goes on from its start
 }
 
 void Pen::line(Vec2d to) {
-  begin();
+  begin(1);
   points_.push_back(transform_.apply(to));
+  at_ = to;
+}
+
+// In eighths, each in as many pieces as its own bend asks for: most curves bend in few places.
+void Pen::cubic(Vec2d first_control, Vec2d second_control, Vec2d to) {
+  bezier(transform_.apply(at_), transform_.apply(first_control), transform_.apply(second_control), transform_.apply(to), 3);
   at_ = to;
 }
 
 // A parabola through n pieces is off by |second difference| / (8 n^2) at most; the cubic's bound takes the larger of
 // its two second differences (Wang, "Some subdivision techniques", 1984).
-void Pen::cubic(Vec2d first_control, Vec2d second_control, Vec2d to) {
-  begin();
-  const Vec2d a = transform_.apply(at_), b = transform_.apply(first_control), c = transform_.apply(second_control), d = transform_.apply(to);
+void Pen::bezier(Vec2d a, Vec2d b, Vec2d c, Vec2d d, int halvings) {
   const double bend = 6 * std::max(length(a - b * 2 + c), length(b - c * 2 + d));
   const int n = pieces(std::sqrt(bend / (8 * tolerance_)));
+  if (halvings > 0 && n > 1) {
+    const Vec2d ab = (a + b) * 0.5, bc = (b + c) * 0.5, cd = (c + d) * 0.5, abc = (ab + bc) * 0.5, bcd = (bc + cd) * 0.5, middle = (abc + bcd) * 0.5;
+    bezier(a, ab, abc, middle, halvings - 1);
+    bezier(middle, bcd, cd, d, halvings - 1);
+    return;
+  }
+  begin(n);
   for (int i = 1; i <= n; ++i) {
     const double t = static_cast<double>(i) / n, s = 1 - t;
     points_.push_back(a * (s * s * s) + b * (3 * s * s * t) + c * (3 * s * t * t) + d * (t * t * t));
   }
-  at_ = to;
 }
 
 // SVG 1.1, appendix F.6, in the space where the ellipse is the unit circle: its squares neither overflow nor vanish there.
@@ -73,11 +85,11 @@ void Pen::arc(double rx, double ry, double turn, bool large, bool sweep, Vec2d t
   double span = std::atan2(k * u - v, -u - k * v) - begin_angle;
   if (sweep && span < 0) span += 2 * pi;
   if (!sweep && span > 0) span -= 2 * pi;
-  begin();
   // The sagitta of a piece is r (1 - cos(step / 2)) on the longest axis, which is below 1.5 times the longer column.
   const double r = 1.5 * std::max(rx, ry) * std::max(std::hypot(transform_.a, transform_.b), std::hypot(transform_.c, transform_.d));
   const double step = 4 * std::asin(std::sqrt(0.5 * std::min(tolerance_ / r, 1.0)));
   const int n = pieces(std::fabs(span) / step);
+  begin(n);
   for (int i = 1; i < n; ++i) {
     const double t = begin_angle + span * i / n;
     const Vec2d e{rx * std::cos(t), ry * std::sin(t)};

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "plane/svg/text.h"
@@ -17,7 +19,9 @@ struct Contours {
 // transform, and no further than `tolerance` from the curves there.
 class Pen {
  public:
-  Pen(const Transform& transform, double tolerance) : transform_(transform), tolerance_(tolerance) {}
+  // `before` is told how many points are coming; it may throw.
+  using Before = std::function<void(std::size_t points)>;
+  Pen(const Transform& transform, double tolerance, Before before) : transform_(transform), tolerance_(tolerance), before_(std::move(before)) {}
 
   Vec2d at() const { return at_; }
   bool has_begun() const { return begun_; }
@@ -30,11 +34,13 @@ class Pen {
   Contours finish();
 
  private:
-  void begin();
+  void begin(int more);
+  void bezier(Vec2d a, Vec2d b, Vec2d c, Vec2d d, int halvings);
   void end_contour(bool closed);
 
   Transform transform_;
   double tolerance_;
+  Before before_;
   Contours result_;
   std::vector<Vec2d> points_;
   Vec2d at_, start_;

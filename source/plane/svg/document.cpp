@@ -15,7 +15,7 @@ Document::Document(std::string text, std::string name) : text_(std::move(text)),
     throw Error(place(parsed.offset), std::string("not well-formed XML: ") + parsed.description(),
                 "check the tags and quotes on this line");
   if (std::string_view(root().name()) != "svg")
-    throw Error(place(root()), "the root element is <" + std::string(root().name()) + ">, not <svg>", "give an SVG file");
+    throw Error(place_of(root()), "the root element is <" + std::string(root().name()) + ">, not <svg>", "give an SVG file");
   std::vector<pugi::xml_node> open{root()};
   while (!open.empty()) {
     const pugi::xml_node n = open.back();
@@ -29,14 +29,14 @@ std::string Document::place(std::ptrdiff_t offset) const {
   const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
   return name_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n'));
 }
-std::string Document::place(pugi::xml_node n) const {
+std::string Document::place_of(pugi::xml_node n) const {
   std::string where = place(n.offset_debug());
   if (*n.name() != '\0') where += std::string(": <") + n.name() + ">";
   if (n.attribute("id")) where += std::string(" '") + n.attribute("id").value() + "'";
   return where;
 }
 void Document::fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const {
-  throw Error(place(n), problem, hint);
+  throw Error(place_of(n), problem, hint);
 }
 
 pugi::xml_node Document::by_id(const std::string& id) const {

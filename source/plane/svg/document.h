@@ -18,6 +18,7 @@ class Document {
   Document(std::string text, std::string name);
 
   pugi::xml_node root() const { return document_.document_element(); }
+  std::string place_of(pugi::xml_node n) const;  // file, line and name, for messages
   [[noreturn]] void fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const;
 
   // What href names; nothing where it is not in this file.
@@ -35,7 +36,6 @@ class Document {
 
  private:
   std::string place(std::ptrdiff_t offset) const;
-  std::string place(pugi::xml_node n) const;
 
   std::string text_, name_;
   pugi::xml_document document_;

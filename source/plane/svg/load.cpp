@@ -2,13 +2,19 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 
+#include "core/budget.h"
 #include "plane/svg/light.h"
 #include "plane/svg/path.h"
+#include "plane/svg/stroke.h"
 #include "steradian/error.h"
 #include "steradian/plane.h"
 
@@ -20,6 +26,7 @@ namespace {
 constexpr double kFlatness = 1e-5;
 constexpr int kDeepest = 64;           // nested groups and uses: deeper is a cycle or an attack
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000;
+constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
 
 std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> result;
@@ -30,14 +37,19 @@ std::vector<std::string> words(std::string_view text) {
 
 class Reader {
  public:
-  Reader(std::string text, std::string name) : document_(std::move(text), std::move(name)) {}
+  Reader(std::string text, std::string name, const Limits& limits) : document_(std::move(text), name), budget_(limits) {
+    result_.scene.name = std::move(name);
+    find_drawing(document_.root());
+  }
 
-  PlaneSvg read() {
+  PlaneSvg read() try {
     const pugi::xml_node root = document_.root();
     read_frame(root);
     children(root, inherit(root, {}), 0);
     result_.ignored.assign(document_.ignored.begin(), document_.ignored.end());
     return std::move(result_);
+  } catch (const std::bad_alloc&) {
+    throw budget_.out_of_memory();
   }
 
  private:
@@ -63,61 +75,90 @@ class Reader {
       document_.fail(root, "the picture's width and height must be positive and below a million", "set the viewBox");
   }
 
-  Style inherit(pugi::xml_node n, Style style) {
-    const std::pair<const char*, std::string*> inherited[] = {{"fill", &style.fill},
-                                                              {"stroke", &style.stroke},
-                                                              {"color", &style.color},
-                                                              {"stroke-linecap", &style.cap},
-                                                              {"fill-rule", &style.rule}};
-    for (const auto& [key, value] : inherited) {
-      const auto p = document_.property(n, key);
-      if (p && *p != "inherit") *value = *p;
+  // What one element says of itself, read once however many <use> show it.
+  struct Declared {
+    std::optional<std::string> fill, stroke, color, cap, rule;
+    std::optional<double> stroke_width, intensity, range;
+    Role role = Role::by_shape;  // by_shape: says nothing
+    std::optional<PlaneProfile> profile;
+    std::optional<std::pair<Vec2d, double>> spot;
+    std::optional<Transform> transform;
+  };
+
+  const Declared& declared(pugi::xml_node n) {
+    const auto [found, is_new] = declared_.try_emplace(n.internal_object());
+    if (is_new) read_declared(n, found->second);
+    return found->second;
+  }
+
+  void read_declared(pugi::xml_node n, Declared& d) {
+    const std::pair<const char*, std::optional<std::string>*> texts[] = {
+        {"fill", &d.fill}, {"stroke", &d.stroke}, {"color", &d.color}, {"stroke-linecap", &d.cap}, {"fill-rule", &d.rule}};
+    for (const auto& [key, value] : texts) {
+      auto p = document_.property(n, key);
+      if (p && *p != "inherit") *value = std::move(p);
     }
     if (const auto width = document_.property(n, "stroke-width")) {
-      const auto v = document_.length_of(*width, diagonal());
-      if (!v || *v < 0) document_.fail(n, "stroke-width=\"" + *width + "\" is not a length", "write a number");
-      style.stroke_width = *v;
+      d.stroke_width = document_.length_of(*width, diagonal());
+      if (!d.stroke_width || *d.stroke_width < 0) document_.fail(n, "stroke-width=\"" + *width + "\" is not a length", "write a number");
     }
-    if (const auto display = document_.property(n, "display"); display && *display == "none") style.role = Role::ignore;
-    read_role(n, style);
-    if (n.attribute("data-intensity")) style.intensity = document_.number_attribute(n, "data-intensity", 0, "give a number of at least 0");
+    if (n.attribute("data-intensity")) d.intensity = document_.number_attribute(n, "data-intensity", 0, "give a number of at least 0");
     if (n.attribute("data-range")) {
-      style.range = document_.number_attribute(n, "data-range", 0, "give a positive distance in user units");
-      if (style.range == 0) document_.fail(n, "data-range must be positive", "leave it out for light without a limit");
+      d.range = document_.number_attribute(n, "data-range", 0, "give a positive distance in user units");
+      if (*d.range == 0) document_.fail(n, "data-range must be positive", "leave it out for light without a limit");
     }
-    read_profile(n, style);
+    if (const auto display = document_.property(n, "display"); display && *display == "none") d.role = Role::ignore;
+    read_role(n, d);
+    read_profile(n, d);
     if (n.attribute("transform")) {
-      const auto t = parse_transform(n.attribute("transform").value());
-      if (!t) document_.fail(n, std::string("cannot read transform=\"") + n.attribute("transform").value() + "\"",
-                   "use matrix, translate, scale, rotate, skewX and skewY");
-      style.transform = style.transform * *t;
+      d.transform = parse_transform(n.attribute("transform").value());
+      if (!d.transform)
+        document_.fail(n, std::string("cannot read transform=\"") + n.attribute("transform").value() + "\"", "use matrix, translate, scale, rotate, skewX and skewY");
     }
+    if (d.role == Role::ignore) return;
+    for (const char* unsupported : {"clip-path", "mask", "filter"})
+      if (const auto p = document_.property(n, unsupported); p && *p != "none") document_.ignored.insert(unsupported);
+  }
+
+  Style inherit(pugi::xml_node n, Style style) {
+    const Declared& d = declared(n);
+    const std::pair<const std::optional<std::string>*, std::string*> texts[] = {
+        {&d.fill, &style.fill}, {&d.stroke, &style.stroke}, {&d.color, &style.color}, {&d.cap, &style.cap}, {&d.rule, &style.rule}};
+    for (const auto& [own, value] : texts)
+      if (*own) *value = **own;
+    style.stroke_width = d.stroke_width.value_or(style.stroke_width);
+    style.intensity = d.intensity.value_or(style.intensity);
+    style.range = d.range.value_or(style.range);
+    style.profile = d.profile.value_or(style.profile);
+    if (d.role != Role::by_shape && style.role != Role::ignore) style.role = d.role;
+    if (d.spot) std::tie(style.spot_axis, style.spot_half_angle) = *d.spot;
+    if (d.transform) style.transform = style.transform * *d.transform;
     return style;
   }
 
-  void read_role(pugi::xml_node n, Style& style) const {
-    if (style.role == Role::ignore) return;
+  void read_role(pugi::xml_node n, Declared& d) const {
+    if (d.role == Role::ignore) return;
     static constexpr std::pair<const char*, Role> kRoles[] = {
         {"light", Role::light}, {"occluder", Role::occluder}, {"ignore", Role::ignore}};
     for (const std::string& word : words(n.attribute("class").value()))
       for (const auto& [key, role] : kRoles)
-        if (word == key) style.role = role;
+        if (word == key) d.role = role;
     if (!n.attribute("data-steradian")) return;
     for (const auto& [key, role] : kRoles)
       if (trimmed(n.attribute("data-steradian").value()) == key) {
-        style.role = role;
+        d.role = role;
         return;
       }
     document_.fail(n, std::string("data-steradian=\"") + n.attribute("data-steradian").value() + "\" is unknown",
          "use light, occluder or ignore");
   }
 
-  void read_profile(pugi::xml_node n, Style& style) const {
+  void read_profile(pugi::xml_node n, Declared& d) const {
     if (n.attribute("data-profile")) {
       const std::string_view v = trimmed(n.attribute("data-profile").value());
-      if (v == "uniform") style.profile = PlaneProfile::uniform;
-      else if (v == "lambert") style.profile = PlaneProfile::lambert;
-      else if (v == "inverse") style.profile = PlaneProfile::inverse;
+      if (v == "uniform") d.profile = PlaneProfile::uniform;
+      else if (v == "lambert") d.profile = PlaneProfile::lambert;
+      else if (v == "inverse") d.profile = PlaneProfile::inverse;
       else document_.fail(n, "data-profile=\"" + std::string(v) + "\" is unknown", "use uniform, lambert or inverse");
     }
     if (!n.attribute("data-spot")) return;
@@ -128,8 +169,36 @@ class Reader {
     if (!axis || !half || !(*half >= 0 && *half <= 180))
       document_.fail(n, "data-spot needs two angles in degrees", "write data-spot=\"DIRECTION HALF-ANGLE\", the half angle up to 180");
     const double degree = std::numbers::pi / 180;
-    style.spot_axis = {std::cos(*axis * degree), std::sin(*axis * degree)};
-    style.spot_half_angle = *half * degree;
+    d.spot = {{std::cos(*axis * degree), std::sin(*axis * degree)}, *half * degree};
+  }
+
+  // Which elements show anything, themselves or by what is in them: groups of nothing are not gone through again and again.
+  void find_drawing(pugi::xml_node root) {
+    std::vector<pugi::xml_node> order{root};
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      // Not recursive: files may nest as deep as they like.
+      const pugi::xml_node n = order[i];
+      for (pugi::xml_node child : n.children())
+        if (child.type() == pugi::node_element) order.push_back(child);
+    }
+    for (std::size_t i = order.size(); i-- > 0;) {
+      const std::string_view name = order[i].name();
+      const bool is_group = name == "g" || name == "a" || name == "svg" || name == "symbol" || name == "defs";
+      if (!is_group) drawing_.insert(order[i].internal_object());
+      // A definition draws nothing where it stands.
+      if (name != "defs" && drawing_.count(order[i].internal_object()) != 0) drawing_.insert(order[i].parent().internal_object());
+    }
+  }
+
+  // Steps and bytes are taken in portions: the place of an element costs a look through the file.
+  void spend(pugi::xml_node n, std::uint64_t steps, std::uint64_t bytes) {
+    steps_ += steps;
+    bytes_ += bytes;
+    if (steps_ < kPortion && bytes_ < kPortion) return;
+    const std::string place = document_.place_of(n);
+    budget_.take_work(place, "what its shapes are made of (nested <use> multiply)", steps_);
+    budget_.take_memory(place, "the shapes so far", bytes_);
+    steps_ = bytes_ = 0;
   }
 
   double diagonal() const { return std::hypot(result_.scene.width, result_.scene.height) / std::sqrt(2.0); }
@@ -137,6 +206,7 @@ class Reader {
   double flatness() const { return kFlatness * std::max(result_.scene.width, result_.scene.height); }
 
   void children(pugi::xml_node n, const Style& style, int depth) {
+    if (uses_ > 0 && drawing_.count(n.internal_object()) == 0) return;
     if (depth > kDeepest) document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
     for (pugi::xml_node child : n.children()) {
       if (child.type() != pugi::node_element) continue;
@@ -145,6 +215,7 @@ class Reader {
   }
 
   void element(pugi::xml_node n, const Style& outer, int depth) {
+    spend(n, kElementSteps, 0);
     const std::string_view name = n.name();
     static const std::set<std::string_view> kSilent = {"title", "desc", "metadata", "defs", "linearGradient", "symbol"};
     if (kSilent.count(name) != 0 || name.find(':') != std::string_view::npos) return;
@@ -156,8 +227,6 @@ class Reader {
     }
     const Style style = inherit(n, outer);
     if (style.role == Role::ignore) return;
-    for (const char* unsupported : {"clip-path", "mask", "filter"})
-      if (const auto p = document_.property(n, unsupported); p && *p != "none") document_.ignored.insert(unsupported);
     if (name == "g" || name == "a" || name == "svg") return children(n, style, depth + 1);
     if (name == "use") return use(n, style, depth);
     shape(n, name, style);
@@ -193,7 +262,7 @@ class Reader {
       if (!filled) {
         if (style.stroke == "none" && style.role == Role::by_shape) return;
         // Seen from both sides: a closed polyline.
-        Pen pen({body.x_axis.x, body.x_axis.y, body.y_axis.x, body.y_axis.y, body.center.x, body.center.y}, flatness());
+        Pen pen({body.x_axis.x, body.x_axis.y, body.y_axis.x, body.y_axis.y, body.center.x, body.center.y}, flatness(), {});
         pen.move({1, 0});
         for (double x : {-1.0, 1.0}) pen.arc(1, 1, 0, false, true, {x, 0});
         body.shape = PlaneBody::Shape::polyline;
@@ -201,7 +270,7 @@ class Reader {
       }
       return add(n, std::move(body), style, filled);
     }
-    Pen pen(style.transform, flatness());
+    Pen pen(style.transform, flatness(), [&](std::size_t points) { spend(n, 20 * points, 40 * points); });
     draw(n, name, pen);
     Contours contours = pen.finish();
     if (filled) {
@@ -212,21 +281,17 @@ class Reader {
       return add(n, std::move(body), style, true);
     }
     if (style.stroke == "none" && style.role == Role::by_shape) return;
-    for (std::size_t i = 0; i < contours.points.size(); ++i)
-      if (contours.closed[i]) contours.points[i].push_back(contours.points[i].front());
     const double radius = 0.5 * style.stroke_width * std::sqrt(std::fabs(style.transform.determinant()));
     if (style.cap == "round" && radius > 0) {
-      for (const auto& c : contours.points)
-        for (std::size_t i = 0; i + 1 < c.size(); ++i) {
-          PlaneBody capsule;
-          capsule.shape = PlaneBody::Shape::capsule;
-          capsule.contours = {{c[i], c[i + 1]}};
-          capsule.radius = radius;
-          add(n, std::move(capsule), style, false);
-        }
+      for (std::size_t i = 0; i < contours.points.size(); ++i) {
+        spend(n, 60 * contours.points[i].size(), 80 * contours.points[i].size());
+        add(n, stroke_of(contours.points[i], contours.closed[i], radius, flatness()), style, false);
+      }
       return;
     }
     if (contours.points.empty()) return;
+    for (std::size_t i = 0; i < contours.points.size(); ++i)
+      if (contours.closed[i]) contours.points[i].push_back(contours.points[i].front());
     body.shape = PlaneBody::Shape::polyline;
     body.contours = std::move(contours.points);
     add(n, std::move(body), style, false);
@@ -278,12 +343,18 @@ class Reader {
 
   void add(pugi::xml_node n, PlaneBody body, const Style& style, bool filled) {
     if (result_.scene.bodies.size() >= kMostBodies) document_.fail(n, "more than a million shapes", "split the scene");
+    spend(n, 500, sizeof(PlaneBody) + 40);
     body.name = n.attribute("id").value();
     if (style.role == Role::light) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    if (body.light && body.light->gradient) spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
     result_.scene.bodies.push_back(std::move(body));
   }
 
   Document document_;
+  Budget budget_;
+  std::uint64_t steps_ = 0, bytes_ = 0;
+  std::unordered_map<const void*, Declared> declared_;
+  std::unordered_set<const void*> drawing_;
   std::size_t uses_ = 0;
   PlaneSvg result_;
 };
@@ -294,15 +365,20 @@ class Reader {
 
 namespace steradian {
 
-PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name) { return plane::svg::Reader(svg, name).read(); }
+PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name, const Limits& limits) {
+  return plane::svg::Reader(svg, name, limits).read();
+}
 
-PlaneSvg load_plane_scene(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+PlaneSvg load_plane_scene(const std::string& path, const Limits& limits) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw Error(path, "cannot be opened", "check the path");
+  const std::streamoff size = file.tellg();
+  if (size > 0) Budget(limits).take_memory(path, "the text of the file, as a tree", static_cast<std::uint64_t>(size) * 4);
+  file.seekg(0);
   std::ostringstream text;
   text << file.rdbuf();
   if (!file && !file.eof()) throw Error(path, "cannot be read", "check that it is a file");
-  return load_plane_scene_from_text(text.str(), path);
+  return load_plane_scene_from_text(text.str(), path, limits);
 }
 
 }  // namespace steradian

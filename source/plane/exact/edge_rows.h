@@ -1,0 +1,56 @@
+// The edges of a filled outline by the rows that they cross: is a point within, and do edges cross each other?
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "steradian/plane.h"
+
+namespace steradian::plane {
+
+struct Edge {
+  Vec2d a, b;
+};
+
+
+class EdgeRows {
+ public:
+  EdgeRows() = default;
+  explicit EdgeRows(const std::vector<std::vector<Vec2d>>& contours);
+
+  bool contains(Vec2d p, bool even_odd) const;
+
+  // Two edges that cross, other than at their ends. Looks at no more than a few hundred pairs an edge; where that is not
+  // enough, the answer is the safe one, that some do.
+  bool may_cross() const;
+
+ private:
+  std::size_t row(double y) const;
+
+  std::vector<Edge> edges_;
+  std::vector<std::size_t> first_;   // by row, and one more: where its edges begin in
+  std::vector<std::uint32_t> edge_;  // numbers of edges
+  double low_ = 0, high_ = -1, scale_ = 0;
+};
+
+// What edges add to a point's winding number and to its crossings, one after the other.
+class Winding {
+ public:
+  explicit Winding(Vec2d at) : at_(at) {}
+  void add(Vec2d from, Vec2d to) {
+    const Vec2d a = from - at_, b = to - at_;
+    const double side = cross(a, b);
+    if (side == 0 && dot(a, b) <= 0) on_edge_ = true;
+    if ((a.y <= 0) == (b.y <= 0) || (b.y > a.y) != (side > 0)) return;
+    winding_ += b.y > a.y ? 1 : -1;
+    ++crossings_;
+  }
+  bool within(bool even_odd) const { return on_edge_ || (even_odd ? crossings_ % 2 != 0 : winding_ != 0); }
+
+ private:
+  Vec2d at_;
+  int winding_ = 0, crossings_ = 0;
+  bool on_edge_ = false;
+};
+
+}  // namespace steradian::plane
