@@ -325,7 +325,7 @@ TOPICS = {  # name: (what it is, the beginnings of its kernels' names; a kernel 
     "polygon": ("polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe",
                 ["outline/polygon", "outline/horizon_clip", "lobe/lambert"]),
     "lobe": ("lobes of surfaces", ["lobe/"]),
-    "round": ("disks, ellipses, spheres, ellipsoids, tubes and lines", ["outline/"]),
+    "round": ("disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights", ["outline/"]),
     "phong": ("Phong's lobe over polygons, exactly and by a series", ["integral/moment"]),
     "ltc": ("linearly transformed cosines over polygons, textured ones too", ["integral/ltc"]),
     "ltc_tables": ("the tables of linearly transformed cosines, 4 KB each, and how they are read", []),

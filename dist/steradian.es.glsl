@@ -917,7 +917,7 @@ float steradian_blinn_phong_distribution(vec3 h, float n) {
     return (n + 2.0) * steradian_inverse_two_pi() * steradian_phong_power(h.z, n);
 }
 
-// ======== round: disks, ellipses, spheres, ellipsoids, tubes and lines ========
+// ======== round: disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights ========
 
 // ==== conic ====
 
@@ -1725,6 +1725,52 @@ SteradianEllipsoidOutline steradian_ellipsoid_outline(vec3 to_center, mat3 s, ma
     outline.axis_b = steradian_transform(s, b);
     outline.outside = d2 > 1.000001;
     return outline;
+}
+
+// ==== punctual ====
+
+// Point and spot lights of glTF (KHR_lights_punctual): what arrives at a point from one direction.
+//
+// Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
+// against its direction.
+
+// What is per light.
+//   position        [m]
+//   direction       unit: along which a spot shines
+//   inverse_range2  1 / range^2 [1/m2]; 0 without a limit
+//   spot_scale, spot_offset
+//                   of the line from the cosine of the angle to the spot's axis to the square root of its fall-off: 1 / (cos
+//                   inner - cos outer) and -cos outer times that; 0 and 1 of a point light
+struct SteradianPunctualSource {
+    vec3 position;
+    vec3 direction;
+    float inverse_range2;
+    float spot_scale;
+    float spot_offset;
+};
+
+// Light from one direction.
+//   direction   unit, to the light
+//   irradiance  across it, of a light of intensity 1 [1/m2]
+struct SteradianPunctualIncident {
+    vec3 direction;
+    float irradiance;
+};
+
+// Light of intensity 1 at the point p.
+//
+// Degenerate: distances below 1.0e-6 count as that; at none, the direction is the zero vector.
+// Source: KHR_lights_punctual, "Range property" and "Inner and outer cone angles".
+SteradianPunctualIncident steradian_punctual_incident(SteradianPunctualSource light, vec3 p) {
+    vec3 to = light.position - p;
+    float d2 = max(dot(to, to), 1.0e-12);
+    SteradianPunctualIncident incident;
+    incident.direction = to * inversesqrt(d2);
+    float q = d2 * light.inverse_range2;
+    float within = clamp(1.0 - q * q, 0.0, 1.0);
+    float spot = clamp(light.spot_offset - dot(light.direction, incident.direction) * light.spot_scale, 0.0, 1.0);
+    incident.irradiance = within * (spot * spot) / d2;
+    return incident;
 }
 
 // ======== phong: Phong's lobe over polygons, exactly and by a series ========

@@ -1,4 +1,4 @@
-// Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, for HLSL.
+// Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights, for HLSL.
 //
 // #include or paste it; it has no macros and no resources.
 // It comes after math.hlsl, polygon.hlsl.
@@ -832,4 +832,50 @@ SteradianEllipsoidOutline steradian_ellipsoid_outline(float3 to_center, float3x3
     outline.axis_b = steradian_transform(s, b);
     outline.outside = d2 > 1.000001;
     return outline;
+}
+
+// ==== punctual ====
+
+// Point and spot lights of glTF (KHR_lights_punctual): what arrives at a point from one direction.
+//
+// Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
+// against its direction.
+
+// What is per light.
+//   position        [m]
+//   direction       unit: along which a spot shines
+//   inverse_range2  1 / range^2 [1/m2]; 0 without a limit
+//   spot_scale, spot_offset
+//                   of the line from the cosine of the angle to the spot's axis to the square root of its fall-off: 1 / (cos
+//                   inner - cos outer) and -cos outer times that; 0 and 1 of a point light
+struct SteradianPunctualSource {
+    float3 position;
+    float3 direction;
+    float inverse_range2;
+    float spot_scale;
+    float spot_offset;
+};
+
+// Light from one direction.
+//   direction   unit, to the light
+//   irradiance  across it, of a light of intensity 1 [1/m2]
+struct SteradianPunctualIncident {
+    float3 direction;
+    float irradiance;
+};
+
+// Light of intensity 1 at the point p.
+//
+// Degenerate: distances below 1.0e-6 count as that; at none, the direction is the zero vector.
+// Source: KHR_lights_punctual, "Range property" and "Inner and outer cone angles".
+SteradianPunctualIncident steradian_punctual_incident(SteradianPunctualSource light, float3 p) {
+    float3 to = light.position - p;
+    float d2 = max(dot(to, to), 1.0e-12);
+    SteradianPunctualIncident incident;
+    incident.direction = to * rsqrt(d2);
+    float q = d2 * light.inverse_range2;
+    float within = clamp(1.0 - q * q, 0.0, 1.0);
+    float spot = clamp(light.spot_offset - dot(light.direction, incident.direction) * light.spot_scale, 0.0, 1.0);
+    incident.irradiance = within * (spot * spot) / d2;
+    return incident;
 }

@@ -1,4 +1,4 @@
-// Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, for WGSL.
+// Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
 // It comes after math.wgsl, polygon.wgsl.
@@ -832,4 +832,50 @@ fn steradian_ellipsoid_outline(to_center: vec3f, s: mat3x3f, inverse: mat3x3f) -
     outline.axis_b = steradian_transform(s, b);
     outline.outside = d2 > 1.000001;
     return outline;
+}
+
+// ==== punctual ====
+
+// Point and spot lights of glTF (KHR_lights_punctual): what arrives at a point from one direction.
+//
+// Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
+// against its direction.
+
+// What is per light.
+//   position        [m]
+//   direction       unit: along which a spot shines
+//   inverse_range2  1 / range^2 [1/m2]; 0 without a limit
+//   spot_scale, spot_offset
+//                   of the line from the cosine of the angle to the spot's axis to the square root of its fall-off: 1 / (cos
+//                   inner - cos outer) and -cos outer times that; 0 and 1 of a point light
+struct SteradianPunctualSource {
+    position: vec3f,
+    direction: vec3f,
+    inverse_range2: f32,
+    spot_scale: f32,
+    spot_offset: f32,
+}
+
+// Light from one direction.
+//   direction   unit, to the light
+//   irradiance  across it, of a light of intensity 1 [1/m2]
+struct SteradianPunctualIncident {
+    direction: vec3f,
+    irradiance: f32,
+}
+
+// Light of intensity 1 at the point p.
+//
+// Degenerate: distances below 1.0e-6 count as that; at none, the direction is the zero vector.
+// Source: KHR_lights_punctual, "Range property" and "Inner and outer cone angles".
+fn steradian_punctual_incident(light: SteradianPunctualSource, p: vec3f) -> SteradianPunctualIncident {
+    let to = light.position - p;
+    let d2 = max(dot(to, to), 1.0e-12);
+    var incident: SteradianPunctualIncident;
+    incident.direction = to * inverseSqrt(d2);
+    let q = d2 * light.inverse_range2;
+    let within = clamp(1.0 - q * q, 0.0, 1.0);
+    let spot = clamp(light.spot_offset - dot(light.direction, incident.direction) * light.spot_scale, 0.0, 1.0);
+    incident.irradiance = within * (spot * spot) / d2;
+    return incident;
 }

@@ -41,6 +41,7 @@ struct Kernels {
 #include "outline/capsule.glsl"
 #include "outline/ellipsoid.glsl"
 #include "outline/horizon_clip.glsl"
+#include "outline/punctual.glsl"
 
 #include "lobe/lambert.glsl"
 #include "lobe/lobe_product.glsl"

@@ -52,7 +52,7 @@ __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, con
   using vec3 = typename Kernels<S>::vec3;
   Seen<S> seen;
   seen.lit = capsule_in<S>(light, typename Kernels<S>::mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)), p).outside;
-  seen.reversed = nowhere<S>();
+  seen.reversed = Kernels<S>().mask_none();
   return seen;
 }
 

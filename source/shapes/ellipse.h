@@ -71,7 +71,7 @@ STERADIAN_INLINE Seen<S> see(const packed::Disk& light, const typename Kernels<S
   seen.outline.center = to_kernel<S>(light.point) - p;
   seen.outline.axis_a = to_kernel<S>(light.x);
   seen.outline.axis_b = to_kernel<S>(light.y);
-  seen.reversed = nowhere<S>();  // its outline is walked as it is seen
+  seen.reversed = Kernels<S>().mask_none();  // its outline is walked as it is seen
   return seen;
 }
 
@@ -85,7 +85,7 @@ STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kern
   Seen<S> seen;
   seen.outline = Kernels<S>().ellipsoid_outline(to_kernel<S>(light.center) - p, axes, inverse);
   seen.lit = seen.outline.outside;
-  seen.reversed = nowhere<S>();
+  seen.reversed = Kernels<S>().mask_none();
   return seen;
 }
 

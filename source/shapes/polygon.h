@@ -54,11 +54,6 @@ struct Seen {
   typename Kernels<S>::EllipsoidOutline outline;
 };
 
-template <class S>
-STERADIAN_INLINE Mask<S> nowhere() {
-  return Real<S>(1.0) < Real<S>(0.0);
-}
-
 // Of a flat light: polygon or disk.
 template <class S, class Flat>
 STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {

@@ -9,11 +9,11 @@
 
 namespace steradian::packed {
 
-// What is per light. Distances are squared: range^-2 and the spot's line from the cosine of the angle to its square root.
+// What is per light, as of kernels/outline/punctual.glsl.
 struct Punctual {
   PunctualKind kind = PunctualKind::point;
   Vec3d position, direction{0, 0, -1};
-  double inverse_range2 = 0;  // 0: no limit
+  double inverse_range2 = 0;
   double spot_scale = 0, spot_offset = 1;
 
   template <class Use>
@@ -39,29 +39,12 @@ namespace shapes {
 
 // For intensity 1 (illuminance 1 of a directional light).
 template <class S>
-struct Incident {
-  Real<S> irradiance;                   // across the direction
-  typename Kernels<S>::vec3 direction;  // unit, to the light
-};
-
-template <class S>
-STERADIAN_INLINE Incident<S> incident(const packed::Punctual& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE typename Kernels<S>::PunctualIncident incident(const packed::Punctual& light, const typename Kernels<S>::vec3& p) {
   using R = Real<S>;
   const auto along = integrals::to_kernel<S>(light.direction);
-  if (light.kind == PunctualKind::directional) return {R(1.0), -along};
-  const auto to = integrals::to_kernel<S>(light.position) - p;
-  const R d2 = max(dot(to, to), R(1e-12));
-  const auto direction = to * inversesqrt(d2);
-  R e = R(1.0) / d2;
-  if (light.inverse_range2 > 0) {
-    const R q = d2 * R(light.inverse_range2);
-    e = e * clamp(R(1.0) - q * q, R(0.0), R(1.0));
-  }
-  if (light.kind == PunctualKind::spot) {
-    const R f = clamp(-dot(along, direction) * R(light.spot_scale) + R(light.spot_offset), R(0.0), R(1.0));
-    e = e * f * f;
-  }
-  return {e, direction};
+  if (light.kind == PunctualKind::directional) return {-along, R(1.0)};
+  return Kernels<S>().punctual_incident(
+      {integrals::to_kernel<S>(light.position), along, R(light.inverse_range2), R(light.spot_scale), R(light.spot_offset)}, p);
 }
 
 }  // namespace shapes
