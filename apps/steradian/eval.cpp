@@ -164,9 +164,10 @@ void add_eval(CLI::App& app, Exit& exit) {
   CLI::App* verb = app.add_subcommand("eval", "Answer single integrals: JSON lines in, JSON lines out");
   verb->group("Light");
   verb->footer(
-      "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
+      std::string() + "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
       "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
-      "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.");
+      "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n\n" +
+      methods::help());
   auto options = std::make_shared<Options>();
   verb->add_option("INPUT", options->input, "File of queries, one a line (default: standard input)")
       ->group("Input and output")
@@ -177,11 +178,11 @@ void add_eval(CLI::App& app, Exit& exit) {
   verb->add_flag("--plane", options->plane,
                  "Light at points of SVG scenes: {\"scene\": \"file.svg\", \"position\": [x, y]}; methods exact, par, sampled, marched")
       ->group("Input and output");
-  verb->add_option("--method", options->method, "For queries that name none: " + eval::method_names())
+  verb->add_option("--method", options->method, "For queries that name none: " + methods::names())
       ->group("Defaults for queries that do not say")
       ->check(CLI::Validator(
           [](std::string& name) {
-            return eval::method_of(name) || name == "par" || name == "marched" ? std::string() : "unknown method " + name + ", use " + eval::method_names();
+            return method_of(name) || name == "par" || name == "marched" ? std::string() : "unknown method " + name + ", use " + methods::names();
           },
           ""));
   verb->add_option("--spp", options->spp, "Pairs of samples of method sampled")
@@ -198,8 +199,8 @@ void add_eval(CLI::App& app, Exit& exit) {
       if (!answer_stream(options->input, options->output, point)) exit.code = 1;
       return;
     }
-    if (!eval::method_of(options->method)) throw CLI::ValidationError("--method", options->method + " needs --plane");
-    const eval::QueryDefaults defaults = {*eval::method_of(options->method), options->spp, options->seed};
+    if (!method_of(options->method)) throw CLI::ValidationError("--method", options->method + " needs --plane");
+    const eval::QueryDefaults defaults = {*method_of(options->method), options->spp, options->seed};
     eval::QueryReader reader(defaults);
     const auto answer = [&](std::string_view line, std::string& out) { return eval::answer_line(reader, line, out); };
     if (!answer_stream(options->input, options->output, answer)) exit.code = 1;

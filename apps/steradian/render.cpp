@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/simd.h"
+#include "integrals/methods.h"
 #include "render_plane.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
@@ -147,14 +148,19 @@ void run(Options& options) {
 void add_render(CLI::App& app, Exit&) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("render", "Render a scene (.gltf, .glb, .svg) to a picture (.exr linear, .png tone mapped)");
+  verb->footer(methods::help());
   RenderOptions& r = options->render;
   verb->add_option("SCENE", options->scene, "scene file")->required();
   verb->add_option("-o,--output", options->output, "picture: .exr or .png")->required();
   verb->add_option("--method", r.method, "how specular light is done; plane scenes: auto, exact, par, sampled, marched")
-      ->check(CLI::IsMember({"auto", "exact", "closed-form", "ltc", "ltc-compact", "ltc-clipless", "representative-point", "series",
-                             "arvo", "lorentzian", "pearson", "ellipsoid", "half-vector", "sampled", "reference", "par", "marched"}))
+      ->check(CLI::Validator(
+          [](std::string& name) {
+            const bool known = method_of(name).has_value() || name == "par" || name == "marched";
+            return known ? std::string() : "unknown method " + name + ", use " + methods::names();
+          },
+          ""))
       ->group("Light");
-  verb->add_option("--quality", options->quality, "of closed-form and series; of auto: draft takes ltc-compact for GGX")
+  verb->add_option("--quality", options->quality, "of closed-form, half-vector and series; of auto: draft takes ltc-compact for GGX")
       ->check(CLI::IsMember({"draft", "normal", "high"}))
       ->group("Light");
   verb->add_option("--shadows", options->shadows, "cast shadows (reference methods only)")

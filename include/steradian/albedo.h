@@ -2,7 +2,7 @@
 #pragma once
 
 #include "steradian/material.h"
-#include "steradian/reference.h"  // ShadingPoint
+#include "steradian/shading_point.h"
 
 namespace steradian {
 

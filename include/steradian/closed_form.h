@@ -2,14 +2,11 @@
 #pragma once
 
 #include "steradian/material.h"
+#include "steradian/method.h"  // Quality
 #include "steradian/polygon_light.h"
-#include "steradian/reference.h"  // ShadingPoint
+#include "steradian/shading_point.h"
 
 namespace steradian {
-
-// How the smooth factor, shadowing times Fresnel, is averaged over the light; the distribution's integral is exact
-// at every quality. draft: at one direction. normal: up to 33 nodes on a quad. high: up to 49.
-enum class Quality { draft, normal, high };
 
 // Radiance towards the view of a GGX surface (Brdf::ggx, isotropic or anisotropic, with or without shadowing).
 // 0 for a view below the surface, a light seen from behind (unless two-sided) and a light without area.

@@ -4,7 +4,7 @@
 
 #include "steradian/area_light.h"  // Ellipse, silhouette
 #include "steradian/material.h"
-#include "steradian/reference.h"  // ShadingPoint
+#include "steradian/shading_point.h"
 
 namespace steradian {
 

@@ -4,7 +4,7 @@
 
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
-#include "steradian/reference.h"  // ShadingPoint
+#include "steradian/shading_point.h"
 
 namespace steradian {
 

@@ -3,7 +3,7 @@
 
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
-#include "steradian/reference.h"
+#include "steradian/shading_point.h"
 
 namespace steradian {
 

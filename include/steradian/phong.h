@@ -2,44 +2,34 @@
 //
 //   const PreparedPolygon light = prepare_polygon({vertices});
 //   Material material{.brdf = Brdf::phong, .exponent = 100};
-//   Vec3d radiance = phong_radiance(light, at, material, {.method = PhongMethod::series});
+//   Vec3d radiance = phong_radiance(light, at, material, {.method = Method::series});
 //
 // Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, r the mirrored view; no foreshortening.
 // Derivation, errors and speed of the methods: docs/moments.md.
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "steradian/material.h"
+#include "steradian/method.h"
 #include "steradian/polygon_light.h"
-#include "steradian/reference.h"
+#include "steradian/shading_point.h"
 
 namespace steradian {
 
-enum class PhongMethod {
-  exact,       // boundary integral by quadrature: 1e-10 of the full lobe in double, any n >= 0
-  arvo,        // Arvo's recurrence, O(n): exact, integer n
-  lorentzian,  // the published peak fits, errors of 1e-2, for comparison
-  pearson,
-  ellipsoid,
-  series,      // the matched ellipsoid's cosine series, O(1): 1e-3 of the full lobe at worst, 2e-4 on the average
-};
-
-enum class PhongQuality { normal, high };  // of series: three harmonics, or five with a third of the error
+// method: exact (boundary integral by quadrature: 1e-10 of the full lobe in double, any n >= 0), arvo (Arvo's recurrence,
+// O(n): exact, integer n), lorentzian, pearson, ellipsoid (the published peak fits, errors of 1e-2, for comparison), series
+// (the matched ellipsoid's cosine series, O(1): 1e-3 of the full lobe at worst, 2e-4 on the average).
+// quality: of series.
+using PhongMethod = Method;
+using PhongQuality = Quality;
 
 struct PhongOptions {
-  PhongMethod method = PhongMethod::series;
-  PhongQuality quality = PhongQuality::normal;
+  Method method = Method::series;
+  Quality quality = Quality::normal;
   double relative_precision = 0;  // of arvo: an edge's sum stops when what is left is below; 0 sums everything
 };
 
-// "exact", "arvo", ...: the names of the command line. std::nullopt for others; "auto" is series.
-std::optional<PhongMethod> phong_method_of(std::string_view name);
-const char* name_of(PhongMethod method);
-
 // Radiance towards the view; 0 for a view below the surface, from behind a one-sided light, and in its plane.
-// Throws Error for a negative exponent, and for arvo with one that is not an integer.
+// Throws Error for a negative exponent, for a method of other lobes, and for arvo with one that is not an integer.
 Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                      const PhongOptions& options = {});
 

@@ -5,15 +5,9 @@
 
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
+#include "steradian/shading_point.h"
 
 namespace steradian {
-
-// Where light is asked for. Unit vectors, away from the surface.
-struct ShadingPoint {
-  Vec3d position;
-  Vec3d normal;
-  Vec3d view;
-};
 
 struct ReferenceOptions {
   double relative_error = 1e-10;   // stop when the bound is below this share of the value ...

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "steradian/closed_form.h"
 #include "steradian/indirect.h"
+#include "steradian/method.h"
 #include "steradian/picture.h"
 #include "steradian/scene.h"
 
@@ -18,7 +18,7 @@ struct RenderOptions {
   int height = 720;
   std::string camera;          // name; empty: the first
   std::string method = "auto"; // of the specular lobe: a name of `render --help`
-  Quality quality = Quality::normal;  // closed-form and series; of auto: a draft takes ltc-compact for GGX
+  Quality quality = Quality::normal;  // see method.h
   bool shadows = false;        // reference methods only
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample

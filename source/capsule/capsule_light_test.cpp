@@ -249,7 +249,7 @@ TEST(CapsulePolygons, PhongLobesHoldTheirError) {
       m.brdf = Brdf::phong;
       m.exponent = n;
       const auto radiance = [&](const PolygonLight& light) {
-        return phong_radiance(prepare_polygon(light), at, m, {.method = PhongMethod::exact}).x;
+        return phong_radiance(prepare_polygon(light), at, m, {.method = Method::exact}).x;
       };
       const double truth = radiance(polygon_of_equal_steps(c, {}, 512));
       for (int k = 0; k < 3; ++k) {

@@ -104,7 +104,7 @@ TEST(EllipsePolygons, PhongLobesHoldTheirError) {
       m.exponent = n;
       const LobeAxis lobe{axis, 1 / std::sqrt(n + 1)};
       const auto radiance = [&](const PolygonLight& light) {
-        return phong_radiance(prepare_polygon(light), at, m, {.method = PhongMethod::exact}).x;
+        return phong_radiance(prepare_polygon(light), at, m, {.method = Method::exact}).x;
       };
       const double truth = radiance(equal_area_polygon(e, {1, 1, 1}, 512));
       const int vertices[3] = {8, 12, 16};

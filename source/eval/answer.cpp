@@ -21,26 +21,17 @@ PreparedPolygon prepare(const PolygonLight& light) {
 
 // A point light is one direction: every method has the same answer, without error.
 LobeAnswer point_answer(const PointLight& light, const ShadingPoint& at, const Material& m, Method method) {
-  LobeAnswer answer;
+  LobeAnswer answer = nothing(method);
   answer.radiance = point_light_radiance(light, at, m);
-  if (method == Method::reference) answer.bound = 0.0;
-  if (method == Method::sampled) answer.standard_error = 0.0;
   return answer;
 }
 
 // Adds what one material contributes to the derivatives. Throws Error for lobes and methods that have none.
-void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoint& at, const Material& m, Method method,
-                     Quality quality) {
-  const bool transformed = method == Method::ltc || method == Method::ltc_compact;
-  const bool served = (m.brdf == Brdf::lambert && method == Method::exact) ||
-                      (m.brdf == Brdf::phong && method == Method::series) ||
-                      (m.brdf == Brdf::ggx && (method == Method::closed_form || transformed));
-  if (!served)
-    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by this method",
-                "served are lambert with exact, phong with series, and ggx with closed-form, ltc and ltc-compact");
-  const RadianceDerivatives d =
-      transformed ? ltc_radiance_derivatives(method == Method::ltc ? LtcMethod::classic : LtcMethod::compact, light, at, m)
-                  : radiance_derivatives(light, at, m, quality);
+void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoint& at, const Material& m,
+                     const MethodEntry& entry, Quality quality) {
+  if (entry.derivatives == nullptr)
+    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + entry.name, "use auto");
+  const RadianceDerivatives d = entry.derivatives(light, at, m, quality);
   if (!answer.derivatives) answer.derivatives.emplace(d.vertices.size());
   for (std::size_t channel = 0; channel < 3; ++channel) {
     answer.derivatives->normal[channel] += d.normal[channel];
@@ -81,7 +72,7 @@ class Sum {
 Answer evaluate(const Query& query) {
   const ShadingPoint at = {query.position, query.normal, query.view.value_or(query.normal)};
   const bool seen = dot(at.normal, at.view) > 0.0;
-  MethodOptions options = {query.precision, query.quality, query.spp, query.seed};
+  MethodOptions options = {query.method, query.quality, query.precision, query.spp, query.seed};
 
   const auto* curved = std::get_if<CurvedLight>(&query.light);
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
@@ -90,10 +81,10 @@ Answer evaluate(const Query& query) {
     throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
   Sum sum;
   for (const Material& material : query.materials) {
-    const MethodEntry& entry = resolve(query.method, material, query.precision, query.quality);
-    if (query.derivatives) add_derivatives(sum.answer(), *polygon, at, material, entry.method, query.quality);
+    const MethodEntry& entry = methods::resolve(query.method, material, query.precision, query.quality);
+    if (query.derivatives) add_derivatives(sum.answer(), *polygon, at, material, entry, query.quality);
     if (!seen)
-      sum.add(entry, LobeAnswer{});
+      sum.add(entry, nothing(entry.method));
     else if (polygon != nullptr)
       sum.add(entry, entry.polygon(prepared, at, material, options));
     else if (curved != nullptr)

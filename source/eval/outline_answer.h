@@ -11,14 +11,6 @@ namespace steradian::eval {
 
 inline constexpr int kFineVertices = 1024;
 
-// 0 as the method says it.
-inline LobeAnswer nothing(Method method) {
-  LobeAnswer answer;
-  if (method == Method::reference) answer.bound = 0.0;
-  if (method == Method::sampled) answer.standard_error = 0.0;
-  return answer;
-}
-
 inline LobeAnswer lambert_answer(double irradiance, Vec3d radiance, const Material& m) {
   LobeAnswer answer;
   answer.radiance = radiance * m.albedo * (irradiance / 3.14159265358979324);

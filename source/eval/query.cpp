@@ -229,7 +229,7 @@ void read_method(Problems& problems, const Place& place, Json value, Query& quer
   const std::string_view name = read_string(problems, place, value);
   if (!value.is_string()) return;
   const std::optional<Method> method = method_of(name);
-  if (!method) problems.add(place, quoted(name) + " is not supported", "supported: " + method_names());
+  if (!method) problems.add(place, quoted(name) + " is not supported", "supported: " + methods::names());
   query.method = method.value_or(Method::automatic);
 }
 

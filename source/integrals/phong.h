@@ -103,7 +103,7 @@ STERADIAN_INLINE auto with_phong_share(const PhongLobe<S>& lobe, const PhongOpti
     case PhongMethod::lorentzian: return by.template operator()<PhongMethod::lorentzian>();
     case PhongMethod::pearson: return by.template operator()<PhongMethod::pearson>();
     case PhongMethod::ellipsoid: return by.template operator()<PhongMethod::ellipsoid>();
-    case PhongMethod::series: break;
+    default: break;  // series
   }
   if (options.quality == PhongQuality::high) return by.template operator()<PhongMethod::series, PhongQuality::high>();
   return by.template operator()<PhongMethod::series>();

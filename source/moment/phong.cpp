@@ -14,18 +14,13 @@
 namespace steradian {
 namespace {
 
-struct Named {
-  PhongMethod method;
-  const char* name;
-};
-constexpr Named kNames[] = {{PhongMethod::exact, "exact"},           {PhongMethod::arvo, "arvo"},
-                            {PhongMethod::lorentzian, "lorentzian"}, {PhongMethod::pearson, "pearson"},
-                            {PhongMethod::ellipsoid, "ellipsoid"},   {PhongMethod::series, "series"}};
-
 void check(const Material& material, const PhongOptions& options) {
   if (!(material.exponent >= 0) || !std::isfinite(material.exponent))
     throw Error("exponent", "must be 0 or more, here is " + std::to_string(material.exponent));
-  if (options.method == PhongMethod::arvo &&
+  const Method m = options.method;
+  if (m != Method::exact && m != Method::arvo && m != Method::lorentzian && m != Method::pearson && m != Method::ellipsoid && m != Method::series)
+    throw Error("method", std::string(name_of(m)) + " does not serve brdf phong");
+  if (options.method == Method::arvo &&
       (material.exponent != std::floor(material.exponent) || material.exponent > 1e9))
     throw Error("exponent", "arvo needs an integer, here is " + std::to_string(material.exponent),
                 "use exact or series for others");
@@ -57,19 +52,6 @@ S radiance(const PreparedPolygon& light, const ShadingPoint& at, double n, const
 }
 
 }  // namespace
-
-std::optional<PhongMethod> phong_method_of(std::string_view name) {
-  if (name == "auto") return PhongMethod::series;
-  for (const Named& named : kNames)
-    if (name == named.name) return named.method;
-  return std::nullopt;
-}
-
-const char* name_of(PhongMethod method) {
-  for (const Named& named : kNames)
-    if (method == named.method) return named.name;
-  return "?";
-}
 
 Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                      const PhongOptions& options) {

@@ -32,7 +32,7 @@ PolygonLight polygon(std::vector<Vec3d> vertices) {
 constexpr double kExponents[] = {1, 2, 3, 4.5, 10, 11, 64, 100, 333.3, 1000, 5000, 10000};
 
 double exact_of(const PreparedPolygon& light, const ShadingPoint& at, double n) {
-  return phong_radiance(light, at, phong(n), {PhongMethod::exact}).x;
+  return phong_radiance(light, at, phong(n), {Method::exact}).x;
 }
 
 // Largest and root mean square error, and where the largest was.
@@ -128,8 +128,8 @@ TEST(PhongArvo, IsExactForIntegerExponents) {
     const double n = i < 200 ? 1 + i % 12 : std::round(std::pow(c.n, 0.8));
     const PreparedPolygon light = prepare_polygon(c.light);
     const double exact = exact_of(light, c.at, n);
-    all.add(phong_radiance(light, c.at, phong(n), {PhongMethod::arvo}).x - exact, n);
-    early.add(phong_radiance(light, c.at, phong(n), {PhongMethod::arvo, PhongQuality::normal, 1e-4}).x - exact, n);
+    all.add(phong_radiance(light, c.at, phong(n), {Method::arvo}).x - exact, n);
+    early.add(phong_radiance(light, c.at, phong(n), {Method::arvo, Quality::normal, 1e-4}).x - exact, n);
   }
   all.print("arvo");
   early.print("arvo, stopped at 1e-4");
@@ -144,8 +144,8 @@ TEST(PhongArvo, RefusesOtherExponents) {
   Random random(6);
   const auto c = moment::adversarial_quad(random);
   const PreparedPolygon light = prepare_polygon(c.light);
-  EXPECT_THROW(phong_radiance(light, c.at, phong(4.5), {PhongMethod::arvo}), Error);
-  EXPECT_THROW(phong_radiance(light, c.at, phong(-1), {PhongMethod::series}), Error);
+  EXPECT_THROW(phong_radiance(light, c.at, phong(4.5), {Method::arvo}), Error);
+  EXPECT_THROW(phong_radiance(light, c.at, phong(-1), {Method::series}), Error);
 }
 
 // The bounds are the specification of the method; the largest errors come from lights with an edge through the axis.
@@ -156,8 +156,8 @@ TEST(PhongSeries, HoldsItsErrorsInFloatOver100000AdversarialQuads) {
     const auto c = moment::adversarial_quad(random);
     const PreparedPolygon light = prepare_polygon(c.light);
     const double exact = exact_of(light, c.at, c.n);
-    const PhongOptions high_quality{PhongMethod::series, PhongQuality::high};
-    normal.add(static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), {PhongMethod::series}).x) - exact, c.n);
+    const PhongOptions high_quality{Method::series, Quality::high};
+    normal.add(static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), {Method::series}).x) - exact, c.n);
     high.add(static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), high_quality).x) - exact, c.n);
   }
   normal.print("series, float");
@@ -176,8 +176,8 @@ TEST(PhongSeries, ServesExponentsBelowOne) {
     const double n = i % 5 == 0 ? 0 : random.uniform();
     const PreparedPolygon light = prepare_polygon(c.light);
     const double exact = exact_of(light, c.at, n);
-    normal.add(phong_radiance(light, c.at, phong(n), {PhongMethod::series}).x - exact, n);
-    high.add(phong_radiance(light, c.at, phong(n), {PhongMethod::series, PhongQuality::high}).x - exact, n);
+    normal.add(phong_radiance(light, c.at, phong(n), {Method::series}).x - exact, n);
+    high.add(phong_radiance(light, c.at, phong(n), {Method::series, Quality::high}).x - exact, n);
   }
   normal.print("series, n < 1");
   high.print("series high, n < 1");
@@ -188,7 +188,7 @@ TEST(PhongSeries, ServesExponentsBelowOne) {
 // Order of magnitude only: the fits are here for comparison.
 TEST(PhongPeakFits, StayWithinTheirKnownErrors) {
   Random random(10);
-  for (PhongMethod method : {PhongMethod::lorentzian, PhongMethod::pearson, PhongMethod::ellipsoid}) {
+  for (Method method : {Method::lorentzian, Method::pearson, Method::ellipsoid}) {
     Errors integer, fractional;
     for (int i = 0; i < 4000; ++i) {
       const auto c = moment::adversarial_quad(random);
@@ -211,7 +211,7 @@ TEST(PhongQuadrature, IsCloseInFloat) {
     const auto c = moment::adversarial_quad(random);
     const PreparedPolygon light = prepare_polygon(c.light);
     const double exact = exact_of(light, c.at, c.n);
-    const double f = static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), {PhongMethod::exact}).x);
+    const double f = static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), {Method::exact}).x);
     in_double.add(f - exact, c.n);
   }
   in_double.print("quadrature, 14 nodes, float");

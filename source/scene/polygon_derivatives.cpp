@@ -229,7 +229,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   }
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
-    const PhongOptions series = {PhongMethod::series, quality == Quality::high ? PhongQuality::high : PhongQuality::normal};
+    const PhongOptions series = {Method::series, quality};
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
       const integrals::PhongLobe<S> lobe(m.exponent, 0.0);
       return integrals::with_phong_share<S>(lobe, series, [&](auto share) {

@@ -58,12 +58,12 @@ void write_phong(std::ostream& out) {
     const char* name;
     PhongOptions options;
   };
-  const Row rows[] = {{"exact", {PhongMethod::exact}},
-                      {"series", {PhongMethod::series}},
-                      {"series, high", {PhongMethod::series, PhongQuality::high}},
-                      {"ellipsoid", {PhongMethod::ellipsoid}},
-                      {"pearson", {PhongMethod::pearson}},
-                      {"lorentzian", {PhongMethod::lorentzian}}};
+  const Row rows[] = {{"exact", {Method::exact}},
+                      {"series", {Method::series}},
+                      {"series, high", {Method::series, Quality::high}},
+                      {"ellipsoid", {Method::ellipsoid}},
+                      {"pearson", {Method::pearson}},
+                      {"lorentzian", {Method::lorentzian}}};
   out << "\n## Phong lobes\n\n"
       << kLights
       << " random polygons as above for each exponent, against adaptive quadrature (`exact`) and against `exact` (the others).\n"
@@ -81,9 +81,9 @@ void write_phong(std::ostream& out) {
         const auto c = reference::random_configuration(random);
         const PreparedPolygon light = prepare_polygon(c.light);
         const double value = phong_radiance(light, c.at, material, row.options).x;
-        const double truth = row.options.method == PhongMethod::exact
+        const double truth = row.options.method == Method::exact
                                  ? reference_radiance(light, c.at, material).radiance.x
-                                 : phong_radiance(light, c.at, material, {PhongMethod::exact}).x;
+                                 : phong_radiance(light, c.at, material, {Method::exact}).x;
         errors.add(value - truth);
       }
       out << fmt::format(" {:.1e}, {:.1e} |", errors.largest, errors.rms());

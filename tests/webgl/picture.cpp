@@ -30,7 +30,7 @@ double gloss(const std::string& method, const Setup& s, const PreparedPolygon& l
   if (method == "series") {
     m.brdf = Brdf::phong;
     m.exponent = s.exponent;
-    return phong_radiance(light, at, m, {PhongMethod::series}).x;
+    return phong_radiance(light, at, m, {Method::series}).x;
   }
   m.brdf = Brdf::ggx;
   m.alpha_x = m.alpha_y = s.roughness * s.roughness;

@@ -1,25 +1,35 @@
 #include "render/cpu/methods.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include "steradian/error.h"
 
 namespace steradian {
 namespace {
 
+// A lobe that a surface shows, as the table of methods is asked about it.
 struct SpecularLobe {
   std::string material;
-  Brdf brdf;
-  bool anisotropic = false;
-  double exponent = 0;
+  Material lobe;
+  bool layered = false;  // of a metallic-roughness surface or a coat
 };
 
 bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+Material ggx_of_any_width(bool anisotropic) {
+  Material m;
+  m.brdf = Brdf::ggx;
+  m.alpha_x = anisotropic ? 2 * m.alpha_y : m.alpha_y;
+  m.f0 = {0.04, 0.04, 0.04};
+  return m;
+}
+
+Material sheen() {
+  Material m;
+  m.brdf = Brdf::charlie;
+  return m;
+}
 
 // The specular lobes that meshes of the scene show, by the materials' factors.
 std::vector<SpecularLobe> specular_lobes_in(const Scene& scene) {
@@ -28,108 +38,83 @@ std::vector<SpecularLobe> specular_lobes_in(const Scene& scene) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
     for (const Material& lobe : m.specular_override)
-      if (lobe.brdf != Brdf::lambert)
-        lobes.push_back({m.name, lobe.brdf, lobe.alpha_x != lobe.alpha_y, lobe.exponent});
-    if (weighs(m.sheen_color)) lobes.push_back({m.name, Brdf::charlie});
-    if (m.clearcoat > 0) lobes.push_back({m.name, Brdf::ggx});
+      if (lobe.brdf != Brdf::lambert) lobes.push_back({m.name, lobe});
+    if (weighs(m.sheen_color)) lobes.push_back({m.name, sheen()});
+    if (m.clearcoat > 0) lobes.push_back({m.name, ggx_of_any_width(false), true});
     const bool metal = m.metallic > 0 && weighs({m.base_color.x, m.base_color.y, m.base_color.z});
     if (m.specular_override.empty() && (metal || m.specular > 0))
-      lobes.push_back({m.name, Brdf::ggx, m.anisotropy > 0});
+      lobes.push_back({m.name, ggx_of_any_width(m.anisotropy > 0), true});
   }
   return lobes;
 }
 
-struct Entry {
-  const char* name;
-  LobeMethod method;
-  std::function<bool(const SpecularLobe&)> serves;
-};
-
-const std::vector<Entry>& entries() {
-  // Sheen goes by its table beside every method of GGX.
-  const auto ggx = [](const SpecularLobe& l) { return l.brdf == Brdf::ggx || l.brdf == Brdf::charlie; };
-  const auto isotropic_ggx = [ggx](const SpecularLobe& l) { return ggx(l) && !l.anisotropic; };
-  const auto phong = [](const SpecularLobe& l) { return l.brdf == Brdf::phong; };
-  const auto integer_phong = [](const SpecularLobe& l) {
-    return l.brdf == Brdf::phong && l.exponent == std::floor(l.exponent);
-  };
-  const auto half_vector = [](const SpecularLobe& l) {
-    return l.brdf == Brdf::blinn_phong || l.brdf == Brdf::beckmann;
-  };
-  static const std::vector<Entry> table = {
-      {"closed-form", LobeMethod::closed_form, ggx},
-      {"ltc", LobeMethod::ltc, isotropic_ggx},
-      {"ltc-compact", LobeMethod::ltc_compact, isotropic_ggx},
-      {"ltc-clipless", LobeMethod::ltc_clipless, isotropic_ggx},
-      {"representative-point", LobeMethod::representative_point, isotropic_ggx},
-      {"exact", LobeMethod::exact, phong},
-      {"arvo", LobeMethod::arvo, integer_phong},
-      {"lorentzian", LobeMethod::lorentzian, phong},
-      {"pearson", LobeMethod::pearson, phong},
-      {"ellipsoid", LobeMethod::ellipsoid, phong},
-      {"series", LobeMethod::series, phong},
-      {"half-vector", LobeMethod::half_vector, half_vector},
-  };
-  return table;
+std::string describe(const SpecularLobe& l) {
+  const bool anisotropic = l.lobe.brdf == Brdf::ggx && l.lobe.alpha_x != l.lobe.alpha_y;
+  return std::string(anisotropic ? "anisotropic " : "") + name_of(l.lobe.brdf) + " lobe of material '" + l.material + "'";
 }
 
-std::string describe(const SpecularLobe& lobe) {
-  return std::string(lobe.anisotropic ? "anisotropic " : "") + name_of(lobe.brdf) + " lobe of material '" + lobe.material +
-         "'";
+// Sheen has one method, which serves beside every method of GGX.
+Method method_for(Method asked_for, const Material& lobe) {
+  return lobe.brdf == Brdf::charlie && asked_for != Method::automatic &&
+                 methods::row_of(asked_for).serves(ggx_of_any_width(false))
+             ? Method::automatic
+             : asked_for;
 }
 
-// The most accurate real-time method of each lobe; a draft takes the table for GGX where it can.
-Method automatic(const std::vector<SpecularLobe>& lobes, Quality quality) {
-  Method method;
-  bool ggx = false, anisotropic = false, phong = false, sheen = false, other = false;
+DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& name, Quality quality) {
+  DirectMethod method;
+  const std::optional<Method> asked_for = method_of(name);
+  if (!asked_for) throw UsageError("--method", "unknown method '" + name + "'");
+  method.asked_for = *asked_for;
+  bool layered = false;
   for (const SpecularLobe& l : lobes) {
-    ggx |= l.brdf == Brdf::ggx;
-    anisotropic |= l.brdf == Brdf::ggx && l.anisotropic;
-    phong |= l.brdf == Brdf::phong;
-    sheen |= l.brdf == Brdf::charlie;
-    other |= l.brdf == Brdf::blinn_phong || l.brdf == Brdf::beckmann;
+    const methods::Row* row = methods::find(method_for(*asked_for, l.lobe), l.lobe, quality);
+    if (row == nullptr)
+      throw UsageError("--method " + name, "does not serve the " + describe(l),
+                       "use auto, sampled or reference, or another material");
+    // One method for all of them: the first that a lobe asks for, or the closed form where another cannot have that.
+    if (l.layered) {
+      method.ggx = !layered || method.ggx == row->method ? row->method : Method::closed_form;
+      layered = true;
+    }
   }
-  if (quality == Quality::draft && !anisotropic) method.ggx = LobeMethod::ltc_compact;
-  for (const auto& [present, name] : {std::pair{ggx, method.ggx == LobeMethod::ltc_compact ? "ltc-compact" : "closed-form"},
-                                      std::pair{phong, "series"}, std::pair{other, "half-vector"}})
-    if (present) method.name += (method.name.empty() ? "" : "+") + std::string(name);
-  if (method.name.empty()) method.name = sheen ? "ltc-compact" : "exact";
-  return method;
-}
-
-Method chosen(const std::vector<SpecularLobe>& lobes, const std::string& name) {
-  Method method;
-  method.name = name;
-  for (const Entry& entry : entries()) {
-    if (entry.name != name) continue;
-    for (const SpecularLobe& lobe : lobes)
-      if (!entry.serves(lobe))
-        throw UsageError("--method " + name, "does not serve the " + describe(lobe),
-                         "use auto, sampled or reference, or another material");
-    method.ggx = method.phong = method.half_vector = entry.method;
+  if (*asked_for != Method::automatic) {
+    method.name = name;
     return method;
   }
-  throw UsageError("--method", "unknown method '" + name + "'");
+  const auto add = [&](Method m) {
+    const std::string own = name_of(m);
+    if (("+" + method.name + "+").find("+" + own + "+") == std::string::npos)
+      method.name += (method.name.empty() ? "" : "+") + own;
+  };
+  for (const SpecularLobe& l : lobes)
+    add(l.layered ? method.ggx : methods::find(*asked_for, l.lobe, quality)->method);
+  if (method.name.empty()) method.name = name_of(Method::exact);
+  return method;
 }
 
 }  // namespace
 
-std::vector<std::string> lobes_under_means(const Scene& scene, const Method& method) {
+const methods::Row& DirectMethod::row_for(const Material& lobe) const {
+  return methods::resolve(method_for(asked_for, lobe), lobe, Precision::float_, quality);
+}
+
+std::vector<std::string> lobes_under_means(const Scene& scene, const DirectMethod& method) {
   std::vector<std::string> sentences;
   if (method.estimates()) return sentences;
   for (const AreaLight& light : scene.area_lights) {
     if (!light.texture) continue;
     std::set<std::string> said;
-    for (const SpecularLobe& lobe : specular_lobes_in(scene))
-      if (lobe.brdf != Brdf::ggx && said.insert(describe(lobe)).second)
-        sentences.push_back("the " + describe(lobe) + " sees the textured light '" + light.name + "' in its mean colour");
+    for (const SpecularLobe& l : specular_lobes_in(scene))
+      if (l.lobe.brdf != Brdf::ggx && said.insert(describe(l)).second)
+        sentences.push_back("the " + describe(l) + " sees the textured light '" + light.name + "' in its mean colour");
   }
   return sentences;
 }
 
-Method choose_method(const Scene& scene, const RenderOptions& options) {
+DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
   const std::vector<SpecularLobe> lobes = specular_lobes_in(scene);
-  Method method;
+  DirectMethod method;
   if (options.method == "sampled" || options.method == "reference" || (options.method == "auto" && options.shadows)) {
     method.name = options.method == "auto" ? "sampled" : options.method;
     method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
@@ -139,7 +124,7 @@ Method choose_method(const Scene& scene, const RenderOptions& options) {
     method.exact_diffuse = method.kind == MethodKind::sampled && !options.shadows && !textured;
     method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
   } else {
-    method = options.method == "auto" ? automatic(lobes, options.quality) : chosen(lobes, options.method);
+    method = chosen(lobes, options.method, options.quality);
     if (options.shadows)
       throw UsageError("--shadows on", "'" + options.method + "' casts no shadows", "use --method sampled or reference");
   }

@@ -226,7 +226,7 @@ class Renderer {
   const Scene& scene_;
   const RenderOptions& options_;
   const int threads_;
-  const Method method_;
+  const DirectMethod method_;
   const CameraRays camera_;
   const RayScene rays_;
   const std::vector<PackLight> lights_;

@@ -50,26 +50,6 @@ void add_diffuse(TilePlane& radiance, const TilePlane& albedo, const TilePlane& 
   for (std::size_t i = 0; i < kTilePixels; ++i) radiance[i] += albedo[i] * factor * irradiance[i];
 }
 
-PhongMethod phong_method(LobeMethod method) {
-  switch (method) {
-    case LobeMethod::exact: return PhongMethod::exact;
-    case LobeMethod::arvo: return PhongMethod::arvo;
-    case LobeMethod::lorentzian: return PhongMethod::lorentzian;
-    case LobeMethod::pearson: return PhongMethod::pearson;
-    case LobeMethod::ellipsoid: return PhongMethod::ellipsoid;
-    default: return PhongMethod::series;
-  }
-}
-
-LtcMethod ltc_method(LobeMethod method) {
-  switch (method) {
-    case LobeMethod::ltc_compact: return LtcMethod::compact;
-    case LobeMethod::ltc_clipless: return LtcMethod::clipless;
-    case LobeMethod::representative_point: return LtcMethod::representative_point;
-    default: return LtcMethod::classic;
-  }
-}
-
 ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) {
   return {static_cast<Vec3d>(get(tile.position, i)), normalized(static_cast<Vec3d>(get(tile.normal, i))),
           normalized(static_cast<Vec3d>(get(tile.view, i)))};
@@ -102,29 +82,17 @@ PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const
 double width(double alpha_x, double alpha_y) { return std::sqrt(alpha_x * alpha_y); }
 
 // One lobe of one point under an area light of its mean radiance, by the library's float functions.
-Vec3d point_radiance_of_mean(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
-  const PreparedPolygon polygon = polygon_at(light, at, material, method.quality);
+Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at,
+                             const Material& material) {
+  const PreparedPolygon polygon = polygon_at(light, at, material, quality);
   if (polygon.vertices.empty()) return {};
-  switch (material.brdf) {
-    case Brdf::lambert: return {};
-    case Brdf::phong: {
-      const PhongQuality quality = method.quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
-      return static_cast<Vec3d>(phong_radiance_float(polygon, at, material, {phong_method(method.phong), quality}));
-    }
-    case Brdf::ggx:
-      if (method.ggx != LobeMethod::closed_form && serves(ltc_method(method.ggx), material))
-        return ltc_radiance_float(ltc_method(method.ggx), polygon, at, material);
-      return closed_form_radiance_float(polygon, at, material, method.quality);
-    case Brdf::charlie: return ltc_radiance_float(LtcMethod::compact, polygon, at, material);
-    case Brdf::blinn_phong:
-    case Brdf::beckmann: return half_vector_radiance_float(polygon, at, material);
-  }
-  return {};
+  return row.polygon(polygon, at, material, {row.method, quality, Precision::float_}).radiance;
 }
 
 // The same, textured as GGX sees it; other lobes take the mean (lobes_under_means).
-Vec3d point_radiance(const Method& method, const PackLight& light, const ShadingPoint& at, const Material& material) {
-  const Vec3d r = point_radiance_of_mean(method, light, at, material);
+Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at,
+                     const Material& material) {
+  const Vec3d r = point_radiance_of_mean(row, quality, light, at, material);
   if (light.textured == nullptr || material.brdf != Brdf::ggx || r == Vec3d{}) return r;
   const auto seen = static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
   const Vec3d mean = light.polygon.radiance;
@@ -144,15 +112,15 @@ Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, co
 
 }  // namespace
 
-SpecularPass::SpecularPass(const Method& method)
+SpecularPass::SpecularPass(const DirectMethod& method)
     : method_(method),
-      tables_(method.ggx == LobeMethod::ltc           ? ltc_classic_pack_tables()
-              : method.ggx == LobeMethod::ltc_compact ? ltc_compact_pack_tables()
+      tables_(method.ggx == Method::ltc           ? ltc_classic_pack_tables()
+              : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
                                                       : LtcPackTables{}),
       sheen_tables_(ltc_sheen_pack_tables()) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
-  const bool ltc = method_.ggx == LobeMethod::ltc || method_.ggx == LobeMethod::ltc_compact;
+  const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;
   return ltc && tile.any_specular && tile.any_diffuse && light.is_polygon() && light.textured == nullptr;
 }
 
@@ -164,13 +132,13 @@ bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, cons
     direct_table_for(active_simd()).punctual_ggx(light, points, sums.specular, sums.grazing);
     return true;
   }
-  if (method_.ggx == LobeMethod::closed_form) {
+  if (method_.ggx == Method::closed_form) {
     closed_form_table_for(active_simd()).ggx(light, points, method_.quality, sums.specular, sums.grazing);
     return true;
   }
-  if (method_.ggx != LobeMethod::ltc && method_.ggx != LobeMethod::ltc_compact) return false;
+  if (method_.ggx != Method::ltc && method_.ggx != Method::ltc_compact) return false;
   const LtcPackTable& table = ltc_pack_table_for(active_simd());
-  (method_.ggx == LobeMethod::ltc ? table.classic : table.compact)(light, points, tables_, sums);
+  (method_.ggx == Method::ltc ? table.classic : table.compact)(light, points, tables_, sums);
   return true;
 }
 
@@ -199,15 +167,18 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       }
       continue;
     }
+    const methods::Row& row = methods::row_of(method_.ggx);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
       if (tile.material[i] == nullptr || !(f0.x + f0.y + f0.z + f90.x > 0)) continue;
       Material m;
       m.brdf = Brdf::ggx;
-      m.alpha_x = m.alpha_y = static_cast<double>(lobe.alpha_x[i]);
+      m.alpha_x = static_cast<double>(lobe.alpha_x[i]);
+      m.alpha_y = static_cast<double>(lobe.alpha_y[i]);
+      m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
       m.f0 = static_cast<Vec3d>(f0);
       m.f90 = static_cast<Vec3d>(f90);
-      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(method_, *light, shading_point(tile, i), m)));
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, shading_point(tile, i), m)));
     }
   }
 }
@@ -236,12 +207,12 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
     if (surface == nullptr) continue;
     for (const Material& material : surface->specular_override) {
       if (material.brdf == Brdf::lambert) continue;
+      const methods::Row& row = method_.row_for(material);
       for (const PackLight* light : lights) {
         if (material.brdf == Brdf::phong && light->is_polygon()) {
           alignas(64) TilePlane result;
-          const PhongQuality quality = method_.quality == Quality::high ? PhongQuality::high : PhongQuality::normal;
           phong_table_for(active_simd())
-              .radiance(*light, points_of(tile), material.exponent, {phong_method(method_.phong), quality}, result.data());
+              .radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
           const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
           for (std::size_t i = 0; i < kTilePixels; ++i)
             if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);
@@ -252,7 +223,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
           const ShadingPoint at = shading_point(tile, i);
           Material m = material;
           if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
-          const Vec3d r = light->is_area() ? point_radiance(method_, *light, at, m) : point_radiance_punctual(*light, at, m);
+          const Vec3d r = light->is_area() ? point_radiance(row, method_.quality, *light, at, m) : point_radiance_punctual(*light, at, m);
           add_to(tile.radiance, i, static_cast<Vec3f>(r));
         }
       }

@@ -14,7 +14,7 @@ namespace steradian {
 // lobes, and the methods that exist for comparison only, run point by point in float.
 class SpecularPass {
  public:
-  explicit SpecularPass(const Method& method);
+  explicit SpecularPass(const DirectMethod& method);
 
   // Whether add() also brings the diffuse light of a light: a walk along a polygon serves both lobes.
   bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;
@@ -29,7 +29,7 @@ class SpecularPass {
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
 
-  const Method method_;
+  const DirectMethod method_;
   const LtcPackTables tables_, sheen_tables_;
 };
 

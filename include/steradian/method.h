@@ -1,0 +1,34 @@
+// How an integral is asked for: by which method, how well, in which arithmetic. `steradian eval --help` and docs/eval.md say
+// of each method which lobes it serves and what it is.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace steradian {
+
+// `automatic` ("auto") is the most accurate method in real time that serves the lobe.
+enum class Method {
+  automatic,
+  series, exact, arvo, lorentzian, pearson, ellipsoid,             // Phong; exact: others, too
+  closed_form, ltc, ltc_compact, ltc_clipless, representative_point,  // GGX
+  half_vector,                                                      // Blinn-Phong, Beckmann, GGX
+  reference, sampled                                                // every lobe
+};
+
+// How much work a method puts into what it approximates; methods without such a choice ignore it.
+//
+// series       draft, normal: three harmonics; high: five
+// closed-form  how the smooth factor, shadowing times Fresnel, is averaged over the light, the distribution's integral being
+//              exact at every quality. draft: at one direction; normal: up to 33 nodes on a quad; high: up to 49
+// half-vector  arcs of an edge: 3, 4, 8
+// auto         draft: the compact table for isotropic GGX
+enum class Quality { draft, normal, high };
+
+enum class Precision { double_, float_ };
+
+// "auto", "series", "closed-form", ...: the names of the command line, of JSON and of messages.
+const char* name_of(Method method);
+std::optional<Method> method_of(std::string_view name);
+
+}  // namespace steradian

@@ -1,0 +1,211 @@
+#include "integrals/methods.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "steradian/closed_form.h"
+#include "steradian/error.h"
+#include "steradian/half_vector.h"
+#include "steradian/kernels.h"
+#include "steradian/ltc.h"
+#include "steradian/phong.h"
+#include "steradian/reference.h"
+
+namespace steradian::methods {
+namespace {
+
+bool every_lobe(const Material&) { return true; }
+bool phong_lobes(const Material& m) { return m.brdf == Brdf::phong; }
+bool ggx_lobes(const Material& m) { return m.brdf == Brdf::ggx; }
+bool half_vector_lobes(const Material& m) {
+  return m.brdf == Brdf::blinn_phong || m.brdf == Brdf::beckmann || m.brdf == Brdf::ggx;
+}
+bool exact_lobes(const Material& m) {
+  return m.brdf == Brdf::lambert || m.brdf == Brdf::phong || (m.brdf == Brdf::ggx && !m.shadowing && m.f0 == m.f90);
+}
+bool phong_of_integer_exponent(const Material& m) {
+  return m.brdf == Brdf::phong && m.exponent == std::floor(m.exponent) && m.exponent < 1e9;
+}
+template <LtcMethod method>
+bool ltc_lobes(const Material& m) {
+  return steradian::serves(method, m);
+}
+
+RadianceResult answer(Method method, Vec3d radiance) { return {radiance, std::nullopt, std::nullopt, method}; }
+
+template <class S>
+Vec3d lambert(S irradiance, Vec3d radiance, Vec3d albedo) {
+  const S factor = Kernels<S>().lambert_radiance(Real<S>::of(irradiance)).v;
+  return Vec3d(Vector3<S>(radiance) * Vector3<S>(albedo) * factor);
+}
+
+template <Method method>
+RadianceResult phong(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
+  const PhongOptions o{method, options.quality};
+  return answer(method, options.precision == Precision::float_ ? Vec3d(phong_radiance_float(light, at, m, o))
+                                                               : phong_radiance(light, at, m, o));
+}
+
+RadianceResult exact(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
+  const bool in_float = options.precision == Precision::float_;
+  if (m.brdf == Brdf::phong) return phong<Method::exact>(light, at, m, options);
+  if (m.brdf == Brdf::ggx)
+    return answer(Method::exact, in_float ? exact_ggx_radiance_float(light, at, m) : exact_ggx_radiance(light, at, m));
+  return answer(Method::exact,
+                in_float ? lambert(polygon_irradiance_float(light, at.position, at.normal), light.radiance, m.albedo)
+                         : lambert(polygon_irradiance(light, at.position, at.normal), light.radiance, m.albedo));
+}
+
+RadianceResult closed_form(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                           const RadianceOptions& options) {
+  const auto evaluate = options.precision == Precision::float_ ? closed_form_radiance_float : closed_form_radiance;
+  return answer(Method::closed_form, evaluate(light, at, m, options.quality));
+}
+
+RadianceResult half_vector(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                           const RadianceOptions& options) {
+  const int arcs = options.quality == Quality::draft ? 3 : options.quality == Quality::normal ? 4 : 8;
+  const auto evaluate = options.precision == Precision::float_ ? half_vector_radiance_float : half_vector_radiance;
+  return answer(Method::half_vector, evaluate(light, at, m, {.arcs = arcs}));
+}
+
+template <LtcMethod ltc_method, Method method>
+RadianceResult ltc(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
+  const auto evaluate = options.precision == Precision::float_ ? ltc_radiance_float : ltc_radiance;
+  return answer(method, evaluate(ltc_method, light, at, m));
+}
+
+RadianceResult reference(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions&) {
+  const ReferenceResult r = reference_radiance(light, at, m);
+  return {r.radiance, r.bound, std::nullopt, Method::reference};
+}
+
+RadianceResult sampled(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
+                       const RadianceOptions& options) {
+  const SampledResult r = sampled_radiance(light, at, m, {options.spp, options.seed});
+  return {r.radiance, std::nullopt, r.standard_error, Method::sampled};
+}
+
+RadianceDerivatives exact_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
+  if (m.brdf != Brdf::lambert)
+    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by exact", "use auto");
+  return radiance_derivatives(light, at, m, quality);
+}
+
+template <LtcMethod method>
+RadianceDerivatives ltc_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality) {
+  return ltc_radiance_derivatives(method, light, at, m);
+}
+
+constexpr const char* kNoQualities = "";
+
+// A new method is a row here and a name in include/steradian/method.h.
+constexpr Row kMethods[] = {
+    {Method::series, "series", "phong", phong_lobes, true, "normal, high",
+     "constant time: 1.3e-3 of the full lobe at worst, 4.5e-4 in high quality", phong<Method::series>, radiance_derivatives},
+    {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
+     "closed form without approximation; phong by quadrature along the outline to 1e-10 of the full lobe", exact,
+     exact_derivatives},
+    {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities,
+     "Arvo's recurrence: exact, time grows with the exponent", phong<Method::arvo>},
+    {Method::lorentzian, "lorentzian", "phong", phong_lobes, true, kNoQualities,
+     "published peak fit, for comparison: errors of 1e-2", phong<Method::lorentzian>},
+    {Method::pearson, "pearson", "phong", phong_lobes, true, kNoQualities,
+     "the same, a blend of Lorentzian and Pearson VII", phong<Method::pearson>},
+    {Method::ellipsoid, "ellipsoid", "phong", phong_lobes, true, kNoQualities, "the same, a blend of ellipsoids",
+     phong<Method::ellipsoid>},
+    {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high",
+     "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form,
+     radiance_derivatives},
+    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, kNoQualities,
+     "linearly transformed cosines by the classic table of 64 x 64: 3 % rms", ltc<LtcMethod::classic, Method::ltc>,
+     ltc_derivatives<LtcMethod::classic>},
+    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing; charlie", ltc_lobes<LtcMethod::compact>, true,
+     kNoQualities, "the same by a table of 4 KB about the mirrored view; sheen by a table of its own, 8 % rms",
+     ltc<LtcMethod::compact, Method::ltc_compact>, ltc_derivatives<LtcMethod::compact>},
+    {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true,
+     kNoQualities, "ltc with a sphere's form factor in place of clipping, for comparison",
+     ltc<LtcMethod::clipless, Method::ltc_clipless>},
+    {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing",
+     ltc_lobes<LtcMethod::representative_point>, true, kNoQualities, "one point of the light, Karis 2013, for comparison",
+     ltc<LtcMethod::representative_point, Method::representative_point>},
+    {Method::half_vector, "half-vector", "blinn-phong; beckmann; ggx", half_vector_lobes, true, "draft, normal, high",
+     "edges split into 3, 4 or 8 great-circle arcs in half-vector space: 0.6 % rms; ggx takes shadowing and Fresnel at one direction", half_vector},
+    {Method::reference, "reference", "all", every_lobe, false, kNoQualities,
+     "adaptive quadrature (render: path tracing until converged); tells a bound of its error", reference},
+    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities,
+     "light and lobe sampling, --spp pairs; tells its standard error", sampled},
+};
+
+}  // namespace
+
+std::span<const Row> all() { return kMethods; }
+
+const Row& row_of(Method method) {
+  for (const Row& row : kMethods)
+    if (row.method == method) return row;
+  throw Error("method", "auto stands for no method of its own");
+}
+
+const Row* find(Method method, const Material& lobe, Quality quality) {
+  for (const Row& row : kMethods) {
+    if (method != Method::automatic && method != row.method) continue;
+    if (!row.serves(lobe)) continue;
+    if (method == Method::automatic && row.method == Method::closed_form && quality == Quality::draft &&
+        ltc_lobes<LtcMethod::compact>(lobe))
+      return &row_of(Method::ltc_compact);
+    return &row;
+  }
+  return nullptr;
+}
+
+const Row& resolve(Method method, const Material& lobe, Precision precision, Quality quality) {
+  const Row* row = find(method, lobe, quality);
+  const std::string brdf = name_of(lobe.brdf);
+  if (row == nullptr) {
+    std::string serving;
+    for (const Row& r : kMethods)
+      if (r.serves(lobe)) serving += (serving.empty() ? "" : ", ") + std::string(r.name);
+    throw Error("method", std::string(name_of(method)) + " does not serve brdf " + brdf, "use auto or one of: " + serving);
+  }
+  if (precision == Precision::float_ && !row->in_float)
+    throw Error("precision", std::string("method ") + row->name + " works in double only for brdf " + brdf,
+                "leave precision out");
+  return *row;
+}
+
+RadianceResult nothing(Method method) {
+  RadianceResult result;
+  result.method = method;
+  if (method == Method::reference) result.bound = 0.0;
+  if (method == Method::sampled) result.standard_error = 0.0;
+  return result;
+}
+
+std::string names() {
+  std::string names = "auto";
+  for (const Row& row : kMethods) names += std::string(", ") + row.name;
+  return names;
+}
+
+std::string help() {
+  std::string text = "Methods, in the order in which auto looks for one that serves a lobe (a draft takes ltc-compact before closed-form):";
+  for (const Row& row : kMethods)
+    text += std::string("\n  ") + row.name + ": " + row.lobes + ". " + row.help;
+  return text;
+}
+
+}  // namespace steradian::methods
+
+namespace steradian {
+
+const char* name_of(Method method) { return method == Method::automatic ? "auto" : methods::row_of(method).name; }
+
+std::optional<Method> method_of(std::string_view name) {
+  if (name == "auto") return Method::automatic;
+  for (const methods::Row& row : methods::all())
+    if (name == row.name) return row.method;
+  return std::nullopt;
+}
+
+}  // namespace steradian

@@ -1,0 +1,48 @@
+// The table of methods: one row each. `eval`, `render`, their help and the tables of the manual come from it, or are tested
+// against it.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "steradian/material.h"
+#include "steradian/polygon_derivatives.h"
+#include "steradian/polygon_light.h"
+#include "steradian/radiance.h"
+#include "steradian/shading_point.h"
+
+namespace steradian::methods {
+
+struct Row {
+  Method method;
+  const char* name;
+  const char* lobes;  // what `serves` holds, in words
+  bool (*serves)(const Material& lobe);
+  bool in_float;          // has Precision::float_
+  const char* qualities;  // the ones it tells apart, in words; empty: none
+  const char* help;       // one line
+  // What the lobe sends to the view under a light. Precondition: serves(lobe).
+  RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
+  // By the light's vertices and the normal; null: the method has none. Throws Error for lobes that have none.
+  RadianceDerivatives (*derivatives)(const PolygonLight&, const ShadingPoint&, const Material&, Quality) = nullptr;
+};
+
+// In the order of preference of `auto`, which itself has no row.
+std::span<const Row> all();
+
+const Row& row_of(Method method);  // not of Method::automatic
+
+// The row that a method comes down to for a lobe; null where it does not serve it. The rule of `auto`: the first row that
+// serves the lobe; a draft prefers ltc-compact to the closed form.
+const Row* find(Method method, const Material& lobe, Quality quality);
+
+// The same. Throws Error, which names the methods that serve the lobe, also where the row does not have the precision.
+const Row& resolve(Method method, const Material& lobe, Precision precision, Quality quality);
+
+// 0, as a method says it: nothing of the light is seen.
+RadianceResult nothing(Method method);
+
+std::string names();  // "auto, series, exact, ..."
+std::string help();   // a line a method, for --help
+
+}  // namespace steradian::methods

@@ -1,0 +1,192 @@
+// One table of methods: what it promises, that `eval` and `render` keep to it alike, and that the manual says the same.
+#include "integrals/methods.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+
+#include "paths.h"
+#include "render/cpu/camera_rays.h"
+#include "render/cpu/methods.h"
+#include "scene/test_meshes.h"
+#include "steradian/closed_form.h"
+#include "steradian/error.h"
+#include "steradian/half_vector.h"
+
+namespace steradian {
+namespace {
+
+using methods::Row;
+
+struct NamedLobe {
+  const char* words;  // as Row::lobes has it
+  Material lobe;
+};
+
+// A lobe of every kind that some method tells from its kin.
+std::vector<NamedLobe> lobes() {
+  Material lambert, phong, between, ggx, anisotropic, bare, blinn, beckmann, charlie;
+  phong.brdf = between.brdf = Brdf::phong;
+  phong.exponent = 20;
+  between.exponent = 20.5;
+  ggx.brdf = anisotropic.brdf = bare.brdf = Brdf::ggx;
+  ggx.f0 = anisotropic.f0 = {0.04, 0.04, 0.04};
+  anisotropic.alpha_x = 0.5;
+  bare.shadowing = false;
+  blinn.brdf = Brdf::blinn_phong;
+  blinn.exponent = 20;
+  beckmann.brdf = Brdf::beckmann;
+  charlie.brdf = Brdf::charlie;
+  return {{"lambert", lambert}, {"phong", phong}, {"phong, any exponent", between}, {"ggx", ggx}, {"ggx, any widths", anisotropic},
+          {"ggx without shadowing", bare}, {"blinn-phong", blinn}, {"beckmann", beckmann}, {"charlie", charlie}};
+}
+
+PreparedPolygon light() { return prepare_polygon({{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}}); }
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(test::kSourceDir + "/" + path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A row of the manual's table.
+std::string manual_row(const Row& row) {
+  return std::string("| `") + row.name + "` | " + row.lobes + " | " + (row.in_float ? "double, float" : "double") + " | " +
+         row.qualities + " | " + (row.derivatives != nullptr ? "yes" : "") + " | " + row.help + " |";
+}
+
+}  // namespace
+
+TEST(Methods, NamesReadBackAndAreTheirOwn) {
+  std::set<std::string> names;
+  for (const Row& row : methods::all()) {
+    EXPECT_EQ(method_of(row.name), row.method) << row.name;
+    EXPECT_STREQ(name_of(row.method), row.name);
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+  }
+  EXPECT_EQ(method_of("auto"), Method::automatic);
+  EXPECT_FALSE(method_of("magic"));
+}
+
+// The words of a row against its condition, lobe by lobe; and what it serves, it answers.
+TEST(Methods, RowsServeWhatTheySay) {
+  const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
+  for (const Row& row : methods::all()) {
+    const std::string words = row.lobes;
+    for (const NamedLobe& l : lobes()) {
+      const std::string brdf = name_of(l.lobe.brdf);
+      const bool phong_word = std::regex_search(words, std::regex("(^|[^-])\\b" + brdf + "\\b"));
+      bool expected = words == "all" || phong_word;
+      const std::string kind = l.words;
+      if (kind == "phong, any exponent" && words.find("integer") != std::string::npos) expected = false;
+      if (kind == "ggx, any widths" && words.find("isotropic") != std::string::npos) expected = false;
+      if (brdf == "ggx" && words.find("without shadowing") != std::string::npos) expected = kind == "ggx without shadowing";
+      if (kind == "ggx without shadowing" && words.find("with shadowing") != std::string::npos) expected = false;
+      EXPECT_EQ(row.serves(l.lobe), expected) << row.name << ": " << l.words;
+      if (!row.serves(l.lobe)) continue;
+      for (const Precision precision : {Precision::double_, Precision::float_}) {
+        if (precision == Precision::float_ && !row.in_float) continue;
+        RadianceOptions options;
+        options.precision = precision;
+        const RadianceResult r = row.polygon(light(), at, l.lobe, options);
+        EXPECT_GT(r.radiance.x, 0) << row.name << ": " << l.words;
+        EXPECT_EQ(r.method, row.method);
+        EXPECT_EQ(r.bound.has_value(), row.method == Method::reference);
+        EXPECT_EQ(r.standard_error.has_value(), row.method == Method::sampled);
+      }
+    }
+  }
+}
+
+TEST(Methods, AutomaticIsTheFirstThatServesAndADraftTakesTheTable) {
+  const auto chosen = [](const Material& lobe, Quality quality) {
+    return std::string(methods::find(Method::automatic, lobe, quality)->name);
+  };
+  const char* const normal[] = {"exact", "series", "series", "closed-form", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact"};
+  const char* const draft[] = {"exact", "series", "series", "ltc-compact", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact"};
+  const std::vector<NamedLobe> all = lobes();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(chosen(all[i].lobe, Quality::normal), normal[i]) << all[i].words;
+    EXPECT_EQ(chosen(all[i].lobe, Quality::draft), draft[i]) << all[i].words;
+  }
+}
+
+// A scene whose floor has one lobe beside its diffuse one.
+namespace {
+Scene scene_with(const Material& lobe) {
+  Scene scene;
+  SurfaceMaterial material;
+  material.base_color = {0, 0, 0, 1};
+  material.specular_override = {lobe};
+  scene.materials = {material};
+  scene.meshes = {quad_mesh({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
+  AreaLight panel;
+  panel.polygon.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+  scene.area_lights = {panel};
+  Camera camera;
+  camera.position = {0, 3, 4};
+  camera.z = normalized(camera.position);
+  camera.y = cross(camera.z, camera.x);
+  scene.cameras = {camera};
+  return scene;
+}
+}  // namespace
+
+TEST(Methods, EvalAndRenderServeTheSameLobes) {
+  for (const Row& row : methods::all())
+    for (const NamedLobe& l : lobes()) {
+      if (l.lobe.brdf == Brdf::lambert || l.lobe.brdf == Brdf::charlie) continue;  // exact and by its table beside all
+      RenderOptions options;
+      options.method = row.name;
+      const bool serves = methods::find(row.method, l.lobe, Quality::normal) != nullptr;
+      if (serves)
+        EXPECT_NO_THROW(choose_method(scene_with(l.lobe), options)) << row.name << ": " << l.words;
+      else
+        EXPECT_THROW(choose_method(scene_with(l.lobe), options), UsageError) << row.name << ": " << l.words;
+    }
+}
+
+// Pixel by pixel, what the library's own call gives: half vectors for GGX, and GGX without shadowing exactly.
+TEST(Methods, RenderAnswersAsTheLibraryDoes) {
+  const auto compare = [](const char* method, const Material& lobe, const auto& expected_at) {
+    const Scene scene = scene_with(lobe);
+    RenderOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.method = method;
+    const Picture picture = render(scene, options);
+    const CameraRays rays(scene.cameras[0], options.width, options.height);
+    for (int y = 24; y < 48; y += 6)
+      for (int x = 5; x < 64; x += 9) {
+        const auto d = static_cast<Vec3d>(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const Vec3d eye = scene.cameras[0].position, p = eye + d * (-eye.y / d.y);
+        const double expected = expected_at(ShadingPoint{p, {0, 1, 0}, normalized(eye - p)});
+        // Hit points to 2e-6 of 10 m, under lobes whose slope is at most 1/alpha = 5 a radian; float besides.
+        EXPECT_NEAR(picture.at(x, y).x, expected, 2e-4 * expected + 1e-5) << method << " " << x << " " << y;
+      }
+  };
+  Material ggx;
+  ggx.brdf = Brdf::ggx;
+  ggx.alpha_x = ggx.alpha_y = 0.2;
+  compare("half-vector", ggx, [&](const ShadingPoint& at) { return half_vector_radiance(light(), at, ggx).x; });
+  ggx.shadowing = false;
+  compare("exact", ggx, [&](const ShadingPoint& at) { return exact_ggx_radiance(light(), at, ggx).x; });
+}
+
+// The table of docs/eval.md, row by row and none besides; and no method that README does not know.
+TEST(Methods, TheManualHasTheTable) {
+  const std::string manual = text_of("docs/eval.md"), readme = text_of("README.md");
+  const std::string head = "| method | lobes | arithmetic | qualities | derivatives | what it is |\n|---|---|---|---|---|---|\n";
+  const std::size_t begin = manual.find(head);
+  ASSERT_NE(begin, std::string::npos) << "docs/eval.md lacks the head of its table of methods:\n" << head;
+  std::string expected = head;
+  for (const Row& row : methods::all()) expected += manual_row(row) + "\n";
+  EXPECT_EQ(manual.substr(begin, manual.find("\n\n", begin) + 1 - begin), expected);
+  for (const Row& row : methods::all())
+    EXPECT_NE(readme.find(std::string("`") + row.name + "`"), std::string::npos) << "README.md does not name " << row.name;
+}
+
+}  // namespace steradian
