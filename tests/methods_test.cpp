@@ -45,7 +45,11 @@ std::vector<NamedLobe> lobes() {
           {"ggx without shadowing", bare}, {"blinn-phong", blinn}, {"beckmann", beckmann}, {"charlie", charlie}};
 }
 
-PreparedPolygon light() { return prepare_polygon({{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}}); }
+PreparedPolygon light() {
+  PolygonLight panel;
+  panel.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+  return prepare_polygon(panel);
+}
 
 std::string text_of(const std::string& path) {
   std::ifstream in(test::kSourceDir + "/" + path);

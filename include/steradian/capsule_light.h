@@ -3,7 +3,7 @@
 #pragma once
 
 #include "steradian/area_light.h"     // Capsule
-#include "steradian/ellipse_light.h"  // LobeAxis
+#include "steradian/material.h"       // LobeAxis
 
 namespace steradian {
 

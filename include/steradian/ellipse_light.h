@@ -3,7 +3,7 @@
 #pragma once
 
 #include "steradian/area_light.h"  // Ellipse, silhouette
-#include "steradian/material.h"
+#include "steradian/material.h"    // LobeAxis
 #include "steradian/shading_point.h"
 
 namespace steradian {
@@ -16,15 +16,6 @@ float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d nor
 
 // The same of an ellipsoid center + x u + y v + z w, |(u,v,w)| = 1; 0 from inside.
 double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position, Vec3d normal);
-
-// A lobe as far as a polygon in place of an ellipse needs to know it.
-struct LobeAxis {
-  Vec3d axis;        // unit, from the shading point: the mirrored view
-  double width = 1;  // [rad]: 1/sqrt(n + 1) of Phong
-};
-
-// Of a material's lobe at a point.
-LobeAxis lobe_axis(const Material& material, const ShadingPoint& at);
 
 // The polygon with that many vertices (even, 6 to 64) that stands in for an ellipse seen from a point, its corners
 // gathered where the lobe is sharp. 8 serve a Phong lobe to 0.75 % of it, 12 to 0.1 %.

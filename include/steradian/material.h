@@ -1,17 +1,26 @@
 // Material: one lobe of a surface, as `eval` and scenes describe it. A surface may carry several; results add.
 #pragma once
 
+#include <algorithm>
+
+#include "steradian/shading_point.h"
 #include "steradian/vector.h"
 
 namespace steradian {
 
 enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann, charlie };  // charlie: the sheen of glTF
 
+// Smallest width of a distribution of half vectors: below, float no longer tells it from a mirror.
+inline constexpr double kSmallestAlpha = 1e-4;
+
+// Of a perceptual roughness, whose square it is.
+constexpr double alpha_from_roughness(double roughness) { return std::max(roughness * roughness, kSmallestAlpha); }
+
 struct Material {
   Brdf brdf = Brdf::lambert;
   Vec3d albedo{1, 1, 1};    // lambert, phong, charlie
   double exponent = 1;      // phong, blinn_phong: n >= 0
-  double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it; roughness squared, >= 1e-4; charlie: alpha_x
+  double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it, at least kSmallestAlpha; charlie: alpha_x
   double alpha_y = 0.25;
   Vec3d tangent{0, 0, 0};   // ggx, beckmann: direction of alpha_x, projected on the surface; zero: any
   Vec3d f0{1, 1, 1};        // ggx: Schlick's Fresnel; f0 = f90 = 1 is no Fresnel
@@ -22,5 +31,12 @@ struct Material {
 
 // The name in the command line, in JSON and in messages: "lambert", "blinn-phong", ...
 const char* name_of(Brdf brdf);
+
+// A lobe as far as a polygon in place of a round light needs to know it.
+struct LobeAxis {
+  Vec3d axis;        // unit, from the shading point: the mirrored view
+  double width = 1;  // [rad]: 1/sqrt(n + 1) of Phong
+};
+LobeAxis lobe_axis(const Material& material, const ShadingPoint& at);
 
 }  // namespace steradian

@@ -1,6 +1,7 @@
 // Capsules and lines: irradiance against spheres, region tests, fine polygons and quadrature; polygons for lobes against finer
 // ones; and what must hold for any input.
 #include "steradian/capsule_light.h"
+#include "steradian/ellipse_light.h"
 
 #include <gtest/gtest.h>
 

@@ -57,21 +57,6 @@ double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d posit
   return outline ? ellipse_irradiance(*outline, position, normal) : 0.0;
 }
 
-LobeAxis lobe_axis(const Material& material, const ShadingPoint& at) {
-  LobeAxis lobe;
-  lobe.axis = normalized(at.normal * (2 * dot(at.normal, at.view)) - at.view);
-  // A turned half vector turns the reflected direction by twice the angle.
-  switch (material.brdf) {
-    case Brdf::lambert: break;
-    case Brdf::charlie: lobe.axis = at.normal; break;
-    case Brdf::phong: lobe.width = 1 / std::sqrt(material.exponent + 1); break;
-    case Brdf::blinn_phong: lobe.width = 2 / std::sqrt(material.exponent + 1); break;
-    case Brdf::ggx:
-    case Brdf::beckmann: lobe.width = 2 * std::max(material.alpha_x, material.alpha_y); break;
-  }
-  return lobe;
-}
-
 PolygonLight polygon_for_lobe(const Ellipse& ellipse, Vec3d position, const LobeAxis& lobe, int vertices) {
   Kernels<double> k;
   const auto local = seen_from<double>(ellipse, position, kWorld);

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "eval/answer.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "reference/random_configurations.h"
 #include "steradian/capsule_light.h"
 
@@ -148,7 +148,7 @@ TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
       if (b.y < 0) b = b + (a - b) * (b.y / (b.y - a.y));
       const ShadingPoint at = looking_near(random, direction);
       const Frame frame = Frame::from_normal_and_tangent(at.normal, c.material.tangent);
-      const reference::Lobe lobe(c.material, frame.to_local(at.view));
+      const lobes::Lobe lobe(c.material, frame.to_local(at.view));
       double sum = 0;
       constexpr int kSteps = 20000;
       for (int k = 0; k < kSteps; ++k) {

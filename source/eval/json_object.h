@@ -49,15 +49,21 @@ struct Field {
   bool required = false;
 };
 
+template <class T>
+void read_key(Problems& problems, const Place& place, Json value, const Field<T>& field, T& result) {
+  field.read(problems, place, value, result);
+}
+
 std::string readable(std::string_view key);  // a key from the input, cut where it is long
 std::string quoted(std::string_view name);    // the same within '' for a value
 const char* type_name(Json value);
 void wrong_type(Problems& problems, const Place& place, const char* expected, Json found);
 
-// Reads the keys of the table; `tag` is one that was read before. Unknown, repeated and missing keys are problems.
-template <class T>
-void read_fields(Problems& problems, const Place& place, Json value, std::string_view tag,
-                 std::span<const Field<T>> fields, T& result) {
+// Reads the keys of the table, of Fields or of another row with a name, `required` and its own read_key; `tag` is a key that was
+// read before. Unknown, repeated and missing keys are problems.
+template <class Row, class T>
+void read_fields(Problems& problems, const Place& place, Json value, std::string_view tag, std::span<const Row> fields,
+                 T& result) {
   simdjson::dom::object object;
   if (value.get(object) != simdjson::SUCCESS) return wrong_type(problems, place, "an object", value);
   unsigned long long seen = 0;  // a bit per field, the highest for the tag
@@ -68,7 +74,7 @@ void read_fields(Problems& problems, const Place& place, Json value, std::string
     const bool is_tag = !tag.empty() && key == tag;
     if (i == fields.size() && !is_tag) {
       std::string known(tag);
-      for (const Field<T>& f : fields) known += (known.empty() ? "" : ", ") + std::string(f.name);
+      for (const Row& f : fields) known += (known.empty() ? "" : ", ") + std::string(f.name);
       const std::string name = readable(key);
       problems.add(place.in(name), "unknown key", "known here: " + known);
       continue;
@@ -77,7 +83,7 @@ void read_fields(Problems& problems, const Place& place, Json value, std::string
     if ((seen & bit) != 0)
       problems.add(place.in(key), "the key is given twice");
     else if (!is_tag)
-      fields[i].read(problems, place.in(key), child, result);
+      read_key(problems, place.in(key), child, fields[i], result);
     seen |= bit;
   }
   for (std::size_t i = 0; i < fields.size(); ++i)

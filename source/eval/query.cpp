@@ -1,9 +1,10 @@
-// The keys of a query: a table per object, a row per light type and per BRDF. A new one is one more row.
+// The keys of a query: a table per object, a row per light type; those of lobes are in lobes/keys.h.
 #include "eval/query.h"
 
 #include <limits>
 
 #include "eval/json_object.h"
+#include "lobes/lobe.h"
 
 namespace steradian::eval {
 namespace {
@@ -111,108 +112,51 @@ void read_light(Problems& problems, const Place& place, Json value, Query& query
   const LightRow* row = read_tag<LightRow>(problems, place, value, "type", kLights);
   if (row == nullptr) return;
   LightKeys keys;
-  read_fields<LightKeys>(problems, place, value, "type", row->fields, keys);
+  read_fields(problems, place, value, "type", row->fields, keys);
   query.light = row->finish(std::move(keys));
 }
 
 // ---- Materials -------------------------------------------------------------------------------------------------
 
-// The widths may be said in three ways; which were used is checked at the end.
-struct MaterialKeys {
-  Material material;
-  bool roughness = false, alpha = false, alpha_x = false, alpha_y = false;
-};
+}  // namespace
 
-using MaterialField = Field<MaterialKeys>;
+using lobes::Draft;
+using lobes::Key;
+using lobes::KeyKind;
+using lobes::KeyValue;
 
-constexpr double kSmallestAlpha = 1e-4;  // include/steradian/material.h
-
-double read_share(Problems& p, const Place& at, Json v) {
-  const double x = read_number(p, at, v);
-  if (x < 0 || x > 1) p.add(at, "must be from 0 to 1");
-  return x;
-}
-double read_alpha(Problems& p, const Place& at, Json v) { return std::max(read_share(p, at, v), kSmallestAlpha); }
-
-constexpr MaterialField kAlbedo = {"albedo", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                     k.material.albedo = read_colour(p, at, v);
-                                   }};
-constexpr MaterialField kExponent = {
-    "exponent",
-    [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.material.exponent = read_not_negative(p, at, v); },
-    true};
-constexpr MaterialField kRoughness = {"roughness", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                        const double r = read_share(p, at, v);
-                                        k.material.alpha_x = k.material.alpha_y = std::max(r * r, kSmallestAlpha);
-                                        k.roughness = true;
-                                      }};
-constexpr MaterialField kAlpha = {"alpha", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                    k.material.alpha_x = k.material.alpha_y = read_alpha(p, at, v);
-                                    k.alpha = true;
-                                  }};
-constexpr MaterialField kAlphaX = {"alpha_x", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                     k.material.alpha_x = read_alpha(p, at, v);
-                                     k.alpha_x = true;
-                                   }};
-constexpr MaterialField kAlphaY = {"alpha_y", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                     k.material.alpha_y = read_alpha(p, at, v);
-                                     k.alpha_y = true;
-                                   }};
-constexpr MaterialField kTangent = {"tangent", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                      k.material.tangent = read_direction(p, at, v);
-                                    }};
-constexpr MaterialField kF0 = {"f0", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                 k.material.f0 = read_colour(p, at, v);
-                               }};
-constexpr MaterialField kF90 = {"f90", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                  k.material.f90 = read_colour(p, at, v);
-                                }};
-constexpr MaterialField kShadowing = {"shadowing", [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
-                                        const std::string_view name = read_string(p, at, v);
-                                        if (v.is_string() && name != "smith" && name != "none")
-                                          p.add(at, quoted(name) + " is not known", "smith or none");
-                                        k.material.shadowing = name != "none";
-                                      }};
-
-constexpr MaterialField kLambertFields[] = {kAlbedo};
-constexpr MaterialField kPhongFields[] = {kExponent, kAlbedo};
-constexpr MaterialField kBlinnPhongFields[] = {kExponent};
-constexpr MaterialField kBeckmannFields[] = {kAlpha, kRoughness, kAlphaX, kAlphaY, kTangent};
-constexpr MaterialField kMultipleScattering = {
-    "multiple_scattering",
-    [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.material.multiple_scattering = read_bool(p, at, v); }};
-constexpr MaterialField kGgxFields[] = {kRoughness, kAlpha, kAlphaX,    kAlphaY,            kTangent,
-                                        kF0,        kF90,   kShadowing, kMultipleScattering};
-constexpr MaterialField kCharlieFields[] = {kAlpha, kRoughness, kAlbedo};
-
-void anything(Problems&, const Place&, const MaterialKeys&) {}
-void one_width(Problems& p, const Place& at, const MaterialKeys& k) {
-  if (k.alpha_x != k.alpha_y) return p.add(at.in(k.alpha_x ? "alpha_y" : "alpha_x"), "missing");
-  const int ways = k.roughness + k.alpha + k.alpha_x;
-  if (ways == 0) p.add(at.in("alpha"), "missing", "or give roughness, or alpha_x and alpha_y");
-  if (ways > 1) p.add(at.in("alpha"), "the width is given twice", "one of: roughness; alpha; alpha_x and alpha_y");
+// Beside the read_key of Field: read_fields finds both by the namespace of their arguments.
+static void read_key(Problems& p, const Place& at, Json v, const Key& key, Draft& draft) {
+  KeyValue value;
+  switch (key.kind) {
+    case KeyKind::not_negative: value.number = read_not_negative(p, at, v); break;
+    case KeyKind::share:
+      value.number = read_number(p, at, v);
+      if (value.number < 0 || value.number > 1) p.add(at, "must be from 0 to 1");
+      break;
+    case KeyKind::colour: value.vector = read_colour(p, at, v); break;
+    case KeyKind::direction: value.vector = read_direction(p, at, v); break;
+    case KeyKind::flag: value.flag = read_bool(p, at, v); break;
+    case KeyKind::word:
+      value.word = read_string(p, at, v);
+      if (v.is_string() && !lobes::is_word_of(key, value.word))
+        p.add(at, eval::quoted(value.word) + " is not known", "one of: " + std::string(key.words));
+      break;
+  }
+  key.set(draft, value);
 }
 
-struct MaterialRow {
-  std::string_view name;
-  Brdf brdf;
-  std::span<const MaterialField> fields;
-  void (*check)(Problems&, const Place&, const MaterialKeys&);
-};
-constexpr MaterialRow kMaterials[] = {
-    {"lambert", Brdf::lambert, kLambertFields, anything},  {"phong", Brdf::phong, kPhongFields, anything},
-    {"ggx", Brdf::ggx, kGgxFields, one_width},             {"blinn-phong", Brdf::blinn_phong, kBlinnPhongFields, anything},
-    {"beckmann", Brdf::beckmann, kBeckmannFields, one_width}, {"charlie", Brdf::charlie, kCharlieFields, one_width},
-};
+namespace {
 
 void read_material(Problems& problems, const Place& place, Json value, Query& query) {
-  const MaterialRow* row = read_tag<MaterialRow>(problems, place, value, "brdf", kMaterials);
+  const lobes::LobeRow* row = read_tag<lobes::LobeRow>(problems, place, value, "brdf", lobes::lobe_rows());
   if (row == nullptr) return;
-  MaterialKeys keys;
-  keys.material.brdf = row->brdf;
-  read_fields<MaterialKeys>(problems, place, value, "brdf", row->fields, keys);
-  row->check(problems, place, keys);
-  query.materials.push_back(keys.material);
+  Draft draft;
+  draft.material.brdf = row->brdf;
+  read_fields(problems, place, value, "brdf", row->keys, draft);
+  if (const auto wrong = lobes::check_width(draft))
+    problems.add(place.in(wrong->key), std::string(wrong->problem), std::string(wrong->hint));
+  query.materials.push_back(draft.material);
 }
 
 void read_materials(Problems& problems, const Place& place, Json value, Query& query) {
@@ -294,7 +238,7 @@ Query QueryReader::read(std::string_view line) {
   Problems problems;
   const Place top;
   if (!root.is_object()) throw Error("", std::string("expected an object, found ") + type_name(root));
-  read_fields<Query>(problems, top, root, {}, kQueryFields, query);
+  read_fields(problems, top, root, {}, std::span<const Field<Query>>(kQueryFields), query);
   if (!problems.any() && !query.view)
     for (const Material& m : query.materials)
       if (m.brdf != Brdf::lambert) {

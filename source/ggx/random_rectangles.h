@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "reference/cosine_sampler.h"
+#include "lobes/cosine_sampler.h"
 #include "reference/random.h"
 #include "steradian/reference.h"
 

@@ -9,7 +9,7 @@
 #include "ltc/ggx_tables.h"
 #include "ltc/lobe.h"
 #include "ltc/ltc_shape.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "reference/random.h"
 #include "steradian/kernels.h"
 
@@ -134,7 +134,7 @@ TEST(IndirectKernel, GgxEndIsTheLobeOfTheReference) {
     m.brdf = Brdf::ggx;
     m.alpha_x = m.alpha_y = end.alpha;
     const Frame f = Frame::from_normal_and_tangent(end.normal, end.view);
-    const reference::LobeValue truth = reference::Lobe(m, f.to_local(end.view)).evaluate(f.to_local(l));
+    const lobes::LobeValue truth = lobes::Lobe(m, f.to_local(end.view)).evaluate(f.to_local(l));
     const auto found = k.indirect_ggx(end.frame, vector<D>(f.to_local(end.view)), end.alpha, vector<D>(l));
     EXPECT_NEAR(found.lobe.v, truth.plain, 1e-10 * truth.plain);
     if (!(truth.plain > 0)) continue;

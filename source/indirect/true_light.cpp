@@ -6,7 +6,7 @@
 #include "indirect/light_sets.h"
 #include "ltc/ggx_tables.h"
 #include "ltc/ltc_shape.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 
 namespace steradian::indirect {
 namespace {
@@ -39,7 +39,7 @@ class End {
     m.alpha_x = m.alpha_y = alpha_;
     m.f0 = f0_;
     m.f90 = f90_;
-    const reference::Lobe lobe(m, view_);
+    const lobes::Lobe lobe(m, view_);
     return lobe.radiance(lobe.evaluate(l));
   }
 
@@ -120,9 +120,9 @@ Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& s
                       reference::Random& random) {
   const Frame frame = Frame::from_normal_and_tangent(normalized(wide(receiver.normal)), wide(receiver.tangent));
   const Vec3d v = normalized(frame.to_local(wide(view)));
-  std::vector<reference::Lobe> lobes;
+  std::vector<lobes::Lobe> lobes;
   for (const SurfaceLobe& l : lobes_of(receiver)) {
-    const reference::Lobe lobe(l.material, l.diffuse ? Vec3d{0, 0, 1} : v);
+    const lobes::Lobe lobe(l.material, l.diffuse ? Vec3d{0, 0, 1} : v);
     if (lobe.above_surface()) lobes.push_back(lobe);
   }
   Estimate result;
@@ -130,13 +130,13 @@ Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& s
   Vec3d squares{};
   for (int k = 0; k < paths; ++k) {
     Vec3d x{};
-    for (const reference::Lobe& lobe : lobes) {  // one direction by each: the multiple-sample balance heuristic
+    for (const lobes::Lobe& lobe : lobes) {  // one direction by each: the multiple-sample balance heuristic
       const double a = random.uniform(), b = random.uniform();
       const Vec3d l = lobe.sample(a, b);
       if (!(l.z > 0)) continue;
       double pdf = 0;
       Vec3d f{};
-      for (const reference::Lobe& other : lobes) {
+      for (const lobes::Lobe& other : lobes) {
         pdf += other.pdf(l);
         f += other.radiance(other.evaluate(l));
       }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "ltc/ggx_tables.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "steradian/kernels.h"
 
 namespace steradian {
@@ -22,7 +22,7 @@ double anisotropic_albedo(const Material& material, const ShadingPoint& at) {
   constexpr int kNodes = 128;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const Vec3d view = frame.to_local(at.view);
-  const reference::Lobe lobe(material, normalized(Vec3d{view.x, view.y, std::max(view.z, kGrazing)}));
+  const lobes::Lobe lobe(material, normalized(Vec3d{view.x, view.y, std::max(view.z, kGrazing)}));
   double sum = 0;
   for (int i = 0; i < kNodes; ++i) {
     const double b = i * 0.6180339887498949;

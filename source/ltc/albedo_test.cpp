@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "steradian/closed_form.h"
 #include "steradian/ltc.h"
+#include "steradian/reference.h"
 
 namespace steradian {
 namespace {
@@ -37,7 +38,7 @@ Vec3d view_at(double cosine, double phi = 0) {
 
 // Over the lobe's own samples, n x n midpoints.
 double albedo_by_quadrature(const Material& m, Vec3d view, int n) {
-  const reference::Lobe lobe(m, view);
+  const lobes::Lobe lobe(m, view);
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "lobes/charlie.h"
+#include "lobes/cosine_sampler.h"
 #include "ltc/lobe.h"
-#include "reference/charlie.h"
-#include "reference/cosine_sampler.h"
 
 namespace steradian {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 void sample_by_cosine(Lobe& lobe) {
-  lobe.sample = [](double a, double b) { return reference::sample_cosine_hemisphere(b, a); };
-  lobe.pdf = reference::pdf_cosine_hemisphere;
+  lobe.sample = [](double a, double b) { return lobes::sample_cosine_hemisphere(b, a); };
+  lobe.pdf = lobes::pdf_cosine_hemisphere;
 }
 
 }  // namespace
@@ -22,10 +22,10 @@ void sample_by_cosine(Lobe& lobe) {
 Lobe charlie_lobe(double alpha, Vec3d v) {
   Lobe lobe;
   lobe.view = v;
-  lobe.evaluate = [=](Vec3d l) { return reference::charlie_lobe(alpha, v, l); };
+  lobe.evaluate = [=](Vec3d l) { return lobes::charlie_lobe(alpha, v, l); };
   // Even over the hemisphere: the lobe is strongest along the horizon, where a cosine has no samples.
   lobe.sample = [](double a, double b) {
-    return reference::direction_at(1 - a, std::sqrt(std::max(1 - (1 - a) * (1 - a), 0.0)), b);
+    return lobes::direction_at(1 - a, std::sqrt(std::max(1 - (1 - a) * (1 - a), 0.0)), b);
   };
   lobe.pdf = [](Vec3d l) { return l.z >= 0 ? 0.5 / kPi : 0.0; };
   return lobe;

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "ltc/test_lights.h"
-#include "reference/cosine_sampler.h"
+#include "lobes/cosine_sampler.h"
 
 namespace steradian {
 namespace {
@@ -43,7 +43,7 @@ Nodes place_nodes(const Lobe& lobe, int n) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) add(lobe.sample(midpoint(i, n), 0.5 * midpoint(j, n)));
   for (int i = 0; i < m; ++i)
-    for (int j = 0; j < n; ++j) add(reference::sample_cosine_hemisphere(0.5 * midpoint(j, n), midpoint(i, m)));
+    for (int j = 0; j < n; ++j) add(lobes::sample_cosine_hemisphere(0.5 * midpoint(j, n), midpoint(i, m)));
   return nodes;
 }
 

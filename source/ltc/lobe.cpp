@@ -8,8 +8,6 @@
 
 namespace steradian {
 
-double alpha_from_roughness(double roughness) { return std::max(roughness * roughness, 1e-4); }
-
 Vec3d view_from_cosine(double cos_theta) { return {std::sqrt(std::max(1 - cos_theta * cos_theta, 0.0)), 0, cos_theta}; }
 
 Lobe with_grazing_fresnel(const Lobe& lobe) {

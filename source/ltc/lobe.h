@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "steradian/material.h"  // alpha_from_roughness
 #include "steradian/vector.h"
 
 namespace steradian {
@@ -33,8 +34,6 @@ struct LobeFamily {
   std::function<Lobe(double roughness, double cos_theta)> at;
 };
 
-// alpha = roughness squared, at least 1e-4.
-double alpha_from_roughness(double roughness);
 Vec3d view_from_cosine(double cos_theta);
 
 Lobe ggx_lobe(double alpha, Vec3d view);

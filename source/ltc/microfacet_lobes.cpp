@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lobes/lobe.h"
 #include "ltc/lobe.h"
-#include "reference/half_vector_sampler.h"
 #include "steradian/kernels.h"
 
 namespace steradian {
@@ -17,16 +17,16 @@ Vec3<Real<double>> to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
 }  // namespace
 
 Lobe ggx_lobe_anisotropic(double ax, double ay, Vec3d v) {
+  Material material;
+  material.brdf = Brdf::ggx;
+  material.alpha_x = ax;
+  material.alpha_y = ay;
+  const lobes::Lobe ggx(material, v);
   Lobe lobe;
   lobe.view = v;
-  lobe.evaluate = [=](Vec3d l) { return Kernels<double>{}.ggx_lobe(to_kernel(l), to_kernel(v), ax, ay).v; };
-  lobe.sample = [=](double a, double b) {
-    return reference::sample_reflection(v, reference::sample_ggx_visible_normal(v, ax, ay, b, a));
-  };
-  lobe.pdf = [=](Vec3d l) {
-    const Vec3d h = normalized(l + v);
-    return reference::pdf_reflection(v, h, reference::pdf_ggx_visible_normal(v, ax, ay, h));
-  };
+  lobe.evaluate = [=](Vec3d l) { return ggx.evaluate(l).plain; };
+  lobe.sample = [=](double a, double b) { return ggx.sample(b, a); };
+  lobe.pdf = [=](Vec3d l) { return ggx.pdf(l); };
   return lobe;
 }
 
@@ -49,11 +49,11 @@ Lobe beckmann_lobe(double alpha, Vec3d v) {
     return d / (4 * v.z * (1 + lambda_v + lambda(l.z)));
   };
   lobe.sample = [=](double a, double b) {
-    return reference::sample_reflection(v, reference::sample_beckmann_half_vector(alpha, alpha, b, a));
+    return lobes::sample_reflection(v, lobes::sample_beckmann_half_vector(alpha, alpha, b, a));
   };
   lobe.pdf = [=](Vec3d l) {
     const Vec3d h = normalized(l + v);
-    return reference::pdf_reflection(v, h, reference::pdf_beckmann_half_vector(alpha, alpha, h));
+    return lobes::pdf_reflection(v, h, lobes::pdf_beckmann_half_vector(alpha, alpha, h));
   };
   return lobe;
 }

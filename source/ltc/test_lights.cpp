@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/cosine_sampler.h"
+#include "lobes/cosine_sampler.h"
 #include "reference/random.h"
 #include "steradian/kernels.h"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 Vec3d on_sphere(double z, double turn) {
-  return reference::direction_at(z, std::sqrt(std::max(1 - z * z, 0.0)), turn);
+  return lobes::direction_at(z, std::sqrt(std::max(1 - z * z, 0.0)), turn);
 }
 
 // The four planes of origin and edge: inside is the positive side of each.

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "ltc/textured_light.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "reference/random.h"
 
 namespace steradian {
@@ -73,7 +73,7 @@ Setup random_setup(Random& random, double distance) {
 // Integrals of the lobe over the light, plain and times each texture: a grid on the light and one on the lobe's own
 // square, weighted by the balance heuristic.
 std::vector<double> integrate(const Setup& s, const Material& material, const std::vector<std::vector<Image>>& images, int n) {
-  const reference::Lobe lobe(material, s.at.view);
+  const lobes::Lobe lobe(material, s.at.view);
   const LightTexture& t = *s.light.texture;
   const Vec3d normal = cross(t.du, t.dv);
   const double height = dot(normal, t.origin);

@@ -9,10 +9,12 @@
 
 #include <vector>
 
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "reference/spherical_region.h"
 
 namespace steradian::reference {
+
+using lobes::LobeShape;
 
 class Fan {
  public:

@@ -5,11 +5,13 @@
 #include <numbers>
 #include <string>
 
-#include "reference/cosine_sampler.h"
+#include "lobes/cosine_sampler.h"
 #include "reference/random.h"
 #include "steradian/reference.h"
 
 namespace steradian::reference {
+
+using lobes::direction_at;
 
 struct Configuration {
   PolygonLight light;

@@ -7,14 +7,17 @@
 #include <limits>
 #include <vector>
 
+#include "lobes/lobe.h"
 #include "reference/fan.h"
 #include "reference/gauss_kronrod.h"
-#include "reference/lobe.h"
 #include "reference/spherical_region.h"
 
 namespace steradian {
 namespace reference {
 namespace {
+
+using lobes::Lobe;
+using lobes::LobeValue;
 
 struct Cell {
   std::size_t triangle;
@@ -171,11 +174,14 @@ ReferenceResult reference_radiance(const PreparedPolygon& light, const ShadingPo
                                    const ReferenceOptions& options) {
   using namespace reference;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const Lobe lobe(material, frame.to_local(at.view));
+  const lobes::Lobe lobe(material, frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
-  const Vec3d planes[] = {{0, 0, 1}, lobe.ending_plane()};
+  Vec3d planes[3] = {{0, 0, 1}};
+  int plane_count = 1;
+  for (const Vec3d& plane : lobe.ending_planes())
+    if (!(plane == Vec3d{})) planes[plane_count++] = plane;
   SphericalRegion region;
-  region.assign(light, at.position, frame, planes, planes[1] == Vec3d{} ? 1 : 2);
+  region.assign(light, at.position, frame, planes, plane_count);
   if (region.arcs.empty()) return {};
 
   Cubature cubature(region, lobe);

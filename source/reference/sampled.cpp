@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
-#include "reference/lobe.h"
 #include "reference/random.h"
 #include "reference/spherical_region.h"
 #include "steradian/reference.h"
@@ -42,7 +42,7 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
                                const SampledOptions& options) {
   using namespace reference;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const Lobe lobe(material, frame.to_local(at.view));
+  const lobes::Lobe lobe(material, frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
   SphericalRegion region;
   region.assign_above_horizon(light, at.position, frame);
@@ -53,15 +53,15 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
   if (!(sampler.measure() > 0)) return {};
 
   Random random(options.seed);
-  const auto contribution = [&](Vec3d l, double light_pdf) -> LobeValue {
+  const auto contribution = [&](Vec3d l, double light_pdf) -> lobes::LobeValue {
     const double pdf = light_pdf + lobe.pdf(l);
-    return light_pdf > 0 && pdf > 0 ? lobe.evaluate(l) * (1 / pdf) : LobeValue{};
+    return light_pdf > 0 && pdf > 0 ? lobe.evaluate(l) * (1 / pdf) : lobes::LobeValue{};
   };
   Statistics statistics;
   for (int i = 0; i < options.spp; ++i) {
     const double u0 = random.uniform(), v0 = random.uniform(), u1 = random.uniform(), v1 = random.uniform();
     const Vec3d to_light = sampler.sample(u0, v0), by_lobe = lobe.sample(u1, v1);
-    LobeValue sum = contribution(to_light, sampler.pdf_within(to_light));
+    lobes::LobeValue sum = contribution(to_light, sampler.pdf_within(to_light));
     if (!(by_lobe == Vec3d{})) sum += contribution(by_lobe, sampler.pdf(by_lobe));
     statistics.add(lobe.radiance(sum) * light.radiance);
   }

@@ -1,5 +1,7 @@
 #include "scene/gltf_materials.h"
 
+#include "lobes/lobe.h"
+
 namespace steradian {
 namespace {
 
@@ -99,12 +101,12 @@ void read_extras(SurfaceMaterial& m, const JsonCursor& json) {
   if (m.specular_override.empty()) ours->fail("the list of lobes is empty");
 }
 
-Brdf brdf_of(const JsonCursor& brdf) {
+const lobes::LobeRow& row_named(const JsonCursor& brdf) {
   const std::string name = brdf.as_text();
   std::string known;
-  for (const Brdf b : {Brdf::lambert, Brdf::phong, Brdf::ggx, Brdf::blinn_phong, Brdf::beckmann, Brdf::charlie}) {
-    if (name == name_of(b)) return b;
-    known += (known.empty() ? "" : ", ") + std::string(name_of(b));
+  for (const lobes::LobeRow& row : lobes::lobe_rows()) {
+    if (name == row.name) return row;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
   }
   brdf.fail("\"" + name + "\" is not a lobe", "known are " + known);
 }
@@ -120,59 +122,46 @@ Vec3d grey_or_rgb(const JsonCursor& object, const char* key, Vec3d otherwise) {
   return static_cast<Vec3d>(color(object, key, otherwise, 1e30));
 }
 
-void read_widths(Material& m, const JsonCursor& lobe) {
-  constexpr double kSmallest = 1e-4;  // the smallest alpha of the library's convention
-  const int ways = lobe.has("roughness") + lobe.has("alpha") + (lobe.has("alpha_x") || lobe.has("alpha_y"));
-  if (ways > 1)
-    lobe.fail("gives its width more than once", "use one of roughness, alpha, alpha_x with alpha_y");
-  const double r = lobe.number("roughness", 0.5, 0, 1);
-  const double alpha = lobe.number("alpha", r * r, 0, 1);
-  m.alpha_x = std::max(lobe.number("alpha_x", alpha, 0, 1), kSmallest);
-  m.alpha_y = std::max(lobe.number("alpha_y", alpha, 0, 1), kSmallest);
-  if (lobe.has("alpha_x") != lobe.has("alpha_y")) lobe.fail("needs both alpha_x and alpha_y");
-  m.tangent = lobe.vector("tangent", {0, 0, 0});
-}
-
-const char* keys_of(Brdf brdf) {
-  switch (brdf) {
-    case Brdf::lambert:
-      return "albedo";
-    case Brdf::phong:
-      return "exponent albedo";
-    case Brdf::ggx:
-      return "roughness alpha alpha_x alpha_y tangent f0 f90 shadowing multiple_scattering";
-    case Brdf::blinn_phong:
-      return "exponent";
-    case Brdf::beckmann:
-      return "roughness alpha alpha_x alpha_y tangent";
-    case Brdf::charlie:
-      return "roughness alpha albedo";
+lobes::KeyValue read_key(const JsonCursor& lobe, const lobes::Key& key) {
+  using lobes::KeyKind;
+  const std::string name(key.name);
+  lobes::KeyValue value;
+  switch (key.kind) {
+    case KeyKind::not_negative: value.number = lobe.number(name, 0, 0, 1e30); break;
+    case KeyKind::share: value.number = lobe.number(name, 0, 0, 1); break;
+    case KeyKind::colour: value.vector = grey_or_rgb(lobe, name.c_str(), {1, 1, 1}); break;
+    case KeyKind::direction:
+      value.vector = normalized(lobe.vector(name, {}));
+      if (value.vector == Vec3d{}) lobe.at(name).fail("the vector is zero", "it needs a direction");
+      break;
+    case KeyKind::flag: value.flag = lobe.flag(name, false); break;
+    case KeyKind::word:
+      value.word = lobe.text(name, "");
+      if (!lobes::is_word_of(key, value.word))
+        lobe.at(name).fail("\"" + value.word + "\" is not known", "one of: " + std::string(key.words));
+      break;
   }
-  return "";
+  return value;
 }
 
 }  // namespace
 
 Material read_lobe(const JsonCursor& lobe) {
-  Material m;
-  m.brdf = brdf_of(lobe.at("brdf"));
-  const std::string allowed = keys_of(m.brdf);
+  const lobes::LobeRow& row = row_named(lobe.at("brdf"));
+  lobes::Draft draft;
+  draft.material.brdf = row.brdf;
+  std::string known;
+  for (const lobes::Key& key : row.keys) known += (known.empty() ? "" : " ") + std::string(key.name);
   for (const auto& [key, value] : lobe.value().items())
-    if (key != "brdf" && !has_word(allowed, key))
-      lobe.fail("\"" + key + "\" is not a key of " + name_of(m.brdf), "known are " + allowed);
-  m.albedo = grey_or_rgb(lobe, "albedo", m.albedo);
-  if (m.brdf == Brdf::phong || m.brdf == Brdf::blinn_phong) {
-    lobe.at("exponent");
-    m.exponent = lobe.number("exponent", 1, 0, 1e6);
+    if (key != "brdf" && !lobes::has_key(row.keys, key))
+      lobe.fail("\"" + key + "\" is not a key of " + row.name, "known are " + known);
+  for (const lobes::Key& key : row.keys) {
+    if (key.required) lobe.at(key.name);
+    if (lobe.has(key.name)) key.set(draft, read_key(lobe, key));
   }
-  read_widths(m, lobe);
-  m.f0 = grey_or_rgb(lobe, "f0", m.f0);
-  m.f90 = grey_or_rgb(lobe, "f90", m.f90);
-  const std::string shadowing = lobe.text("shadowing", "smith");
-  if (shadowing != "smith" && shadowing != "none") lobe.at("shadowing").fail("must be \"smith\" or \"none\"");
-  m.shadowing = shadowing == "smith";
-  m.multiple_scattering = lobe.flag("multiple_scattering", false);
-  return m;
+  if (const auto wrong = lobes::check_width(draft))
+    lobe.fail("\"" + std::string(wrong->key) + "\": " + std::string(wrong->problem), std::string(wrong->hint));
+  return draft.material;
 }
 
 std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures,

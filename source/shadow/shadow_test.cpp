@@ -7,7 +7,7 @@
 
 #include "ltc/ggx_tables.h"
 #include "ltc/table.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
 #include "shadow/triangle_rays.h"
@@ -143,7 +143,7 @@ TEST(SoftShadow, PiecesHoldTheLightThatArrivesByRays) {
       ggx.brdf = Brdf::ggx;
       ggx.alpha_x = ggx.alpha_y = 0.25;
       ggx.shadowing = false;
-      const reference::Lobe lobe(ggx, view);
+      const lobes::Lobe lobe(ggx, view);
       const LtcValue value = ggx_classic_table().look_up(0.5, view.z);
       K::LtcMatrix m;
       m.xx = value.inverse.xx, m.xz = value.inverse.xz, m.yy = value.inverse.yy, m.zx = value.inverse.zx, m.zz = value.inverse.zz;

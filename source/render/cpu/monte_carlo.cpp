@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
-#include "reference/lobe.h"
 #include "reference/spherical_region.h"
 #include "shapes/polygon.h"
 #include "shapes/punctual.h"
@@ -15,7 +15,7 @@ namespace steradian {
 namespace {
 
 using reference::AzimuthSampler;
-using reference::Lobe;
+using lobes::Lobe;
 
 // Sum over the lobes; radiance of a unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "ltc/textured_light.h"
-#include "reference/lobe.h"
+#include "lobes/lobe.h"
 #include "render/cpu/closed_form.h"
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
@@ -104,7 +104,7 @@ Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& 
 Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, const Material& material) {
   const auto incident = shapes::incident<double>(*std::get_if<packed::Punctual>(&light.shape), shapes::to_kernel<double>(at.position));
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const reference::Lobe lobe(material, frame.to_local(at.view));
+  const lobes::Lobe lobe(material, frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
   const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v};
   return lobe.radiance(lobe.evaluate(frame.to_local(to))) * static_cast<Vec3d>(light.radiance) * incident.irradiance.v;

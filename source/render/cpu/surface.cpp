@@ -8,7 +8,7 @@
 namespace steradian {
 namespace {
 
-constexpr float kMinAlpha = 1e-4f;
+constexpr auto kMinAlpha = static_cast<float>(kSmallestAlpha);
 constexpr float kCoatF0 = 0.04f;  // KHR_materials_clearcoat: a coat of index 1.5
 
 // Values at the corners of a triangle, blended.

@@ -1,10 +1,10 @@
-#include "reference/charlie.h"
+#include "lobes/charlie.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace steradian::reference {
+namespace steradian::lobes {
 namespace {
 
 // Lambda of the shadowing: a curve fitted by its authors, for the roughest and the smoothest cloth, blended.
@@ -28,4 +28,4 @@ double charlie_lobe(double given_alpha, Vec3d v, Vec3d l) {
   return d / (4 * v.z * (1 + lambda(v.z, alpha) + lambda(std::min(l.z, 1.0), alpha)));
 }
 
-}  // namespace steradian::reference
+}  // namespace steradian::lobes

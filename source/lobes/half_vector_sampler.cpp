@@ -1,13 +1,13 @@
-#include "reference/half_vector_sampler.h"
+#include "lobes/half_vector_sampler.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "reference/cosine_sampler.h"
+#include "lobes/cosine_sampler.h"
 #include "steradian/kernels.h"
 
-namespace steradian::reference {
+namespace steradian::lobes {
 namespace {
 
 Kernels<double> kernels;  // has no state
@@ -59,4 +59,4 @@ double pdf_reflection(Vec3d view, Vec3d h, double half_vector_pdf) {
   return v_dot_h > 0 ? half_vector_pdf / (4 * v_dot_h) : 0;
 }
 
-}  // namespace steradian::reference
+}  // namespace steradian::lobes

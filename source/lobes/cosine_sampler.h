@@ -7,7 +7,7 @@
 
 #include "steradian/vector.h"
 
-namespace steradian::reference {
+namespace steradian::lobes {
 
 // The direction at height z and turn u of a full turn.
 inline Vec3d direction_at(double z, double sine, double u) {
@@ -32,4 +32,4 @@ inline double pdf_cosine_power(double n, double cosine) {
   return (n + 1) / (2 * std::numbers::pi) * std::pow(cosine, n);
 }
 
-}  // namespace steradian::reference
+}  // namespace steradian::lobes

@@ -3,7 +3,7 @@
 
 #include "steradian/vector.h"
 
-namespace steradian::reference {
+namespace steradian::lobes {
 
 // Density D(h) h_z over the hemisphere, u, v in [0, 1).
 Vec3d sample_blinn_phong_half_vector(double n, double u, double v);
@@ -21,4 +21,4 @@ Vec3d sample_reflection(Vec3d view, Vec3d h);
 // Density of the reflection per solid angle from that of h: over 4 v.h.
 double pdf_reflection(Vec3d view, Vec3d h, double half_vector_pdf);
 
-}  // namespace steradian::reference
+}  // namespace steradian::lobes

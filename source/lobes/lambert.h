@@ -1,0 +1,27 @@
+// Lambert: the same radiance in every direction.
+#pragma once
+
+#include "lobes/cosine_sampler.h"
+#include "lobes/lobe_parts.h"
+
+namespace steradian::lobes {
+
+struct Lambert {
+  static constexpr Brdf kBrdf = Brdf::lambert;
+  static constexpr const char* kName = "lambert";
+  static constexpr Key kKeys[] = {kAlbedo};
+  static LobeAxis axis_and_width(const Material&, const ShadingPoint& at) { return {mirrored(at), 1}; }
+
+  Lambert(const Material& material, Vec3d) : colours{material.albedo} {}
+
+  LobeValue evaluate(Vec3d l) const { return {Kernels<double>().lambert_lobe(to_kernel(l)).v, 0}; }
+  Vec3d sample(double u, double v) const { return sample_cosine_hemisphere(u, v); }
+  double pdf(Vec3d l) const { return pdf_cosine_hemisphere(l); }
+  LobeShape shape() const { return shape_about_normal(); }
+  double sensitivity() const { return 1; }
+  std::array<Vec3d, 2> ending_planes() const { return no_planes(); }
+
+  Colours colours;
+};
+
+}  // namespace steradian::lobes
