@@ -74,6 +74,12 @@ std::array<Vec3d, 2> Lobe::ending_planes() const {
   return std::visit([](const auto& kind) { return kind.ending_planes(); }, kind_);
 }
 
+Material in_frame(const Material& material, const Frame& frame) {
+  Material local = material;
+  local.tangent = frame.to_local(material.tangent);
+  return local;
+}
+
 std::span<const LobeRow> lobe_rows() { return rows(std::make_index_sequence<kKinds>()); }
 const LobeRow& row_of(Brdf brdf) { return lobe_rows()[static_cast<std::size_t>(brdf)]; }
 

@@ -57,6 +57,9 @@ class Lobe {
   Colours colours_;
 };
 
+// The material with its directions in a frame: what Lobe wants.
+Material in_frame(const Material& material, const Frame& frame);
+
 // A kind of lobe as files name it.
 struct LobeRow {
   const char* name;

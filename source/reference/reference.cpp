@@ -174,7 +174,7 @@ ReferenceResult reference_radiance(const PreparedPolygon& light, const ShadingPo
                                    const ReferenceOptions& options) {
   using namespace reference;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const lobes::Lobe lobe(material, frame.to_local(at.view));
+  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
   Vec3d planes[3] = {{0, 0, 1}};
   int plane_count = 1;

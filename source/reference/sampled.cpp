@@ -42,7 +42,7 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
                                const SampledOptions& options) {
   using namespace reference;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const lobes::Lobe lobe(material, frame.to_local(at.view));
+  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
   SphericalRegion region;
   region.assign_above_horizon(light, at.position, frame);

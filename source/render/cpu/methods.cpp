@@ -69,7 +69,7 @@ DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& n
   bool layered = false;
   for (const SpecularLobe& l : lobes) {
     const methods::Row* row = methods::find(method_for(*asked_for, l.lobe), l.lobe, quality);
-    if (row == nullptr)
+    if (row == nullptr || !row->in_float)  // in a picture, auto is no reference
       throw UsageError("--method " + name, "does not serve the " + describe(l),
                        "use auto, sampled or reference, or another material");
     // One method for all of them: the first that a lobe asks for, or the closed form where another cannot have that.

@@ -63,7 +63,7 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
   for (const SurfaceLobe& l : lobes_of(surface)) {
     if (choice == LobeChoice::specular && l.diffuse) continue;
     // A view below the shading normal still sees the diffuse lobe, which does not depend on it.
-    const Lobe lobe(l.material, l.diffuse ? Vec3d{0, 0, 1} : v);
+    const Lobe lobe(lobes::in_frame(l.material, frame), l.diffuse ? Vec3d{0, 0, 1} : v);
     if (lobe.above_surface()) lobes.push_back(lobe);
   }
   Estimate result;

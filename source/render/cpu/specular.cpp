@@ -104,7 +104,7 @@ Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& 
 Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, const Material& material) {
   const auto incident = shapes::incident<double>(*std::get_if<packed::Punctual>(&light.shape), shapes::to_kernel<double>(at.position));
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const lobes::Lobe lobe(material, frame.to_local(at.view));
+  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
   if (!lobe.above_surface()) return {};
   const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v};
   return lobe.radiance(lobe.evaluate(frame.to_local(to))) * static_cast<Vec3d>(light.radiance) * incident.irradiance.v;
