@@ -8,7 +8,8 @@
 
 namespace steradian {
 
-enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann, charlie };  // charlie: the sheen of glTF
+// charlie: the sheen of glTF. lobe_product: two Phong lobes, one about the mirrored view, the other about `axis`.
+enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann, charlie, lobe_product };
 
 // Smallest width of a distribution of half vectors: below, float no longer tells it from a mirror.
 inline constexpr double kSmallestAlpha = 1e-4;
@@ -18,14 +19,16 @@ constexpr double alpha_from_roughness(double roughness) { return std::max(roughn
 
 struct Material {
   Brdf brdf = Brdf::lambert;
-  Vec3d albedo{1, 1, 1};    // lambert, phong, charlie
-  double exponent = 1;      // phong, blinn_phong: n >= 0
+  Vec3d albedo{1, 1, 1};    // lambert, phong, charlie, lobe_product
+  double exponent = 1;      // phong, blinn_phong, lobe_product: n >= 0
   double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it, at least kSmallestAlpha; charlie: alpha_x
   double alpha_y = 0.25;
   Vec3d tangent{0, 0, 0};   // ggx, beckmann: direction of alpha_x, projected on the surface; zero: any
   Vec3d f0{1, 1, 1};        // ggx: Schlick's Fresnel; f0 = f90 = 1 is no Fresnel
   Vec3d f90{1, 1, 1};
   bool shadowing = true;    // ggx: height-correlated Smith
+  Vec3d axis{0, 0, 0};      // lobe_product: of its second lobe; zero: the normal
+  double axis_exponent = 1; // lobe_product: of its second lobe, n >= 0
   bool multiple_scattering = false;  // ggx: what is lost between the facets is given back, see albedo.h
 };
 

@@ -77,6 +77,7 @@ std::array<Vec3d, 2> Lobe::ending_planes() const {
 Material in_frame(const Material& material, const Frame& frame) {
   Material local = material;
   local.tangent = frame.to_local(material.tangent);
+  local.axis = frame.to_local(material.axis);
   return local;
 }
 

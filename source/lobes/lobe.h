@@ -21,13 +21,14 @@
 #include "lobes/charlie.h"
 #include "lobes/ggx.h"
 #include "lobes/lambert.h"
+#include "lobes/lobe_product.h"
 #include "lobes/phong.h"
 
 namespace steradian::lobes {
 
 class Lobe {
  public:
-  using Kind = std::variant<Lambert, Phong, Ggx, BlinnPhong, Beckmann, Charlie>;
+  using Kind = std::variant<Lambert, Phong, Ggx, BlinnPhong, Beckmann, Charlie, LobeProduct>;
 
   Lobe(const Material& material, Vec3d view);
 
