@@ -35,7 +35,7 @@ std::optional<Material> by_scene(const json& lobe) {
 
 bool same(const Material& a, const Material& b) {
   return a.brdf == b.brdf && a.albedo == b.albedo && a.exponent == b.exponent && a.alpha_x == b.alpha_x && a.alpha_y == b.alpha_y &&
-         a.tangent == b.tangent && a.f0 == b.f0 && a.f90 == b.f90 && a.shadowing == b.shadowing && a.axis == b.axis && a.axis_exponent == b.axis_exponent &&
+         a.tangent == b.tangent && a.f0 == b.f0 && a.f90 == b.f90 && a.shadowing == b.shadowing && a.axis == b.axis && a.foreshortening == b.foreshortening && a.axis_exponent == b.axis_exponent &&
          a.multiple_scattering == b.multiple_scattering;
 }
 

@@ -4,7 +4,8 @@
 //   Material material{.brdf = Brdf::phong, .exponent = 100};
 //   Vec3d radiance = phong_radiance(light, at, material, {.method = Method::series});
 //
-// Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, r the mirrored view; no foreshortening.
+// Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, r the mirrored view; without foreshortening, unless
+// the material asks for it: then of max(u.r, 0)^n max(u.normal, 0), by exact, arvo and series.
 // Derivation, errors and speed of the methods: docs/moments.md.
 #pragma once
 
@@ -44,7 +45,7 @@ Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at,
 double axial_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, double n);
 
 // Integral of max(u.axis, 0)^n (u.other) over the same part, exact as above: foreshortening (other = normal) without
-// approximation. `other` may have any length; n >= 1.
+// approximation. `other` may have any length; n >= 0.
 double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other,
                           double n);
 

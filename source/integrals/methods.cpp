@@ -16,6 +16,7 @@ namespace {
 
 bool every_lobe(const Material&) { return true; }
 bool phong_lobes(const Material& m) { return m.brdf == Brdf::phong; }
+bool plain_phong(const Material& m) { return m.brdf == Brdf::phong && !m.foreshortening; }
 bool ggx_lobes(const Material& m) { return m.brdf == Brdf::ggx; }
 bool half_vector_lobes(const Material& m) {
   return m.brdf == Brdf::blinn_phong || m.brdf == Brdf::beckmann || m.brdf == Brdf::ggx;
@@ -108,11 +109,11 @@ constexpr Row kMethods[] = {
      exact_derivatives},
     {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities,
      "Arvo's recurrence: exact, time grows with the exponent", phong<Method::arvo>},
-    {Method::lorentzian, "lorentzian", "phong", phong_lobes, true, kNoQualities,
+    {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities,
      "published peak fit, for comparison: errors of 1e-2", phong<Method::lorentzian>},
-    {Method::pearson, "pearson", "phong", phong_lobes, true, kNoQualities,
+    {Method::pearson, "pearson", "phong without foreshortening", plain_phong, true, kNoQualities,
      "the same, a blend of Lorentzian and Pearson VII", phong<Method::pearson>},
-    {Method::ellipsoid, "ellipsoid", "phong", phong_lobes, true, kNoQualities, "the same, a blend of ellipsoids",
+    {Method::ellipsoid, "ellipsoid", "phong without foreshortening", plain_phong, true, kNoQualities, "the same, a blend of ellipsoids",
      phong<Method::ellipsoid>},
     {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high",
      "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form,

@@ -42,7 +42,7 @@ struct PhongLobe {
     return k.moment_edge_share(edge, front<method, quality>(edge));
   }
 
- private:
+  // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of an edge, m = n + 1.
   template <PhongMethod method, PhongQuality quality>
   STERADIAN_INLINE Real<S> front(const typename K::MomentEdge& edge) const {
     K k;

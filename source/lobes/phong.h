@@ -1,4 +1,4 @@
-// Phong: a power of the cosine about the mirrored view.
+// Phong: a power of the cosine about the mirrored view, with or without the cosine of the light.
 #pragma once
 
 #include "lobes/cosine_sampler.h"
@@ -9,7 +9,9 @@ namespace steradian::lobes {
 struct Phong {
   static constexpr Brdf kBrdf = Brdf::phong;
   static constexpr const char* kName = "phong";
-  static constexpr Key kKeys[] = {kExponent, kAlbedo};
+  static constexpr Key kKeys[] = {
+      kExponent, kAlbedo,
+      {"foreshortening", KeyKind::flag, [](Draft& d, const KeyValue& v) { d.material.foreshortening = v.flag; }}};
   static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) {
     return {mirrored(at), 1 / std::sqrt(m.exponent + 1)};
   }
@@ -17,12 +19,13 @@ struct Phong {
   Phong(const Material& material, Vec3d view)
       : colours{material.albedo},
         n(material.exponent),
+        foreshortening(material.foreshortening),
         mirror(from_kernel(Kernels<double>().phong_mirror(to_kernel(view)))),
         frame(Frame::from_normal(mirror)) {}
 
   LobeValue evaluate(Vec3d l) const {
     if (!(dot(l, mirror) > 0)) return {};  // the kernel's power 0 knows no end of the lobe
-    return {Kernels<double>().phong_lobe(to_kernel(l), to_kernel(mirror), n).v, 0};
+    return {Kernels<double>().phong_lobe(to_kernel(l), to_kernel(mirror), n).v * (foreshortening ? l.z : 1), 0};
   }
   Vec3d sample(double u, double v) const { return frame.to_world(sample_cosine_power(n, u, v)); }
   double pdf(Vec3d l) const { return pdf_cosine_power(n, dot(l, mirror)); }
@@ -32,6 +35,7 @@ struct Phong {
 
   Colours colours;
   double n;
+  bool foreshortening;
   Vec3d mirror;
   Frame frame;
 };

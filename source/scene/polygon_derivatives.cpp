@@ -211,6 +211,8 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   const Material m = with_multiple_scattering(material, at);
   if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
+  if (m.brdf == Brdf::phong && m.foreshortening)
+    throw Error("derivatives", "phong with foreshortening has none", "leave foreshortening out");
   const PreparedPolygon light = prepare_polygon(stored);
   const int side = shapes::lit_side(light, at.position);
   if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));

@@ -209,7 +209,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
       if (material.brdf == Brdf::lambert) continue;
       const methods::Row& row = method_.row_for(material);
       for (const PackLight* light : lights) {
-        if (material.brdf == Brdf::phong && light->is_polygon()) {
+        if (material.brdf == Brdf::phong && !material.foreshortening && light->is_polygon()) {
           alignas(64) TilePlane result;
           phong_table_for(active_simd())
               .radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
