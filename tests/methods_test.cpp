@@ -108,6 +108,26 @@ TEST(Methods, RowsServeWhatTheySay) {
   }
 }
 
+// The public call: the row of the table, for a light stored or prepared.
+TEST(Methods, RadianceIsWhatTheRowAnswers) {
+  PolygonLight panel;
+  panel.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+  const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
+  for (const NamedLobe& l : lobes()) {
+    const RadianceResult r = radiance(panel, at, l.lobe);
+    const Row* row = methods::find(Method::automatic, l.lobe, Quality::normal);
+    EXPECT_EQ(r.method, row->method) << l.words;
+    EXPECT_EQ(r.radiance, row->polygon(light(), at, l.lobe, {}).radiance) << l.words;
+    EXPECT_EQ(radiance(light(), at, l.lobe).radiance, r.radiance) << l.words;
+    const RadianceResult truth = radiance(panel, at, l.lobe, {.method = Method::reference});
+    ASSERT_TRUE(truth.bound.has_value()) << l.words;
+    EXPECT_NEAR(r.radiance.x, truth.radiance.x, 0.05) << l.words;  // as rough as the roughest of the methods of auto
+    EXPECT_EQ(radiance(panel, {at.position, at.normal, -at.view}, l.lobe).radiance, Vec3d{}) << l.words;
+  }
+  EXPECT_THROW(radiance(panel, at, lobes()[0].lobe, {.method = Method::ltc}), Error);
+  EXPECT_THROW(radiance(panel, at, lobes()[0].lobe, {.method = Method::reference, .precision = Precision::float_}), Error);
+}
+
 TEST(Methods, AutomaticIsTheFirstThatServesAndADraftTakesTheTable) {
   const auto chosen = [](const Material& lobe, Quality quality) {
     return std::string(methods::find(Method::automatic, lobe, quality)->name);

@@ -38,6 +38,11 @@ foreach(language glsl es hlsl wgsl)
   set_tests_properties(Dist.Compiles_${language} PROPERTIES SKIP_RETURN_CODE 77 RESOURCE_LOCK npm)
 endforeach()
 
+# The public headers: each alone, by this compiler and by clang where there is one; and steradian.h is all of them.
+add_test(NAME Packaging.HeadersCompileAlone
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/headers_test.py ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/kernels
+          ${CMAKE_CXX_COMPILER} clang++)
+
 add_test(NAME Packaging.ExampleBuildsAgainstTheInstalledTree
   COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR} -DCOMPILER=${CMAKE_CXX_COMPILER}
           -DSCRATCH=${PROJECT_BINARY_DIR}/installed_tree -P ${CMAKE_CURRENT_LIST_DIR}/installed_tree.cmake)

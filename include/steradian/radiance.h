@@ -1,10 +1,23 @@
-// What a radiance is asked with and answered by, whatever the method.
+// The radiance that a light sends to the eye from a point with a lobe, by whatever method.
+//
+//   PolygonLight panel;
+//   panel.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};     // counter-clockwise from the lit side
+//   Material lobe;
+//   lobe.brdf = Brdf::ggx;
+//   lobe.alpha_x = lobe.alpha_y = 0.1;
+//   const RadianceResult r = radiance(panel, {{0, 0, 0}, {0, 1, 0}, {0.6, 0.8, 0}}, lobe);
+//   // r.radiance; name_of(r.method) is "closed-form"
+//
+// The same methods, by the same rule, as `steradian eval` (docs/eval.md). Whoever asks many times prepares the light once.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "steradian/material.h"
 #include "steradian/method.h"
+#include "steradian/polygon_light.h"
+#include "steradian/shading_point.h"
 #include "steradian/vector.h"
 
 namespace steradian {
@@ -23,5 +36,12 @@ struct RadianceResult {
   std::optional<double> standard_error;  // of sampled: of the largest channel
   Method method = Method::automatic;     // the one that answered
 };
+
+// 0 for a view below the surface, from behind (unless two-sided) and for a light without area. Throws Error where the method
+// does not serve the lobe or the precision; it names those that do.
+RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe,
+                        const RadianceOptions& options = {});
+RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe,
+                        const RadianceOptions& options = {});
 
 }  // namespace steradian

@@ -200,6 +200,17 @@ std::string help() {
 
 namespace steradian {
 
+RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe,
+                        const RadianceOptions& options) {
+  const methods::Row& row = methods::resolve(options.method, lobe, options.precision, options.quality);
+  if (!(dot(at.normal, at.view) > 0)) return methods::nothing(row.method);
+  return row.polygon(light, at, lobe, options);
+}
+
+RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options) {
+  return radiance(prepare_polygon(light), at, lobe, options);
+}
+
 const char* name_of(Method method) { return method == Method::automatic ? "auto" : methods::row_of(method).name; }
 
 std::optional<Method> method_of(std::string_view name) {
