@@ -29,7 +29,7 @@ struct NamedLobe {
 
 // A lobe of every kind that some method tells from its kin.
 std::vector<NamedLobe> lobes() {
-  Material lambert, phong, between, foreshortened, ggx, anisotropic, bare, blinn, beckmann, charlie;
+  Material lambert, phong, between, foreshortened, ggx, anisotropic, bare, blinn, beckmann, charlie, product;
   phong.brdf = between.brdf = Brdf::phong;
   phong.exponent = 20;
   between.exponent = 20.5;
@@ -43,8 +43,11 @@ std::vector<NamedLobe> lobes() {
   blinn.exponent = 20;
   beckmann.brdf = Brdf::beckmann;
   charlie.brdf = Brdf::charlie;
+  product.brdf = Brdf::lobe_product;
+  product.exponent = 20;
+  product.axis_exponent = 5;
   return {{"lambert", lambert}, {"phong", phong}, {"phong, any exponent", between}, {"phong, foreshortened", foreshortened}, {"ggx", ggx}, {"ggx, any widths", anisotropic},
-          {"ggx without shadowing", bare}, {"blinn-phong", blinn}, {"beckmann", beckmann}, {"charlie", charlie}};
+          {"ggx without shadowing", bare}, {"blinn-phong", blinn}, {"beckmann", beckmann}, {"charlie", charlie}, {"lobe-product", product}};
 }
 
 PreparedPolygon light() {
@@ -132,8 +135,8 @@ TEST(Methods, AutomaticIsTheFirstThatServesAndADraftTakesTheTable) {
   const auto chosen = [](const Material& lobe, Quality quality) {
     return std::string(methods::find(Method::automatic, lobe, quality)->name);
   };
-  const char* const normal[] = {"exact", "series", "series", "series", "closed-form", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact"};
-  const char* const draft[] = {"exact", "series", "series", "series", "ltc-compact", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact"};
+  const char* const normal[] = {"exact", "series", "series", "series", "closed-form", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact", "matched-lobe"};
+  const char* const draft[] = {"exact", "series", "series", "series", "ltc-compact", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact", "matched-lobe"};
   const std::vector<NamedLobe> all = lobes();
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(chosen(all[i].lobe, Quality::normal), normal[i]) << all[i].words;

@@ -13,12 +13,13 @@ enum class Method {
   series, exact, arvo, lorentzian, pearson, ellipsoid,             // Phong; exact: others, too
   closed_form, ltc, ltc_compact, ltc_clipless, representative_point,  // GGX
   half_vector,                                                      // Blinn-Phong, Beckmann, GGX
+  matched_lobe,                                                     // products of Phong lobes
   reference, sampled                                                // every lobe
 };
 
 // How much work a method puts into what it approximates; methods without such a choice ignore it.
 //
-// series       draft, normal: three harmonics; high: five
+// series, matched-lobe   draft, normal: three harmonics; high: five
 // closed-form  how the smooth factor, shadowing times Fresnel, is averaged over the light, the distribution's integral being
 //              exact at every quality. draft: at one direction; normal: up to 33 nodes on a quad; high: up to 49
 // half-vector  arcs of an edge: 3, 4, 8

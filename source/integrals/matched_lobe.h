@@ -1,0 +1,65 @@
+// The product of two Phong lobes as one lobe of the product's place, height and curvature: an approximation.
+//
+// The one lobe is not round. A linear map makes it so, and polygons stay polygons: the moment of the stretched outline, by the
+// cosine series, is the integral (kernels/lobe/lobe_product.glsl).
+#pragma once
+
+#include <optional>
+
+#include "integrals/phong.h"
+
+STERADIAN_BEGIN_ISA
+namespace integrals {
+
+// x: radiance of albedo 1, in [0, 1]. 0 for axes 90 degrees apart and more, where the product is about 0. For one point at a time:
+// the matched exponent is the point's own.
+template <class S>
+class MatchedLobe {
+ public:
+  static constexpr Clip kClip = Clip::horizon;
+  using K = Kernels<S>;
+  using vec3 = typename K::vec3;
+
+  // axis: of the second lobe, unit, in the shading frame.
+  MatchedLobe(double exponent, double axis_exponent, const vec3& axis, Quality quality)
+      : n1_(exponent), n2_(axis_exponent), axis_(axis), peaked_(exponent + axis_exponent > 0), quality_(quality) {}
+
+  Mask<S> begin(const Shading<S>& shading) {
+    K k;
+    const vec3 mirror = k.phong_mirror(shading.view);
+    auto product = k.lobe_product_begin(peaked_ ? k.lobe_product_peak_of_two(mirror, n1_, axis_, n2_) : mirror);
+    product = k.lobe_product_add(k.lobe_product_add(product, mirror, n1_), axis_, n2_);
+    lobe_ = k.lobe_product_anisotropic(product);
+    round_.emplace(static_cast<double>(lobe_.exponent.v), 0);
+    sum_ = 0.0;
+    return shading.lit && shading.view.z > Real<S>(0.0);
+  }
+  vec3 end(const vec3& u) const { return u; }
+  void add(const vec3& a, const vec3& b) {
+    const vec3 p = stretched(a), q = stretched(b), z(0.0, 0.0, 1.0);
+    sum_ += quality_ == Quality::high ? round_->template share<Method::series, Quality::high>(p, q, z)
+                                      : round_->template share<Method::series, Quality::normal>(p, q, z);
+  }
+  Part<S> finish(Mask<S> reversed) {
+    // The factor is that of n1 + n2; the moment's is that of the matched exponent.
+    const Real<S> scale = lobe_.scale * ((n1_ + n2_ + 1.0) / (lobe_.exponent + 1.0));
+    return {scale * K().moment_phong_radiance(sum_, reversed), Real<S>(0.0)};
+  }
+
+ private:
+  vec3 stretched(const vec3& u) const {
+    K k;
+    return k.polygon_direction(k.lobe_product_stretch(lobe_, u));
+  }
+
+  Real<S> n1_, n2_;
+  vec3 axis_;
+  bool peaked_;
+  Quality quality_;
+  typename K::StretchedLobe lobe_;
+  std::optional<PhongLobe<S>> round_;
+  Real<S> sum_{0.0};
+};
+
+}  // namespace integrals
+STERADIAN_END_ISA
