@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 
 #include "steradian/error.h"
 
@@ -17,6 +18,7 @@ std::string hint_for(int error) {
   switch (error) {
     case ENOSPC:
     case EDQUOT: return "the disk is full: free some space or choose another place";
+    case EFBIG: return "the file is larger than this process may write (ulimit -f), or than the disk can hold";
     case ENOENT: return "the folder does not exist: make it first";
     case EACCES:
     case EPERM: return "the folder is not writable: choose another place";
@@ -34,12 +36,22 @@ std::string resolved(const std::string& path) {
   return result;
 }
 
-// The permissions that open() would give; umask can only be read by setting it.
-mode_t usual_mode(const struct stat* existing) {
-  if (existing != nullptr) return existing->st_mode & 0777;
-  const mode_t mask = umask(0);
-  umask(mask);
-  return 0666 & ~mask;
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+// Calls make with names beside the target until one is free; make returns -1 and sets errno. The name that was taken, or
+// none.
+template <class Make>
+std::string take_free_name(const std::string& target, Make make) {
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    const std::string name = target + "." + std::to_string(random());
+    if (make(name) >= 0) return name;
+    if (errno != EEXIST) break;
+  }
+  return {};
 }
 
 }  // namespace
@@ -59,15 +71,43 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolved(
   if (exists && S_ISDIR(existing.st_mode)) fail("cannot write", EISDIR);
   if (exists && !S_ISREG(existing.st_mode)) {
     direct_ = true;
-    temporary_ = target_;
     descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail("cannot open", errno);
     return;
   }
-  temporary_ = target_ + ".XXXXXX";
-  descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
+  open_temporary(0666);
+  // A new file has what the process's umask leaves; one that is replaced keeps its permissions.
+  if (exists) fchmod(descriptor_, existing.st_mode & 0777);
+}
+
+// Without a name where the file system can; else under a name of its own.
+void AtomicFile::open_temporary(unsigned mode) {
+  descriptor_ = open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+  if (descriptor_ >= 0 || errno == EACCES || errno == EROFS) {
+    if (descriptor_ < 0) fail("cannot create", errno);
+    return;
+  }
+  temporary_ = take_free_name(target_, [&](const std::string& name) {
+    return descriptor_ = open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
+  });
   if (descriptor_ < 0) fail("cannot create", errno);
-  fchmod(descriptor_, usual_mode(exists ? &existing : nullptr));
+}
+
+// A link cannot replace a file: where there is one, the new file gets a name beside it and is renamed.
+int AtomicFile::name_it() {
+  if (temporary_.empty()) {
+    const std::string unnamed = "/proc/self/fd/" + std::to_string(descriptor_);
+    const auto link_as = [&](const std::string& name) {
+      return linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+    };
+    if (link_as(target_) == 0) return 0;
+    if (errno != EEXIST) return errno;
+    temporary_ = take_free_name(target_, link_as);
+    if (temporary_.empty()) return errno;
+  }
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) return errno;
+  temporary_.clear();
+  return 0;
 }
 
 AtomicFile::~AtomicFile() { discard(); }
@@ -75,25 +115,18 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::write(std::string_view bytes) { write_all(descriptor_, bytes, path_); }
 
 void AtomicFile::commit() {
-  const int closed = close(descriptor_);
-  const int error = errno;
-  descriptor_ = -1;
-  if (closed != 0) {
-    discard();
-    fail("cannot write", error);
-  }
-  if (!direct_ && rename(temporary_.c_str(), target_.c_str()) != 0) {
-    const int renaming = errno;
-    discard();
-    fail("cannot rename the finished file", renaming);
-  }
-  temporary_.clear();
+  // Some file systems say only at a close that the disk is full; naming needs the descriptor after that.
+  const int written = close(dup(descriptor_)) == 0 ? 0 : errno;
+  const int named = written != 0 || direct_ ? 0 : name_it();
+  discard();
+  if (written != 0) fail("cannot write", written);
+  if (named != 0) fail("cannot name the finished file", named);
 }
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) close(descriptor_);
   descriptor_ = -1;
-  if (!direct_ && !temporary_.empty()) unlink(temporary_.c_str());
+  if (!temporary_.empty()) unlink(temporary_.c_str());
   temporary_.clear();
 }
 

@@ -1,4 +1,5 @@
-// AtomicFile: an output file that is complete or not there. Written beside its name, renamed when it is done.
+// AtomicFile: an output file that is complete or not there. Written without a name, in the folder of its name, and named
+// when it is done: a program that is killed leaves nothing behind.
 #pragma once
 
 #include <string>
@@ -20,14 +21,13 @@ class AtomicFile {
   // The last step: the file appears under its name.
   void commit();
 
-  // Where the bytes go until then: for libraries that write to a path of their own. The file exists and is empty.
-  const std::string& temporary_path() const { return temporary_; }
-
  private:
   [[noreturn]] void fail(const char* doing, int error) const;
+  void open_temporary(unsigned mode);
+  int name_it();  // 0 or the error
   void discard() noexcept;
 
-  std::string path_, target_, temporary_;
+  std::string path_, target_, temporary_;  // the last is empty while the file has no name
   int descriptor_ = -1;
   bool direct_ = false;
 };

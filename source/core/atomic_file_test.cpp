@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -70,6 +72,42 @@ TEST_F(AtomicFiles, FollowASymbolicLink) {
   file.commit();
   EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
   EXPECT_EQ(contents(folder / "real.txt"), "new");
+}
+
+// New files have what the umask leaves, replaced ones keep what they had; the process's umask is not touched.
+TEST_F(AtomicFiles, HaveTheUsualPermissions) {
+  const auto written = [&](const fs::path& path) {
+    AtomicFile file(path.string());
+    file.write("x");
+    file.commit();
+    return static_cast<unsigned>(fs::status(path).permissions());
+  };
+  const mode_t before = umask(027);
+  EXPECT_EQ(written(folder / "new"), 0640u);
+  fs::permissions(folder / "new", static_cast<fs::perms>(0604));
+  EXPECT_EQ(written(folder / "new"), 0604u);
+  EXPECT_EQ(umask(before), 027u);
+  EXPECT_EQ(count(), 1u);
+}
+
+// Two that write to one name at once: one of them wins, whole.
+TEST_F(AtomicFiles, MayBeTwoOfOneName) {
+  const fs::path path = folder / "out.txt";
+  AtomicFile a(path.string()), b(path.string());
+  a.write("aaaa");
+  b.write("bbbb");
+  a.commit();
+  EXPECT_EQ(contents(path), "aaaa");
+  b.commit();
+  EXPECT_EQ(contents(path), "bbbb");
+  EXPECT_EQ(count(), 1u);
+}
+
+// Until it is committed the folder shows nothing, so that a killed program leaves nothing.
+TEST_F(AtomicFiles, HaveNoNameUntilTheyAreWhole) {
+  AtomicFile file((folder / "out.txt").string());
+  file.write("half");
+  EXPECT_EQ(count(), 0u);
 }
 
 TEST_F(AtomicFiles, SayWhatIsWrong) {
