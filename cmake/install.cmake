@@ -13,7 +13,7 @@ endif()
 
 # A static library passes on what it is made of: whoever links ours needs these, under the same names.
 set(STERADIAN_DEPENDENCIES "")
-foreach(package OpenEXR fmt simdjson ZLIB TBB "embree 3" NLopt pugixml)
+foreach(package OpenEXR fmt simdjson PNG JPEG TBB "embree 3" NLopt pugixml)
   string(APPEND STERADIAN_DEPENDENCIES "find_dependency(${package})\n")
 endforeach()
 

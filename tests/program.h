@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 struct Outcome {
   int status = -1;
   long peak_kib = 0;
+  double cpu_seconds = 0;  // of all its threads
   std::string out, err;
 };
 
@@ -41,26 +42,50 @@ class Program : public testing::Test {
 
   // Runs the program on the file `in` of the folder (made of `input`), out and err to files.
   Outcome run(std::vector<std::string> arguments, const std::string& input = {}) {
+    return run_limited(std::move(arguments), [] {}, input);
+  }
+
+  // The same after `limit` was called in the new process: for setrlimit, chdir and the like.
+  template <class Limit>
+  Outcome run_limited(std::vector<std::string> arguments, Limit limit, const std::string& input = {}) {
+    return finish(start(std::move(arguments), limit, input));
+  }
+
+  // In two steps, for what happens while the program runs; `name` tells the streams of several programs apart.
+  struct Child {
+    pid_t pid;
+    std::string name;
+  };
+  template <class Limit>
+  Child start(std::vector<std::string> arguments, Limit limit, const std::string& input = {}, const std::string& name = {}) {
     if (!input.empty() || !fs::exists(folder / "in")) std::ofstream(folder / "in", std::ios::binary) << input;
     arguments.insert(arguments.begin(), test::kProgram);
     std::vector<char*> argv;
     for (std::string& a : arguments) argv.push_back(a.data());
     argv.push_back(nullptr);
-    const std::string in = folder / "in", out = folder / "out", err = folder / "err";
+    const std::string in = folder / "in", out = folder / ("out" + name), err = folder / ("err" + name);
     const pid_t child = fork();
     if (child == 0) {
       dup2(open(in.c_str(), O_RDONLY), 0);
       dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
       dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+      limit();
       execv(argv[0], argv.data());
       _exit(127);
     }
+    return {child, name};
+  }
+
+  Outcome finish(const Child& child) {
+    const std::string out = folder / ("out" + child.name), err = folder / ("err" + child.name);
     Outcome r;
     int status = 0;
     rusage usage{};
-    wait4(child, &status, 0, &usage);
+    wait4(child.pid, &status, 0, &usage);
     r.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     r.peak_kib = usage.ru_maxrss;
+    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    r.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     r.out = contents(out);
     r.err = contents(err);
     return r;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "image/read_picture.h"
 #include "steradian/compare.h"
 #include "steradian/error.h"
 #include "verbs.h"
@@ -18,7 +19,8 @@ namespace {
 struct Options {
   std::string a, b;
   bool json = false;
-  std::vector<std::string> limits;
+  std::vector<std::string> fail_above;
+  Limits limits;
 };
 
 struct Limit {
@@ -52,9 +54,9 @@ double white_of(const Picture& picture) {
 
 void run(const Options& options, Exit& exit) {
   std::vector<Limit> limits;
-  for (const std::string& text : options.limits) limits.push_back(parse_limit(text));
-  const Picture reference = read_picture(options.b);
-  const Difference d = difference(read_picture(options.a), reference);
+  for (const std::string& text : options.fail_above) limits.push_back(parse_limit(text));
+  const Picture reference = read_picture(options.b, options.limits);
+  const Difference d = difference(read_picture(options.a, options.limits), reference);
   const double white = white_of(reference);
   if (options.json) {
     nlohmann::ordered_json j = {{"rmse", d.rmse}, {"relative_l2", d.relative_l2}, {"max", d.max},
@@ -80,8 +82,9 @@ void add_diff(CLI::App& app, Exit& exit) {
   verb->add_option("A", options->a, "picture")->required();
   verb->add_option("B", options->b, "reference picture")->required();
   verb->add_flag("--json", options->json, "print JSON");
-  verb->add_option("--fail-above", options->limits,
+  verb->add_option("--fail-above", options->fail_above,
                    "METRIC=VALUE: exit 1 when rmse, relative_l2 or max is above VALUE; may be repeated");
+  add_limits(*verb, options->limits);
   verb->callback([options, &exit] { run(*options, exit); });
 }
 

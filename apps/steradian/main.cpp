@@ -1,6 +1,8 @@
 // steradian VERB [--option VALUE] INPUT -o OUTPUT
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "steradian/error.h"
 #include "steradian/version.h"
@@ -21,6 +23,8 @@ int main(int argc, char** argv) {
   steradian::app::add_fit(app, exit);
   steradian::app::add_info(app, exit);
 
+  // A limit on file sizes is then an error of the write, with the file's name, and not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -28,6 +32,9 @@ int main(int argc, char** argv) {
   } catch (const steradian::UsageError& e) {
     std::fprintf(stderr, "steradian: %s\n", e.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "steradian: %s: the machine ran out of memory (free some memory, or ask for less)\n", argv[1]);
+    return 1;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "steradian: %s\n", e.what());
     return 1;

@@ -7,6 +7,7 @@
 
 #include "command_line.h"
 #include "core/atomic_file.h"
+#include "core/budget.h"
 #include "core/progress.h"
 #include "core/simd.h"
 #include "integrals/methods.h"
@@ -26,6 +27,7 @@ struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats;
   double exposure = 0;
   int max_lights = 256;
+  Limits limits;
   bool moments = false, multiple_scattering = false, spp_given = false;
   RenderOptions render;
 };
@@ -77,6 +79,18 @@ void parse_indirect(Options& options) {
     throw CLI::ValidationError("--indirect-shadows", "the baseline --indirect ggx has none");
 }
 
+// The picture; running out of memory says what was being made, and how large it is.
+Picture rendered(const Scene& scene, const Options& options, RenderStats& stats) {
+  try {
+    return render(scene, options.render, &stats);
+  } catch (const std::bad_alloc&) {
+    const auto pixels = static_cast<std::uint64_t>(options.render.width) * static_cast<std::uint64_t>(options.render.height);
+    throw Error("--size " + options.size,
+                "the machine ran out of memory while it rendered; the pixels alone take " + readable_bytes(sizeof(Vec3f) * pixels),
+                "free some memory, or choose a smaller --size");
+  }
+}
+
 void write_text(const std::string& path, const std::string& text) {
   AtomicFile file(path);
   file.write(text);
@@ -115,7 +129,7 @@ void run(Options& options) {
                                                        : Quality::normal;
 
   parse_indirect(options);
-  LoadedScene loaded = load_scene(options.scene, {options.max_lights});
+  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
   loaded.scene.multiple_scattering = options.multiple_scattering;
@@ -127,7 +141,7 @@ void run(Options& options) {
     progress->add();
   };
   RenderStats stats;
-  Picture picture = render(loaded.scene, render_options, &stats);
+  Picture picture = rendered(loaded.scene, options, stats);
   progress.reset();
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
@@ -202,6 +216,7 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
   verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")
       ->group("Machine");
+  add_limits(*verb, options->limits);
   verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")
       ->group("Picture");
   verb->callback([options, spp] {

@@ -3,12 +3,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "steradian/limits.h"
+
 namespace steradian::app {
 
 // What main returns: 0 done, 1 the work failed or a comparison did not hold, 2 wrong use.
 struct Exit {
   int code = 0;
 };
+
+// --max-memory and --max-work: what a file may take.
+void add_limits(CLI::App& verb, Limits& limits);
 
 void add_eval(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);

@@ -5,12 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include "steradian/limits.h"
 #include "steradian/scene.h"
 
 namespace steradian {
 
 struct LoadOptions {
   int max_lights = 256;  // area lights kept, strongest first (AreaLight::power); at least 1
+  Limits limits{};
 };
 
 struct LoadedScene {

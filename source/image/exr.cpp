@@ -7,7 +7,12 @@
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
-#include <ImfThreading.h>
+#include <ImfTileDescription.h>
+#include <ImfVersion.h>
+#include <ImfXdr.h>
+
+#include <cstring>
+#include <set>
 
 #include "steradian/error.h"
 
@@ -29,6 +34,98 @@ void add_layer(Imf::FrameBuffer& frame, const std::string& layer, const std::vec
   for (int c = 0; c < 3; ++c) frame.insert(channel_name(layer, c), slice(pixels, c, width));
 }
 
+// Bytes as OpenEXR reads them.
+class MemoryStream : public Imf::IStream {
+ public:
+  MemoryStream(std::span<const std::uint8_t> bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char to[], int n) override {
+    if (n < 0 || static_cast<std::size_t>(n) > bytes_.size() - at_) throw std::runtime_error("the file is cut off");
+    std::memcpy(to, bytes_.data() + at_, static_cast<std::size_t>(n));
+    at_ += static_cast<std::size_t>(n);
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t to) override {
+    if (to > bytes_.size()) throw std::runtime_error("the file is cut off");
+    at_ = static_cast<std::size_t>(to);
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+constexpr std::int64_t kLargestSide = 65536;
+constexpr std::uint64_t kLinesInBlock = 256;  // of scan lines, that the coarsest compression (DWAB) unpacks at once
+
+// A channel's name in two: the layer, and R, G or B; the index of no suffix is 3.
+std::pair<std::string, int> layer_and_suffix(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  const std::string suffix = dot == std::string::npos ? name : name.substr(dot + 1);
+  const int c = suffix == "R" ? 0 : suffix == "G" ? 1 : suffix == "B" ? 2 : 3;
+  return {dot == std::string::npos ? "" : name.substr(0, dot), c};
+}
+
+// The header alone, before OpenEXR makes room for what it claims.
+Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budget& budget) {
+  int magic = 0, version = 0;
+  Imf::Xdr::read<Imf::StreamIO>(stream, magic);
+  Imf::Xdr::read<Imf::StreamIO>(stream, version);
+  if (magic != Imf::MAGIC) throw Error(place, "not an EXR picture: its first bytes are another format's");
+  if (Imf::isMultiPart(version) || Imf::isNonImage(version))
+    throw Error(place, "the EXR picture has several parts or deep pixels", "save it as one flat part");
+  Imf::Header header;
+  header.readFrom(stream, version);
+  const auto window = header.dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1, height = std::int64_t{window.max.y} - window.min.y + 1;
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+    throw Error(place, "the picture claims " + std::to_string(width) + " x " + std::to_string(height) +
+                           " pixels; a side may have " + std::to_string(kLargestSide));
+  std::set<std::string> layers{""};
+  std::uint64_t channels = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels) {
+    const auto [layer, suffix] = layer_and_suffix(c.name());
+    if (suffix < 3) layers.insert(layer);
+  }
+  const auto pixels = static_cast<std::uint64_t>(width * height);
+  const std::uint64_t lines = header.hasTileDescription() ? header.tileDescription().ySize : kLinesInBlock;
+  // A wrong tile size could overflow the product below.
+  if (lines > kLargestSide) throw Error(place, "the EXR picture claims tiles of " + std::to_string(lines) + " lines");
+  budget.take_memory(place, "the picture's pixels", sizeof(Vec3f) * pixels * layers.size());
+  budget.take_memory(place, "the picture's blocks of lines",
+                     2 * sizeof(float) * channels * static_cast<std::uint64_t>(width) * lines);
+  return header;
+}
+
+Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window) {
+  Imf::InputFile file(stream, 0);
+  Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+  Imf::FrameBuffer frame;
+  const auto shifted = [&](const std::vector<Vec3f>& pixels, int c) {
+    Imf::Slice s = slice(pixels, c, picture.width);
+    s.base -= static_cast<std::int64_t>(sizeof(Vec3f)) * (window.min.x + std::int64_t{picture.width} * window.min.y);
+    return s;
+  };
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto c = channels.begin(); c != channels.end(); ++c) {
+    const auto [layer, suffix] = layer_and_suffix(c.name());
+    if (suffix == 3) continue;
+    std::vector<Vec3f>& pixels = layer.empty() ? picture.pixels : picture.layers[layer];
+    pixels.resize(picture.pixels.size());
+    frame.insert(c.name(), shifted(pixels, suffix));
+  }
+  const bool grey = channels.findChannel("R") == nullptr;
+  if (grey && channels.findChannel("Y") != nullptr) frame.insert("Y", shifted(picture.pixels, 0));
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  if (grey)
+    for (Vec3f& p : picture.pixels) p.y = p.z = p.x;
+  for (auto a = file.header().begin(); a != file.header().end(); ++a)
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute())) picture.metadata[a.name()] = text->value();
+  return picture;
+}
+
 }  // namespace
 
 std::string encode_exr(const Picture& picture) {
@@ -48,47 +145,18 @@ std::string encode_exr(const Picture& picture) {
   return stream.str();
 }
 
-Picture decode_exr(const std::string& path) {
+Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget) {
   try {
-    Imf::InputFile file(path.c_str());
-    const auto window = file.header().dataWindow();
-    const long width = static_cast<long>(window.max.x) - window.min.x + 1;
-    const long height = static_cast<long>(window.max.y) - window.min.y + 1;
-    if (width < 1 || height < 1 || width > 65536 || height > 65536 || width * height > (1L << 28))
-      throw Error(path, "the picture claims " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
-    Picture picture(static_cast<int>(width), static_cast<int>(height));
-    Imf::FrameBuffer frame;
-    const auto shifted = [&](const std::vector<Vec3f>& pixels, int c) {
-      Imf::Slice s = slice(pixels, c, picture.width);
-      s.base -= static_cast<long>(sizeof(Vec3f)) * (window.min.x + width * window.min.y);
-      return s;
-    };
-    for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) {
-      const std::string name = c.name();
-      const std::size_t dot = name.rfind('.');
-      const std::string suffix = dot == std::string::npos ? name : name.substr(dot + 1);
-      const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
-      for (int k = 0; k < 3; ++k) {
-        if (suffix != kSuffix[k]) continue;
-        std::vector<Vec3f>& pixels = layer.empty() ? picture.pixels : picture.layers[layer];
-        pixels.resize(picture.pixels.size());
-        frame.insert(name, shifted(pixels, k));
-      }
-    }
-    if (file.header().channels().findChannel("Y") != nullptr && file.header().channels().findChannel("R") == nullptr)
-      frame.insert("Y", shifted(picture.pixels, 0));
-    file.setFrameBuffer(frame);
-    file.readPixels(window.min.y, window.max.y);
-    if (file.header().channels().findChannel("R") == nullptr)
-      for (Vec3f& p : picture.pixels) p.y = p.z = p.x;
-    for (auto a = file.header().begin(); a != file.header().end(); ++a)
-      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-        picture.metadata[a.name()] = text->value();
-    return picture;
+    MemoryStream stream(bytes, place);
+    const Imf::Header header = checked_header(stream, place, budget);
+    stream.seekg(0);
+    return read_pixels(stream, header.dataWindow());
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
-    throw Error(path, std::string("not a readable EXR picture: ") + e.what());
+    throw Error(place, std::string("not a readable EXR picture: ") + e.what(), "save it again");
   }
 }
 

@@ -5,8 +5,11 @@
 #include <cctype>
 
 #include "core/atomic_file.h"
+#include "core/read_file.h"
+#include "image/decode_image.h"
 #include "image/exr.h"
 #include "image/png.h"
+#include "image/read_picture.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -17,6 +20,20 @@ std::string ending(const std::string& path) {
   std::string e = dot == std::string::npos ? "" : path.substr(dot);
   std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return e;
+}
+
+// As many as the largest picture that render makes, 16384 x 16384.
+constexpr std::size_t kMostPixels = std::size_t{1} << 28;
+
+Picture linear_picture(const Image& image, const std::string& place, Budget& budget) {
+  const std::size_t pixels = image.rgba.size() / 4;
+  budget.take_memory(place, "the picture's linear pixels", sizeof(Vec3f) * pixels);
+  Picture picture(image.width, image.height);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::uint8_t* p = image.rgba.data() + 4 * i;
+    picture.pixels[i] = {linear_from_srgb8(p[0]), linear_from_srgb8(p[1]), linear_from_srgb8(p[2])};
+  }
+  return picture;
 }
 
 void write(const std::string& path, const std::string& bytes) {
@@ -37,11 +54,24 @@ void write_picture(const Picture& picture, const std::string& path, float exposu
     throw Error(path, "unknown picture format '" + e + "'", "use .exr (linear) or .png (tone mapped)");
 }
 
-Picture read_picture(const std::string& path) {
+Picture read_picture(const std::string& path, const Limits& limits) {
   const std::string e = ending(path);
-  if (e == ".exr") return decode_exr(path);
-  if (e == ".png" || e == ".jpg" || e == ".jpeg") return decode_ldr(path);
-  throw Error(path, "unknown picture format '" + e + "'", "use .exr, .png or .jpg");
+  const bool png = e == ".png", jpeg = e == ".jpg" || e == ".jpeg";
+  if (e != ".exr" && !png && !jpeg) throw Error(path, "unknown picture format '" + e + "'", "use .exr, .png or .jpg");
+  Budget budget(limits);
+  try {
+    const Bytes bytes = read_file(path, path, budget);
+    if (e == ".exr") return decode_exr(bytes, path, budget);
+    // The ending says what was asked for; the bytes must be just that.
+    if (format_of(bytes) != (png ? ImageFormat::png : ImageFormat::jpeg))
+      throw Error(path, std::string("is not a ") + (png ? "PNG" : "JPEG") + " picture: its first bytes are another format's",
+                  "name the file by its format, or save it again");
+    return linear_picture(decode_image(bytes, path, kMostPixels, budget), path, budget);
+  } catch (const std::bad_alloc&) {
+    throw budget.out_of_memory();
+  }
 }
+
+Picture read_picture(const std::string& path) { return read_picture(path, Limits{}); }
 
 }  // namespace steradian

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "image/read_picture.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -86,6 +87,33 @@ TEST(Picture, BadFilesAreRefusedWithTheirName) {
   const std::string path = temporary("_bad.exr");
   std::ofstream(path) << "not a picture";
   EXPECT_THROW(read_picture(path), Error);
+  std::filesystem::remove(path);
+}
+
+// The bytes must be what the name's ending says.
+TEST(Picture, IsOpenedByItsEndingAndNothingElse) {
+  const std::string png = temporary(".png"), named_jpeg = temporary(".jpg"), softimage = temporary("_softimage.png");
+  write_picture(test_picture(), png);
+  std::filesystem::copy_file(png, named_jpeg);
+  std::ofstream(softimage, std::ios::binary) << "\x53\x80\xF6\x34" << std::string(200, '\x01');
+  EXPECT_EQ(read_picture(png).width, 7);
+  for (const std::string& path : {named_jpeg, softimage}) {
+    try {
+      read_picture(path);
+      ADD_FAILURE() << path;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.place(), path);
+      EXPECT_NE(e.problem().find("another format's"), std::string::npos) << e.what();
+    }
+  }
+  for (const std::string& path : {png, named_jpeg, softimage}) std::filesystem::remove(path);
+}
+
+TEST(Picture, IsRefusedWhereItExceedsTheMemory) {
+  const std::string path = temporary("_large.exr");
+  write_picture(Picture(300, 300), path);
+  EXPECT_THROW(read_picture(path, Limits{.memory = 1'000'000}), Error);
+  EXPECT_EQ(read_picture(path).width, 300);
   std::filesystem::remove(path);
 }
 

@@ -1,63 +1,156 @@
 #include "image/png.h"
 
-#include <zlib.h>
+#include <png.h>
 
 #include <cmath>
-#include <cstdint>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
 
-#include "image/stb.h"
-#include "steradian/error.h"
+#include "image/decode_image.h"
 
 namespace steradian {
 namespace {
 
-std::string big_endian(std::uint32_t x) {
-  std::string s(4, '\0');
-  for (int i = 0; i < 4; ++i) s[static_cast<std::size_t>(i)] = static_cast<char>((x >> (24 - 8 * i)) & 0xff);
-  return s;
+// What libpng knows of us; its errors jump out of its calls, so nothing here may need a destructor.
+struct Codec {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::jmp_buf failed;
+  char message[160] = "out of memory";
+  const std::uint8_t* at = nullptr;  // reading: what is left
+  std::size_t left = 0;
+  std::string* file = nullptr;  // writing
+};
+
+[[noreturn]] void fail(png_structp png, png_const_charp message) {
+  auto& codec = *static_cast<Codec*>(png_get_error_ptr(png));
+  std::snprintf(codec.message, sizeof codec.message, "%s", message);
+  std::longjmp(codec.failed, 1);
 }
 
-// A chunk: length, type, data, CRC of type and data (PNG specification, section 5.3).
-std::string chunk(const std::string& type, const std::string& data) {
-  const std::string body = type + data;
-  const auto crc = static_cast<std::uint32_t>(
-      crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size())));
-  return big_endian(static_cast<std::uint32_t>(data.size())) + body + big_endian(crc);
+void ignore(png_structp, png_const_charp) {}
+
+void take_bytes(png_structp png, png_bytep to, std::size_t n) {
+  auto& codec = *static_cast<Codec*>(png_get_io_ptr(png));
+  if (n > codec.left) fail(png, "the file is cut off");
+  std::memcpy(to, codec.at, n);
+  codec.at += n;
+  codec.left -= n;
 }
 
-constexpr std::size_t kEndOfHeader = 8 + 25;  // signature and IHDR, after which text may stand
+// An exception must not leave through libpng's frames.
+void give_bytes(png_structp png, png_bytep from, std::size_t n) {
+  auto& codec = *static_cast<Codec*>(png_get_io_ptr(png));
+  bool done = true;
+  try {
+    codec.file->append(reinterpret_cast<const char*>(from), n);
+  } catch (const std::exception&) {
+    done = false;
+  }
+  if (!done) fail(png, "out of memory");
+}
+
+struct OpenReader {
+  Codec codec;
+  ~OpenReader() { png_destroy_read_struct(&codec.png, &codec.info, nullptr); }
+};
+
+struct OpenWriter {
+  Codec codec;
+  ~OpenWriter() { png_destroy_write_struct(&codec.png, &codec.info); }
+};
+
+bool read_header(Codec& codec, png_uint_32& width, png_uint_32& height) {
+  codec.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &codec, fail, ignore);
+  if (codec.png == nullptr) return false;
+  if (setjmp(codec.failed)) return false;
+  codec.info = png_create_info_struct(codec.png);
+  if (codec.info == nullptr) return false;
+  // Only what the pixels need is read: texts and profiles may be compressed bombs.
+  png_set_keep_unknown_chunks(codec.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+  png_set_user_limits(codec.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the caller judges the size, in its own words
+  png_set_read_fn(codec.png, &codec, take_bytes);
+  png_read_info(codec.png, codec.info);
+  width = png_get_image_width(codec.png, codec.info);
+  height = png_get_image_height(codec.png, codec.info);
+  return true;
+}
+
+// rgba has four bytes for each of the header's pixels.
+bool read_pixels(Codec& codec, std::uint8_t* rgba, std::size_t width, std::size_t height) {
+  if (setjmp(codec.failed)) return false;
+  png_set_expand(codec.png);
+  png_set_scale_16(codec.png);
+  png_set_gray_to_rgb(codec.png);
+  png_set_add_alpha(codec.png, 255, PNG_FILLER_AFTER);
+  const int passes = png_set_interlace_handling(codec.png);
+  png_read_update_info(codec.png, codec.info);
+  if (png_get_rowbytes(codec.png, codec.info) != 4 * width) fail(codec.png, "an unknown pixel format");
+  for (int pass = 0; pass < passes; ++pass)
+    for (std::size_t y = 0; y < height; ++y) png_read_row(codec.png, rgba + 4 * width * y, nullptr);
+  png_read_end(codec.png, nullptr);
+  return true;
+}
+
+bool write_rows(Codec& codec, const Picture& picture, float exposure_stops, std::uint8_t* row) {
+  codec.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &codec, fail, ignore);
+  if (codec.png == nullptr) return false;
+  if (setjmp(codec.failed)) return false;
+  codec.info = png_create_info_struct(codec.png);
+  if (codec.info == nullptr) return false;
+  png_set_write_fn(codec.png, &codec, give_bytes, nullptr);
+  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  for (const auto& [key, value] : picture.metadata) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = const_cast<char*>(key.c_str());  // libpng copies it
+    text.text = const_cast<char*>(value.c_str());
+    text.text_length = value.size();
+    png_set_text(codec.png, codec.info, &text, 1);
+  }
+  png_write_info(codec.png, codec.info);
+  for (int y = 0; y < picture.height; ++y) {
+    std::uint8_t* byte = row;
+    for (int x = 0; x < picture.width; ++x) {
+      const Vec3f c = tone_map(picture.at(x, y), exposure_stops);
+      for (const float channel : {c.x, c.y, c.z}) *byte++ = static_cast<std::uint8_t>(std::lround(channel * 255.0f));
+    }
+    png_write_row(codec.png, row);
+  }
+  png_write_end(codec.png, nullptr);
+  return true;
+}
 
 }  // namespace
 
 std::string encode_png(const Picture& picture, float exposure_stops) {
-  std::vector<unsigned char> bytes;
-  bytes.reserve(picture.pixels.size() * 3);
-  for (const Vec3f& p : picture.pixels) {
-    const Vec3f c = tone_map(p, exposure_stops);
-    for (float x : {c.x, c.y, c.z}) bytes.push_back(static_cast<unsigned char>(std::lround(x * 255.0f)));
-  }
   std::string file;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-  };
-  if (!stbi_write_png_to_func(append, &file, picture.width, picture.height, 3, bytes.data(), picture.width * 3))
-    throw Error("", "the PNG encoder ran out of memory");
-  std::string text;
-  for (const auto& [key, value] : picture.metadata) text += chunk("tEXt", key + std::string(1, '\0') + value);
-  return file.insert(kEndOfHeader, text);
+  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(picture.width));
+  OpenWriter open;
+  open.codec.file = &file;
+  if (!write_rows(open.codec, picture, exposure_stops, row.data()))
+    throw Error("", "cannot make a PNG of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                        " pixels: " + open.codec.message);
+  return file;
 }
 
-Picture decode_ldr(const std::string& path) {
-  int width = 0, height = 0, channels = 0;
-  unsigned char* data = stbi_load(path.c_str(), &width, &height, &channels, 3);
-  if (data == nullptr) throw Error(path, std::string("not a readable picture: ") + stbi_failure_reason());
-  Picture picture(width, height);
-  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-    const auto linear = [&](std::size_t c) { return srgb_decode(static_cast<float>(data[3 * i + c]) / 255.0f); };
-    picture.pixels[i] = {linear(0), linear(1), linear(2)};
-  }
-  stbi_image_free(data);
-  return picture;
+Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
+  OpenReader open;
+  open.codec.at = bytes.data();
+  open.codec.left = bytes.size();
+  const auto refuse = [&] { throw Error(place, std::string("cannot read the PNG picture: ") + open.codec.message, "save it again"); };
+  png_uint_32 width = 0, height = 0;
+  if (!read_header(open.codec, width, height)) refuse();
+  const std::size_t texels = checked_texels(width, height, place, max_texels);
+  budget.take_memory(place, "the picture's texels", 4 * texels);
+  Image image;
+  image.width = static_cast<int>(width);
+  image.height = static_cast<int>(height);
+  image.rgba.resize(4 * texels);
+  if (!read_pixels(open.codec, image.rgba.data(), width, height)) refuse();
+  return image;
 }
 
 }  // namespace steradian

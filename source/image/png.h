@@ -1,15 +1,21 @@
-// PNG in memory, with text chunks; PNG and JPEG in.
+// PNG in and out: libpng, held to what a picture needs.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
+#include "core/budget.h"
 #include "steradian/picture.h"
+#include "steradian/texture.h"
 
 namespace steradian {
 
 // 8 bits a channel of tone_map(pixel); metadata as tEXt chunks.
 std::string encode_png(const Picture& picture, float exposure_stops);
 
-Picture decode_ldr(const std::string& path);
+// Every kind of PNG as RGBA, 8 bits a channel; what the file says about colour spaces is left aside, as glTF asks.
+// Throws Error(place, ...) for bytes that are no whole picture, and for more than max_texels before any memory is taken.
+Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget);
 
 }  // namespace steradian

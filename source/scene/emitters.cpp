@@ -102,6 +102,25 @@ Vec3d mean_radiance(const Scene& scene, const Mesh& mesh, const SurfaceMaterial&
   return total > 0 ? factor * (sum / total) : Vec3d{};
 }
 
+// At worst every triangle becomes a light, and each is averaged over as many texels as it covers.
+void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m, Budget& budget,
+                     const std::string& path) {
+  const std::string place = path + ": the emissive mesh \"" + mesh.name + "\"";
+  constexpr std::uint64_t kWelding = 400;  // bytes that merging keeps of a triangle
+  budget.take_memory(place, "the lights of its emissive triangles", mesh.triangle_count() * (sizeof(AreaLight) + kWelding));
+  if (!m.emissive_texture.present()) return;
+  constexpr std::uint64_t kStepsPerSample = 50;
+  const int set = m.emissive_texture.texcoord;
+  const Image& image = scene.images[static_cast<std::size_t>(m.emissive_texture.image)];
+  std::uint64_t samples = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto side = static_cast<std::uint64_t>(samples_per_side(
+        image, m.emissive_texture, texcoord(mesh, set, t, 0), texcoord(mesh, set, t, 1), texcoord(mesh, set, t, 2)));
+    samples += side * side;
+  }
+  budget.take_work(place, "the means of its emissive texture", kStepsPerSample * samples);
+}
+
 AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   AreaLight light;
@@ -121,11 +140,12 @@ AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) 
 
 }  // namespace
 
-std::size_t add_emitters(Scene& scene) {
+std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path) {
   std::size_t without_area = 0;
   for (Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (mesh.is_light_shape || m.unlit || !m.emits()) continue;
+    take_for_lights(scene, mesh, m, budget, path);
     std::vector<Triangle> triangles;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) triangles.push_back(world_triangle(mesh, t));
     const bool textured = m.emissive_texture.present();

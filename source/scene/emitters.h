@@ -1,13 +1,15 @@
 // Emissive meshes to polygon lights.
 #pragma once
 
+#include "core/budget.h"
 #include "steradian/scene.h"
 
 namespace steradian {
 
 // Appends a light for every flat patch of every mesh whose material emits, and sets Mesh::triangle_lights.
-// Returns how many triangles were left out for having no area.
-std::size_t add_emitters(Scene& scene);
+// Returns how many triangles were left out for having no area. Throws Error where that would
+// exceed the budget; path: of the file, for its message.
+std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path);
 
 // Keeps the `most` strongest area lights, in their order, drops those without power, and renumbers
 // triangle_lights.

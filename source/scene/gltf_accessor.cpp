@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace steradian {
 namespace {
@@ -186,18 +187,20 @@ std::size_t checked_count(const GltfDocument& document, int index) {
   return layout.count;
 }
 
-FloatArray read_floats(const GltfDocument& document, int index, std::string_view types,
-                       NotFinite not_finite) {
+namespace {
+
+FloatArray read_some_floats(const GltfDocument& document, int index, std::string_view types, NotFinite not_finite,
+                            std::size_t most) {
   const JsonCursor accessor = document.object("accessors", index);
   const Layout layout = allowed_layout(accessor, types);
   const Elements dense = dense_elements(document, accessor, layout);
   const Sparse sparse = read_sparse(document, accessor, layout);
 
   FloatArray result;
-  result.count = layout.count;
+  result.count = std::min(layout.count, most);
   result.components = layout.components;
   const auto components = static_cast<std::size_t>(layout.components);
-  result.values.resize(layout.count * components);
+  result.values.resize(result.count * components);
   const auto store = [&](std::size_t element, const std::uint8_t* p) {
     for (std::size_t c = 0; c < components; ++c) {
       const double x = component_value(p + c * bytes_of(layout.component), layout);
@@ -208,10 +211,20 @@ FloatArray read_floats(const GltfDocument& document, int index, std::string_view
     }
   };
   if (dense.data)
-    for (std::size_t i = 0; i < layout.count; ++i) store(i, dense.data + i * dense.stride);
+    for (std::size_t i = 0; i < result.count; ++i) store(i, dense.data + i * dense.stride);
   for (std::size_t i = 0; i < sparse.indices.size(); ++i)
-    store(sparse.indices[i], sparse.values.data + i * sparse.values.stride);
+    if (sparse.indices[i] < result.count) store(sparse.indices[i], sparse.values.data + i * sparse.values.stride);
   return result;
+}
+
+}  // namespace
+
+FloatArray read_floats(const GltfDocument& document, int accessor, std::string_view types, NotFinite not_finite) {
+  return read_some_floats(document, accessor, types, not_finite, std::numeric_limits<std::size_t>::max());
+}
+
+FloatArray read_first_floats(const GltfDocument& document, int accessor, std::string_view types, std::size_t most) {
+  return read_some_floats(document, accessor, types, NotFinite::refuse, most);
 }
 
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int index, std::string_view types) {

@@ -24,6 +24,9 @@ enum class NotFinite { refuse, zero };
 FloatArray read_floats(const GltfDocument& document, int accessor, std::string_view types,
                        NotFinite finite = NotFinite::refuse);
 
+// The first `most` elements only, or all where there are fewer.
+FloatArray read_first_floats(const GltfDocument& document, int accessor, std::string_view types, std::size_t most);
+
 // Scalars (or, with types "VEC4", joints): unsigned integers only.
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int accessor, std::string_view types);
 

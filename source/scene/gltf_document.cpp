@@ -2,7 +2,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 namespace steradian {
@@ -16,27 +15,52 @@ std::uint32_t little_endian_32(const std::uint8_t* p) {
          std::uint32_t{p[3]} << 24;
 }
 
-void check_depth(std::string_view text, const std::string& path) {
+// What the parsed text will take, counted by its punctuation: a value has 16 bytes in an array that grows by doubling, an
+// array or object a block on the heap, a member of an object a tree's node with its key.
+struct JsonCost {
+  std::uint64_t values = 0, containers = 0, members = 0, characters = 0;
+  std::uint64_t bytes() const { return 32 * values + 64 * containers + 128 * members + characters; }
+};
+
+// Throws Error for a text that is nested too deeply.
+JsonCost judge_json(std::string_view text, const std::string& path) {
+  JsonCost cost;
   int depth = 0;
-  bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth)
-        throw Error(path, "the JSON is nested more than " + std::to_string(kMaxDepth) + " deep");
-    } else if (c == ']' || c == '}') {
-      --depth;
+    switch (text[i]) {
+      case '"': {
+        const std::size_t begin = i;
+        for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
+        cost.characters += i - begin;
+        break;
+      }
+      case '[':
+      case '{':
+        if (++depth > kMaxDepth) throw Error(path, "the JSON is nested more than " + std::to_string(kMaxDepth) + " deep");
+        ++cost.containers;
+        ++cost.values;
+        break;
+      case ']':
+      case '}': --depth; break;
+      case ',': ++cost.values; break;
+      case ':': ++cost.members; break;
+      default: break;
     }
   }
+  return cost;
 }
 
-nlohmann::json parse_json(std::string_view text, const std::string& path) {
-  check_depth(text, path);
+// Of the memory that a file may take, the share of its JSON: what it describes is larger in any file that means something.
+constexpr std::uint64_t kJsonShare = 8;
+
+nlohmann::json parse_json(std::string_view text, const std::string& path, Budget& budget) {
+  const std::uint64_t bytes = judge_json(text, path).bytes(), most = budget.limits().memory / kJsonShare;
+  if (bytes > most)
+    throw Error(path,
+                "its JSON would take about " + readable_bytes(bytes) + " of memory; it may take " + readable_bytes(most) +
+                    ", an eighth of what the file may",
+                "raise the limit with --max-memory");
+  budget.take_memory(path, "its JSON", bytes);
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception& e) {
@@ -149,22 +173,19 @@ Bytes base64_decoded(std::string_view text, const std::string& place) {
 
 void read_buffers(GltfDocument& document, std::optional<std::span<const std::uint8_t>> binary) {
   for (const JsonCursor& buffer : document.root().elements("buffers")) {
-    const auto claimed =
-        static_cast<std::size_t>(buffer.at("byteLength").as_integer(1, std::int64_t{1} << 53));
-    Bytes bytes;
+    const auto claimed = static_cast<std::size_t>(buffer.at("byteLength").as_integer(1, std::int64_t{1} << 53));
+    std::span<const std::uint8_t> bytes;
     if (const auto uri = buffer.find("uri")) {
       bytes = read_uri(document, *uri);
     } else {
       if (!document.buffers.empty() || !binary)
         buffer.fail("\"uri\" is missing", "only the first buffer of a .glb may take the binary chunk");
-      bytes.assign(binary->begin(), binary->end());
+      bytes = *binary;
     }
     if (bytes.size() < claimed)
-      buffer.fail(
-          "byteLength is " + std::to_string(claimed) + ", its data have " + std::to_string(bytes.size()),
-          "the data may be truncated; export the file again");
-    bytes.resize(claimed);
-    document.buffers.push_back(std::move(bytes));
+      buffer.fail("byteLength is " + std::to_string(claimed) + ", its data have " + std::to_string(bytes.size()),
+                  "the data may be truncated; export the file again");
+    document.buffers.push_back(bytes.first(claimed));
   }
 }
 
@@ -187,35 +208,24 @@ JsonCursor GltfDocument::object(const char* array, int index) const {
           path + ": " + array + "[" + std::to_string(index) + "]"};
 }
 
-Bytes read_file(const std::string& path, const std::string& place) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw Error(place, "cannot find the file " + path, "check the path");
-  if (!std::filesystem::is_regular_file(status)) throw Error(place, path + " is not a regular file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(place, "cannot read the file " + path, "check its permissions");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw Error(place, "cannot read the file " + path);
-  Bytes bytes(static_cast<std::size_t>(size));
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (file.gcount() != static_cast<std::streamsize>(bytes.size()))
-    throw Error(place, "the file " + path + " ended while it was read");
-  return bytes;
-}
-
-Bytes read_uri(const GltfDocument& document, const JsonCursor& uri) {
+std::span<const std::uint8_t> read_uri(const GltfDocument& document, const JsonCursor& uri) {
   const std::string text = uri.as_text();
+  GltfSources& sources = *document.sources;
   if (text.starts_with("data:")) {
     const auto comma = text.find(',');
     if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64"))
       uri.fail("a data URI must be \"data:...;base64,...\"");
-    return base64_decoded(std::string_view(text).substr(comma + 1), uri.place());
+    sources.budget.take_memory(uri.place(), "its decoded bytes", text.size() * 3 / 4);
+    return sources.decoded.emplace_back(base64_decoded(std::string_view(text).substr(comma + 1), uri.place()));
   }
   if (text.find("://") != std::string::npos)
     uri.fail("files from the network are not read", "put the file beside the scene");
   const std::string name = percent_decoded(text);
   if (name.empty() || name.find('\0') != std::string::npos) uri.fail("is not a file name");
-  return read_file((std::filesystem::path(document.path).parent_path() / name).string(), uri.place());
+  const std::string path = (std::filesystem::path(document.path).parent_path() / name).lexically_normal().string();
+  const auto known = sources.files.find(path);
+  if (known != sources.files.end()) return known->second;
+  return sources.files.emplace(path, read_file(path, uri.place(), sources.budget)).first->second;
 }
 
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffer_view) {
@@ -224,24 +234,25 @@ std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffe
   const int buffer = view.at("buffer").as_index(document.buffers.size(), "buffer");
   const auto offset = static_cast<std::size_t>(view.integer("byteOffset", 0, 0, kMax));
   const auto length = static_cast<std::size_t>(view.at("byteLength").as_integer(1, kMax));
-  const Bytes& bytes = document.buffers[static_cast<std::size_t>(buffer)];
+  const std::span<const std::uint8_t> bytes = document.buffers[static_cast<std::size_t>(buffer)];
   if (offset > bytes.size() || length > bytes.size() - offset)
     view.fail("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) + " of buffer " +
                   std::to_string(buffer) + ", which has " + std::to_string(bytes.size()),
               "the file is broken; export it again");
-  return std::span(bytes).subspan(offset, length);
+  return bytes.subspan(offset, length);
 }
 
-GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path) {
+GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget) {
   if (file.empty()) throw Error(path, "the file is empty");
   GltfDocument document;
   document.path = path;
+  document.sources = std::make_unique<GltfSources>(GltfSources{budget});
   Container container{{reinterpret_cast<const char*>(file.data()), file.size()}, {}};
   if (is_glb(file))
     container = split_glb(file, path);
   else if (path.ends_with(".glb"))
     throw Error(path, "does not begin with \"glTF\"", "this is not a .glb file");
-  document.json = parse_json(container.json, path);
+  document.json = parse_json(container.json, path, budget);
   const JsonCursor root = document.root();
   if (!document.json.is_object()) root.fail("the document must be a JSON object");
   check_version(root);

@@ -3,22 +3,35 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/read_file.h"
 #include "scene/json_cursor.h"
 
 namespace steradian {
 
-using Bytes = std::vector<std::uint8_t>;
+// Where a document's bytes are, apart from the file itself: files beside it, each read once however often it is named,
+// and decoded texts; and what is left for all that the document makes.
+struct GltfSources {
+  Budget& budget;
+  std::map<std::string, Bytes> files{};
+  std::deque<Bytes> decoded{};
+};
 
 struct GltfDocument {
   std::string path;
   nlohmann::json json;
-  std::vector<Bytes> buffers;  // each as long as its byteLength
+  std::vector<std::span<const std::uint8_t>> buffers;  // each as long as its byteLength
+  std::unique_ptr<GltfSources> sources;
+
+  Budget& budget() const { return sources->budget; }
 
   JsonCursor root() const { return {json, path}; }
   std::size_t count(const char* array) const;  // of a top-level array
@@ -26,15 +39,13 @@ struct GltfDocument {
 };
 
 // path: for messages, and the place that other files are relative to.
-GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path);
-
-// The bytes of a whole file; place: for the message where they cannot be had.
-Bytes read_file(const std::string& path, const std::string& place);
+// The document points into `file`, which must outlive it.
+GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget);
 
 // The bytes of a bufferView.
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffer_view);
 
-// The bytes behind a "uri": a data URI or a file beside the document.
-Bytes read_uri(const GltfDocument& document, const JsonCursor& uri);
+// The bytes behind a "uri": a data URI or a file beside the document. They live as long as the document.
+std::span<const std::uint8_t> read_uri(const GltfDocument& document, const JsonCursor& uri);
 
 }  // namespace steradian

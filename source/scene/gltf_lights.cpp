@@ -1,5 +1,6 @@
 #include "scene/gltf_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,16 +10,22 @@ namespace {
 constexpr double kPi = 3.14159265358979324;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostIntensity = 1e30;
+// What the light's shape takes as a mesh of its own: an ellipsoid's rows, or a tube's, with its material.
+constexpr std::uint64_t kLargestLightMesh = 200'000;
 
-Vec3d read_color(const JsonCursor& light) {
+// Colour times intensity.
+Vec3d read_emission(const JsonCursor& light) {
   const Vec3d c = light.vector("color", {1, 1, 1});
   if (c.x < 0 || c.y < 0 || c.z < 0) light.at("color").fail("components must not be negative");
-  return c;
+  const Vec3d emission = c * light.number("intensity", 1, 0, kMostIntensity);
+  if (std::max({emission.x, emission.y, emission.z}) > kMostIntensity)
+    light.fail("color times intensity is more than 1e30", "choose a smaller unit");
+  return emission;
 }
 
-std::vector<JsonCursor> lights_of(const GltfDocument& document, const char* extension) {
+JsonElements lights_of(const GltfDocument& document, const char* extension) {
   const auto root = find_extension(document.root(), extension);
-  return root ? root->elements("lights") : std::vector<JsonCursor>{};
+  return root ? root->elements("lights") : JsonElements{};
 }
 
 // Calls make(definition, node, transform) for every visible node that carries a light of the extension.
@@ -52,7 +59,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
   AreaLight light;
   light.name = json.text("name", node.text("name", ""));
   const std::string type = json.at("type").as_text();
-  const Vec3d radiance = read_color(json) * json.number("intensity", 1, 0, kMostIntensity);
+  const Vec3d radiance = read_emission(json);
   const double half = json.number("size", 1, 0, 1e30) / 2;
   double area = 0;
   if (type == "rect") {
@@ -178,13 +185,15 @@ Mesh mesh_of_light(const AreaLight& light) {
 }
 
 void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
+  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor&, const JsonCursor& node, const Affine&) {
+    document.budget().take_memory(node.place(), "its light's mesh", kLargestLightMesh);
+  });
   for_each_light(document, nodes, "EXT_lights_area",
                  [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
                    AreaLight light = read_area_light(json, node, world);
                    if (light.power > 0) {
                      Mesh mesh = mesh_of_light(light);
-                     for (const Vec3f& p : mesh.positions)
-                       if (!is_finite(p)) node.fail("the light leaves the range of numbers");
+                     for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
                      mesh.material = static_cast<int>(scene.materials.size());
                      mesh.triangle_lights.assign(mesh.triangle_count(),
                                                  static_cast<std::int32_t>(scene.area_lights.size()));
@@ -210,8 +219,9 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
                      json.at("type").fail("\"" + type + "\" is not a light",
                                           "known are point, spot and directional");
                    light.position = world.t;
+                   check_reach(node, light.position, "the light");
                    light.direction = normalized(world.vector({0, 0, -1}));
-                   light.intensity = read_color(json) * json.number("intensity", 1, 0, kMostIntensity);
+                   light.intensity = read_emission(json);
                    light.range = json.number("range", kInfinity, 1e-30, kInfinity);
                    if (const auto spot = json.find("spot")) {
                      const double outer = spot->number("outerConeAngle", kPi / 4, 1e-9, kPi / 2 + 1e-6);

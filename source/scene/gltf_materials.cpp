@@ -45,7 +45,7 @@ void read_alpha(SurfaceMaterial& m, const JsonCursor& json, Warnings& warnings) 
     m.alpha_mode = AlphaMode::mask;
   } else if (mode == "BLEND") {
     m.alpha_mode = AlphaMode::blend;
-    warnings.say("materials with alpha mode BLEND are rendered as opaque, the first is " + json.place());
+    warnings.count("materials with alpha mode BLEND are rendered as opaque", json.place());
   } else if (mode != "OPAQUE") {
     json.at("alphaMode").fail("\"" + mode + "\" is not an alpha mode", "OPAQUE, MASK or BLEND");
   }

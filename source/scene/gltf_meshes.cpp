@@ -1,6 +1,8 @@
 #include "scene/gltf_meshes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_skin.h"
@@ -9,10 +11,9 @@
 namespace steradian {
 namespace {
 
-// A small file can place a large mesh many times: bound the whole before anything is allocated.
-constexpr std::size_t kMaxVertices = 200'000'000;
-
 enum Mode { kTriangles = 4, kStrip = 5, kFan = 6 };
+
+constexpr std::uint64_t kStepsPerMorphedVertex = 50;
 
 struct Context {
   const GltfDocument& document;
@@ -87,6 +88,7 @@ void add_morph_targets(const Context& c, Mesh& mesh, const JsonCursor& primitive
   const auto targets = primitive.elements("targets");
   for (std::size_t t = 0; t < targets.size() && t < weights.size(); ++t) {
     if (weights[t] == 0) continue;
+    c.document.budget().take_work(targets[t].place(), "its morph targets", kStepsPerMorphedVertex * mesh.positions.size());
     const auto add = [&](const char* name, std::vector<Vec3f>& to) {
       const FloatArray delta = read_attribute(c, targets[t], name, "VEC3", mesh.positions.size());
       for (std::size_t i = 0; i < delta.count && i < to.size(); ++i)
@@ -136,12 +138,12 @@ Mesh read_local(const Context& c, const JsonCursor& primitive, const std::vector
 
 // One matrix per vertex: of its node, or blended from the joints of its skin.
 template <class TransformOf>
-void to_world(Mesh& mesh, const JsonCursor& primitive, TransformOf transform_of) {
+void to_world(Mesh& mesh, const JsonCursor& node, TransformOf transform_of) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Affine m = transform_of(i);
-    mesh.positions[i] = static_cast<Vec3f>(m.point(static_cast<Vec3d>(mesh.positions[i])));
-    if (!is_finite(mesh.positions[i]))
-      primitive.fail("vertex " + std::to_string(i) + " leaves the range of numbers in world space");
+    const Vec3d p = m.point(static_cast<Vec3d>(mesh.positions[i]));
+    if (!within_reach(p)) check_reach(node, p, "vertex " + std::to_string(i));
+    mesh.positions[i] = static_cast<Vec3f>(p);
     if (!mesh.normals.empty())
       mesh.normals[i] = static_cast<Vec3f>(m.normal(normalized(static_cast<Vec3d>(mesh.normals[i]))));
     if (!mesh.tangents.empty()) {
@@ -175,8 +177,7 @@ int tangent_set(const SurfaceMaterial& m) {
 void complete(Mesh& mesh, const SurfaceMaterial& material, Warnings& warnings) {
   if (mesh.normals.empty()) make_flat_normals(mesh);
   if (repair_normals(mesh) > 0)
-    warnings.say("normals of length zero were replaced by those of the faces around them (first in mesh \"" +
-                 mesh.name + "\")");
+    warnings.count("normals of length zero were replaced by those of the faces around them", "mesh \"" + mesh.name + "\"");
   const int set = tangent_set(material);
   if (has_broken_tangents(mesh)) mesh.tangents.clear();
   if (mesh.tangents.empty() && set >= 0 && !mesh.texcoords[set].empty()) make_tangents(mesh, set);
@@ -188,7 +189,81 @@ void check_texture_sets(const SurfaceMaterial& m, const Mesh& mesh, Warnings& wa
         &m.emissive_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
         &m.clearcoat_normal_texture, &m.specular_texture, &m.specular_color_texture, &m.anisotropy_texture})
     if (use->present() && mesh.texcoords[use->texcoord].empty())
-      warnings.say("mesh \"" + mesh.name + "\" has textures but not their coordinates; (0, 0) is used");
+      return warnings.count("meshes with textures lack their coordinates; (0, 0) is used", "mesh \"" + mesh.name + "\"");
+}
+
+// A primitive that makes triangles: judged once, however many nodes place its mesh.
+struct UsablePrimitive {
+  JsonCursor json;
+  int mode = kTriangles;
+  int material = -1;
+};
+
+struct UsableMesh {
+  std::vector<UsablePrimitive> primitives;
+  std::uint64_t bytes = 0;  // that one placement of it will take
+};
+
+// Positions, normals and tangents are made where the file has none; what else a vertex has is what it names.
+std::uint64_t bytes_of(const Context& c, const JsonCursor& primitive, int mode) {
+  const JsonCursor attributes = primitive.at("attributes");
+  const std::uint64_t vertices = checked_count(c.document, c.attribute(attributes, "POSITION"));
+  const int indices = primitive.index("indices", c.accessors, "accessor");
+  std::uint64_t corners = indices >= 0 ? checked_count(c.document, indices) : vertices;
+  if (mode != kTriangles) corners *= 3;
+  std::uint64_t vertex = 2 * sizeof(Vec3f) + sizeof(Vec4f);
+  for (const char* set : {"TEXCOORD_0", "TEXCOORD_1"}) vertex += attributes.has(set) ? sizeof(Vec2f) : 0;
+  if (attributes.has("COLOR_0")) vertex += sizeof(Vec4f);
+  if (attributes.has("JOINTS_0")) vertex += sizeof(Affine);
+  // Flat normals give every corner a vertex of its own.
+  const std::uint64_t made = attributes.has("NORMAL") ? vertices : std::max(vertices, corners);
+  return sizeof(Mesh) + made * vertex + corners * sizeof(std::uint32_t);
+}
+
+UsableMesh usable_mesh(const Context& c, const JsonCursor& mesh, std::size_t materials) {
+  UsableMesh result;
+  mesh.at("primitives");
+  for (const JsonCursor& primitive : mesh.elements("primitives")) {
+    const int mode = static_cast<int>(primitive.integer("mode", kTriangles, 0, 6));
+    if (mode < kTriangles) {
+      c.warnings.not_supported("points and lines");
+      continue;
+    }
+    const int material = primitive.index("material", materials, "material");
+    if (c.attribute(primitive.at("attributes"), "POSITION") < 0) {
+      c.warnings.count("primitives without POSITION were left out", primitive.place());
+      continue;
+    }
+    result.bytes += bytes_of(c, primitive, mode);
+    result.primitives.push_back({primitive, mode, material});
+  }
+  return result;
+}
+
+// A visible node that shows a mesh.
+struct Placement {
+  JsonCursor node;
+  const Affine* world;
+  int mesh, skin;
+};
+
+// Everything that will be made is judged before anything is: a small file can place a large mesh many times.
+std::vector<Placement> take_placements(const Context& c, const GltfNodes& nodes, std::size_t materials,
+                                       std::unordered_map<int, UsableMesh>& meshes) {
+  std::vector<Placement> result;
+  for (const GltfNode& visible : nodes.visible) {
+    const JsonCursor node = c.document.object("nodes", visible.index);
+    const int mesh = node.index("mesh", c.document.count("meshes"), "mesh");
+    const int skin = node.index("skin", c.document.count("skins"), "skin");
+    if (mesh < 0) continue;
+    auto known = meshes.find(mesh);
+    if (known == meshes.end())
+      known = meshes.emplace(mesh, usable_mesh(c, c.document.object("meshes", mesh), materials)).first;
+    if (known->second.primitives.empty()) continue;
+    c.document.budget().take_memory(node.place(), "the vertices and triangles of its mesh", known->second.bytes);
+    result.push_back({node, &visible.world, mesh, skin});
+  }
+  return result;
 }
 
 }  // namespace
@@ -197,46 +272,26 @@ std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nod
                               std::vector<SurfaceMaterial>& materials, Warnings& warnings) {
   const Context c{document, warnings, document.count("accessors")};
   const std::size_t given_materials = materials.size();
+  std::unordered_map<int, UsableMesh> meshes;
+  std::unordered_map<int, Skin> skins;
   std::vector<Mesh> result;
-  std::size_t vertices = 0;
-  for (const GltfNode& visible : nodes.visible) {
-    const JsonCursor node = document.object("nodes", visible.index);
-    const int mesh_index = node.index("mesh", document.count("meshes"), "mesh");
-    const int skin_index = node.index("skin", document.count("skins"), "skin");
-    if (mesh_index < 0) continue;
-    const JsonCursor mesh_json = document.object("meshes", mesh_index);
-    const std::vector<double> weights = morph_weights(node, mesh_json);
-    mesh_json.at("primitives");
-    for (const JsonCursor& primitive : mesh_json.elements("primitives")) {
-      const int mode = static_cast<int>(primitive.integer("mode", kTriangles, 0, 6));
-      if (mode < kTriangles) {
-        warnings.not_supported("points and lines");
-        continue;
-      }
-      int material = primitive.index("material", given_materials, "material");
-      const int position = c.attribute(primitive.at("attributes"), "POSITION");
-      if (position < 0) {
-        warnings.say("a primitive without POSITION was left out: " + primitive.place());
-        continue;
-      }
-      vertices += checked_count(document, position);
-      const int indices = primitive.index("indices", c.accessors, "accessor");
-      if (indices >= 0) vertices += checked_count(document, indices);
-      if (vertices > kMaxVertices)
-        primitive.fail("the scene has more than " + std::to_string(kMaxVertices) + " vertices and indices",
-                       "use a smaller scene");
-
-      Mesh mesh = read_local(c, primitive, weights, mode);
-      mesh.name = mesh_json.text("name", node.text("name", ""));
-      if (skin_index >= 0 && primitive.at("attributes").has("JOINTS_0")) {
-        const Skin skin = read_skin(document, nodes, skin_index);
-        const std::vector<Affine> blended =
-            blend_joints(document, skin, primitive.at("attributes"), mesh.positions.size());
-        to_world(mesh, primitive, [&](std::size_t i) { return blended[i]; });
+  for (const Placement& placement : take_placements(c, nodes, given_materials, meshes)) {
+    const JsonCursor mesh_json = document.object("meshes", placement.mesh);
+    const std::vector<double> weights = morph_weights(placement.node, mesh_json);
+    for (const UsablePrimitive& primitive : meshes.at(placement.mesh).primitives) {
+      const JsonCursor attributes = primitive.json.at("attributes");
+      Mesh mesh = read_local(c, primitive.json, weights, primitive.mode);
+      mesh.name = mesh_json.text("name", placement.node.text("name", ""));
+      if (placement.skin >= 0 && attributes.has("JOINTS_0")) {
+        auto skin = skins.find(placement.skin);
+        if (skin == skins.end()) skin = skins.emplace(placement.skin, read_skin(document, nodes, placement.skin)).first;
+        const std::vector<Affine> blended = blend_joints(document, skin->second, attributes, mesh.positions.size());
+        to_world(mesh, placement.node, [&](std::size_t i) { return blended[i]; });
       } else {
-        to_world(mesh, primitive, [&](std::size_t) { return visible.world; });
-        if (visible.world.determinant() < 0) turn_triangles(mesh);
+        to_world(mesh, placement.node, [&](std::size_t) { return *placement.world; });
+        if (placement.world->determinant() < 0) turn_triangles(mesh);
       }
+      int material = primitive.material;
       if (material < 0) {
         if (materials.size() == given_materials) materials.push_back({});
         material = static_cast<int>(given_materials);

@@ -1,6 +1,8 @@
 #include "scene/gltf_nodes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace steradian {
 namespace {
@@ -44,7 +46,7 @@ Affine local_transform(const JsonCursor& node) {
   return a;
 }
 
-std::vector<int> read_parents(const std::vector<JsonCursor>& nodes, std::vector<std::vector<int>>& children) {
+std::vector<int> read_parents(const JsonElements& nodes, std::vector<std::vector<int>>& children) {
   std::vector<int> parent(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const JsonCursor& child : nodes[i].elements("children")) {
@@ -85,8 +87,17 @@ std::vector<int> scene_roots(const GltfDocument& document, const std::vector<int
 
 }  // namespace
 
+void check_reach(const JsonCursor& node, Vec3d p, const std::string& what) {
+  if (within_reach(p)) return;
+  const double farthest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  const std::string name = node.text("name", "");
+  char text[80];
+  std::snprintf(text, sizeof text, " lies %.3g from the origin; %.0e is the farthest that can be rendered", farthest, kFarthest);
+  throw Error(node.place() + (name.empty() ? "" : " \"" + name + "\""), what + text, "scale the scene down");
+}
+
 GltfNodes read_nodes(const GltfDocument& document) {
-  const std::vector<JsonCursor> nodes = document.root().elements("nodes");
+  const JsonElements nodes = document.root().elements("nodes");
   std::vector<std::vector<int>> children(nodes.size());
   const std::vector<int> parent = read_parents(nodes, children);
 

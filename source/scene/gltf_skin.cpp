@@ -7,13 +7,16 @@ namespace steradian {
 Skin read_skin(const GltfDocument& document, const GltfNodes& nodes, int index) {
   const JsonCursor json = document.object("skins", index);
   Skin skin;
-  for (const JsonCursor& joint : json.at("joints").elements())
+  const JsonElements joints = json.at("joints").elements();
+  document.budget().take_memory(json.place(), "its joints", joints.size() * sizeof(Affine));
+  skin.joints.reserve(joints.size());
+  for (const JsonCursor& joint : joints)
     skin.joints.push_back(nodes.world[static_cast<std::size_t>(joint.as_index(nodes.world.size(), "node"))]);
   if (skin.joints.empty()) json.at("joints").fail("the list is empty");
 
   const int accessor = json.index("inverseBindMatrices", document.count("accessors"), "accessor");
   if (accessor < 0) return skin;
-  const FloatArray matrices = read_floats(document, accessor, "MAT4");
+  const FloatArray matrices = read_first_floats(document, accessor, "MAT4", skin.joints.size());
   if (matrices.count < skin.joints.size())
     json.at("inverseBindMatrices")
         .fail("has " + std::to_string(matrices.count) + " matrices for " +

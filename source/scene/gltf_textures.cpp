@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/decode_image.h"
+#include "image/decode_image.h"
 
 namespace steradian {
 namespace {
@@ -62,12 +62,15 @@ void GltfTextures::apply_transform(TextureUse& use, const JsonCursor& transform)
 
 int GltfTextures::load_image(int gltf_image) {
   const JsonCursor image = document_.object("images", gltf_image);
-  Bytes own;
+  const std::string type = image.text("mimeType", "");
+  if (!type.empty() && type != "image/png" && type != "image/jpeg") {
+    warnings_.not_supported("textures of type " + type);
+    return kNotRead;
+  }
   std::span<const std::uint8_t> bytes;
   std::string place = image.place();
   if (const auto uri = image.find("uri")) {
-    own = read_uri(document_, *uri);
-    bytes = own;
+    bytes = read_uri(document_, *uri);
     if (!uri->as_text().starts_with("data:")) place += ": " + uri->as_text();
   } else if (image.has("bufferView")) {
     bytes = view_bytes(document_, image.index("bufferView", document_.count("bufferViews"), "bufferView"));
@@ -80,10 +83,13 @@ int GltfTextures::load_image(int gltf_image) {
       return kNotRead;
     case ImageFormat::unknown:
       throw Error(place, "the picture is neither PNG nor JPEG", "save it as PNG");
-    case ImageFormat::png_or_jpeg:
+    case ImageFormat::png:
+    case ImageFormat::jpeg:
       break;
   }
-  Image decoded = decode_image(bytes, place, std::min(texels_left_, kMaxImageTexels));
+  if (!type.empty() && type != (format_of(bytes) == ImageFormat::png ? "image/png" : "image/jpeg"))
+    warnings_.count("a picture's mimeType is not what its bytes are", place);
+  Image decoded = decode_image(bytes, place, std::min(texels_left_, kMaxImageTexels), document_.budget());
   texels_left_ -= decoded.rgba.size() / 4;
   decoded.name = image.text("name", image.text("uri", "").starts_with("data:") ? "" : image.text("uri", ""));
   images_.push_back(std::move(decoded));

@@ -37,18 +37,14 @@ JsonCursor JsonCursor::at(std::string_view key) const {
   return *member;
 }
 
-std::vector<JsonCursor> JsonCursor::elements() const {
+JsonElements JsonCursor::elements() const {
   if (!value_->is_array()) wrong_type("an array");
-  std::vector<JsonCursor> result;
-  result.reserve(value_->size());
-  for (std::size_t i = 0; i < value_->size(); ++i)
-    result.emplace_back((*value_)[i], place_ + "[" + std::to_string(i) + "]");
-  return result;
+  return {*value_, place_};
 }
 
-std::vector<JsonCursor> JsonCursor::elements(std::string_view key) const {
+JsonElements JsonCursor::elements(std::string_view key) const {
   const auto member = find(key);
-  return member ? member->elements() : std::vector<JsonCursor>{};
+  return member ? member->elements() : JsonElements{};
 }
 
 double JsonCursor::as_number() const {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +14,8 @@
 #include "steradian/vector.h"
 
 namespace steradian {
+
+class JsonElements;
 
 class JsonCursor {
 public:
@@ -32,7 +33,7 @@ public:
   bool has(std::string_view key) const { return find(key).has_value(); }
   std::optional<JsonCursor> find(std::string_view key) const;
   JsonCursor at(std::string_view key) const;                     // required
-  std::vector<JsonCursor> elements(std::string_view key) const;  // none where it is absent
+  JsonElements elements(std::string_view key) const;             // none where it is absent
   double number(std::string_view key, double otherwise) const;   // finite
   double number(std::string_view key, double otherwise, double low, double high) const;
   std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t low,
@@ -44,20 +45,13 @@ public:
   int index(std::string_view key, std::size_t count, std::string_view what) const;
 
   // This value itself.
-  std::vector<JsonCursor> elements() const;
+  JsonElements elements() const;
   double as_number() const;
   std::int64_t as_integer(std::int64_t low, std::int64_t high) const;
   int as_index(std::size_t count, std::string_view what) const;
   std::string as_text() const;
   template <std::size_t N>
-  std::array<double, N> as_numbers() const {
-    const auto parts = elements();
-    if (parts.size() != N)
-      fail("needs " + std::to_string(N) + " numbers, has " + std::to_string(parts.size()));
-    std::array<double, N> result{};
-    for (std::size_t i = 0; i < N; ++i) result[i] = parts[i].as_number();
-    return result;
-  }
+  std::array<double, N> as_numbers() const;
 
 private:
   [[noreturn]] void wrong_type(const char* wanted) const;
@@ -65,6 +59,44 @@ private:
   const nlohmann::json* value_;
   std::string place_;
 };
+
+// The elements of an array. A cursor is made when it is asked for: an array may have millions, and few are looked at twice.
+class JsonElements {
+public:
+  JsonElements() = default;
+  JsonElements(const nlohmann::json& array, std::string place) : array_(&array), place_(std::move(place)) {}
+
+  std::size_t size() const { return array_ ? array_->size() : 0; }
+  bool empty() const { return size() == 0; }
+  JsonCursor operator[](std::size_t i) const { return {(*array_)[i], place_ + "[" + std::to_string(i) + "]"}; }
+
+  class Iterator {
+  public:
+    Iterator(const JsonElements& elements, std::size_t i) : elements_(&elements), i_(i) {}
+    JsonCursor operator*() const { return (*elements_)[i_]; }
+    Iterator& operator++() { return ++i_, *this; }
+    bool operator!=(const Iterator& other) const { return i_ != other.i_; }
+
+  private:
+    const JsonElements* elements_;
+    std::size_t i_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+
+private:
+  const nlohmann::json* array_ = nullptr;
+  std::string place_;
+};
+
+template <std::size_t N>
+std::array<double, N> JsonCursor::as_numbers() const {
+  const JsonElements parts = elements();
+  if (parts.size() != N) fail("needs " + std::to_string(N) + " numbers, has " + std::to_string(parts.size()));
+  std::array<double, N> result{};
+  for (std::size_t i = 0; i < N; ++i) result[i] = parts[i].as_number();
+  return result;
+}
 
 // Whether `words`, separated by spaces, hold `word`.
 bool has_word(std::string_view words, std::string_view word);

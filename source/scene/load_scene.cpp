@@ -52,6 +52,7 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
     camera.name = json.text("name", node.text("name", "camera" + std::to_string(index)));
     camera.yfov = perspective.number("yfov", 0, 1e-6, 3.14159);
     camera.position = visible.world.t;
+    check_reach(node, camera.position, "the camera");
     camera.z = normalized(visible.world.z);
     const Frame frame = Frame::from_normal_and_tangent(camera.z, visible.world.x);
     camera.x = frame.x;
@@ -78,11 +79,16 @@ void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, cons
   }
 }
 
-void say_not_supported(Warnings& warnings) {
-  if (warnings.unsupported.empty()) return;
-  std::string list;
-  for (const std::string& feature : warnings.unsupported) list += (list.empty() ? "" : ", ") + feature;
-  warnings.say("the file uses what is not supported and left out: " + list);
+// Below this extent the products of three lengths, in single precision, vanish. A scene of one point is no smaller than
+// its camera chooses.
+constexpr double kSmallest = 1e-12;
+
+void check_extent(const Scene& scene, const std::string& path) {
+  const double extent = length(scene.bounds_max - scene.bounds_min);
+  if (extent == 0 || extent >= kSmallest) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "the whole scene is %.3g across; %.0e is the smallest that can be rendered", extent, kSmallest);
+  throw Error(path, text, "scale the scene up");
 }
 
 LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options) {
@@ -97,11 +103,12 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   scene.cameras = read_cameras(document, nodes, warnings);
   scene.punctual_lights = read_punctual_lights(document, nodes);
   add_area_lights(document, nodes, scene);
-  const std::size_t without_area = add_emitters(scene);
+  const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
   say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights)), without_area,
                        options, warnings);
 
   measure_bounds(scene);
+  check_extent(scene, document.path);
   if (nodes.zero_scaled > 0) warnings.say(counted(nodes.zero_scaled, "node") + " of scale zero left out");
   if (scene.meshes.empty()) warnings.say("the scene has no triangles");
   if (scene.area_lights.empty() && scene.punctual_lights.empty()) {
@@ -112,23 +119,31 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
     scene.cameras.push_back(framing_camera(scene));
     warnings.say("the scene has no camera: a default one frames it from the front");
   }
-  say_not_supported(warnings);
-  return {std::move(scene), std::move(warnings.sentences)};
+  return {std::move(scene), warnings.sentences()};
+}
+
+LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {
+  if (options.max_lights < 1)
+    throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
+  try {
+    return read_scene(read_gltf(file, path, budget), options);
+  } catch (const std::bad_alloc&) {
+    throw budget.out_of_memory();
+  }
 }
 
 }  // namespace
 
 LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path,
                                    const LoadOptions& options) {
-  if (options.max_lights < 1)
-    throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
-  return read_scene(read_gltf({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path),
-                    options);
+  Budget budget(options.limits);
+  return read_within(budget, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, options);
 }
 
 LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
-  const Bytes file = read_file(path, path);
-  return load_scene_from_memory({reinterpret_cast<const char*>(file.data()), file.size()}, path, options);
+  Budget budget(options.limits);
+  const Bytes file = read_file(path, path, budget);
+  return read_within(budget, file, path, options);
 }
 
 }  // namespace steradian

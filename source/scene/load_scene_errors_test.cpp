@@ -190,7 +190,7 @@ const std::vector<BadFile>& bad_files() {
          f.primitive()["attributes"]["POSITION"] =
              f.add_floats({0, 0, 0, 1, 0, 0, INFINITY, 1, 0, 0, 1, 0}, "VEC3");
        }},
-      {"position_leaves_range", "leaves the range of numbers",
+      {"position_leaves_range", "the farthest that can be rendered",
        [](F& f) {
          f.node()["scale"] = {1e39, 1, 1};
        }},
@@ -238,12 +238,13 @@ const std::vector<BadFile>& bad_files() {
       {"image_empty", "images[0]: has neither", [](F& f) { use_texture(f, json::array({json::object()})); }},
       {"image_text", "images[0]: the picture is neither PNG nor JPEG",
        [](F& f) { use_texture(f, image_of("hello")); }},
-      {"image_truncated", "images[0]: cannot read the picture",
+      {"image_truncated", "images[0]: cannot read the PNG picture",
        [](F& f) { use_texture(f, image_of(small_png().substr(0, 45))); }},
       {"image_huge", "images[0]: the picture claims 10000 x 9000 texels",
        [](F& f) {
          std::string png = small_png();
          png.replace(16, 8, std::string("\0\0\x27\x10\0\0\x23\x28", 8));
+         png.replace(29, 4, "\x29\x4A\x54\xA3");  // the header's checksum
          use_texture(f, image_of(png));
        }},
       {"wrap", "samplers[0].wrapS: 7 is not a wrap mode",

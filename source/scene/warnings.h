@@ -1,23 +1,63 @@
-// Warnings: what the reader collects while it reads, each sentence once.
+// Warnings: what the reader collects while it reads, gathered by kind: a broken file says the same thing of thousands of
+// its parts.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace steradian {
 
-struct Warnings {
-  std::vector<std::string> sentences;
-  std::vector<std::string> unsupported;  // features, named together in one sentence at the end
+class Warnings {
+ public:
+  // A whole sentence, once however often it is said.
+  void say(const std::string& sentence) { kind(sentence); }
 
-  void say(const std::string& sentence) { add(sentences, sentence); }
-  void not_supported(const std::string& feature) { add(unsupported, feature); }
-
-private:
-  static void add(std::vector<std::string>& list, const std::string& text) {
-    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+  // The same of one part of the file; the sentence ends with how many there were and where the first is.
+  void count(const std::string& what, const std::string& place) {
+    Kind& k = kind(what);
+    if (k.count++ == 0) k.first_place = place;
   }
+
+  // A feature that is left out; all are named together in the last sentence.
+  void not_supported(const std::string& feature) {
+    if (features_.insert(feature).second && features_.size() <= kMostNamed)
+      feature_list_ += (feature_list_.empty() ? "" : ", ") + feature;
+  }
+
+  // In the order in which their kinds were met.
+  std::vector<std::string> sentences() const {
+    std::vector<std::string> result;
+    for (const Kind& k : kinds_)
+      result.push_back(k.count == 0   ? k.what
+                       : k.count == 1 ? k.what + ": " + k.first_place
+                                      : k.what + ": " + std::to_string(k.count) + " times, the first is " + k.first_place);
+    if (features_.empty()) return result;
+    std::string last = "the file uses what is not supported and left out: " + feature_list_;
+    if (features_.size() > kMostNamed) last += " and " + std::to_string(features_.size() - kMostNamed) + " more";
+    result.push_back(last);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kMostNamed = 16;
+  struct Kind {
+    std::string what, first_place;
+    std::size_t count = 0;
+  };
+
+  Kind& kind(const std::string& what) {
+    const auto [it, fresh] = index_.emplace(what, kinds_.size());
+    if (fresh) kinds_.push_back({what, {}, 0});
+    return kinds_[it->second];
+  }
+
+  std::vector<Kind> kinds_;
+  std::unordered_map<std::string, std::size_t> index_;  // into kinds_, by what
+  std::unordered_set<std::string> features_;
+  std::string feature_list_;
 };
 
 }  // namespace steradian

@@ -1,0 +1,110 @@
+#include "image/jpeg.h"
+
+#include <cstddef>
+#include <cstdio>
+
+#include <jpeglib.h>
+#include <jerror.h>
+
+#include <csetjmp>
+
+#include "image/decode_image.h"
+
+namespace steradian {
+namespace {
+
+// A progressive picture may hold any number of scans, each of which costs a pass over all its coefficients although it
+// takes two bytes of the file. Encoders write about ten.
+constexpr int kMostScans = 100;
+// Rows and columns that fill the last blocks of 64 x 64 (the largest sampling), of a side of at most 65535.
+constexpr std::size_t kRoundedUp = 2 * 64 * 65536;
+constexpr std::size_t kWorkingBytes = 32 << 20;  // the codec's rows and tables
+
+// What libjpeg knows of us; its errors jump out of its calls, so nothing here may need a destructor.
+struct Reader {
+  jpeg_decompress_struct codec;
+  jpeg_error_mgr errors;
+  jpeg_progress_mgr progress;
+  std::jmp_buf failed;
+  char message[JMSG_LENGTH_MAX];
+};
+
+Reader& reader_of(j_common_ptr codec) { return *static_cast<Reader*>(codec->client_data); }
+
+[[noreturn]] void fail(j_common_ptr codec) {
+  Reader& reader = reader_of(codec);
+  reader.errors.format_message(codec, reader.message);
+  std::longjmp(reader.failed, 1);
+}
+
+// libjpeg paints over damage and warns. Only what leaves the picture whole passes.
+void judge_message(j_common_ptr codec, int level) {
+  if (level >= 0) return;  // a trace
+  const int code = codec->err->msg_code;
+  if (code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_JFIF_MAJOR) fail(codec);
+}
+
+void count_scans(j_common_ptr codec) {
+  if (reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number <= kMostScans) return;
+  Reader& reader = reader_of(codec);
+  std::snprintf(reader.message, sizeof reader.message, "it has more than %d scans", kMostScans);
+  std::longjmp(reader.failed, 1);
+}
+
+// The header's size; false, with a message, where it is broken.
+bool read_header(Reader& reader, std::span<const std::uint8_t> bytes) {
+  reader.codec.err = jpeg_std_error(&reader.errors);
+  reader.errors.error_exit = fail;
+  reader.errors.emit_message = judge_message;
+  reader.codec.client_data = &reader;
+  if (setjmp(reader.failed)) return false;
+  jpeg_create_decompress(&reader.codec);
+  reader.progress.progress_monitor = count_scans;
+  reader.codec.progress = &reader.progress;
+  jpeg_mem_src(&reader.codec, bytes.data(), static_cast<unsigned long>(bytes.size()));
+  jpeg_read_header(&reader.codec, TRUE);
+  reader.codec.out_color_space = JCS_EXT_RGBA;
+  return true;
+}
+
+// rgba has four bytes for each of the header's pixels.
+bool read_pixels(Reader& reader, std::uint8_t* rgba, std::size_t memory) {
+  if (setjmp(reader.failed)) return false;
+  reader.codec.mem->max_memory_to_use = static_cast<long>(memory);
+  jpeg_start_decompress(&reader.codec);
+  while (reader.codec.output_scanline < reader.codec.output_height) {
+    JSAMPROW row = rgba + std::size_t{4} * reader.codec.output_width * reader.codec.output_scanline;
+    jpeg_read_scanlines(&reader.codec, &row, 1);
+  }
+  jpeg_finish_decompress(&reader.codec);
+  return true;
+}
+
+// Owns the codec's memory. Constructed before the first jump, so that a jump passes over no destructor.
+struct OpenReader {
+  Reader reader{};
+  ~OpenReader() { jpeg_destroy_decompress(&reader.codec); }
+};
+
+}  // namespace
+
+Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
+  OpenReader open;
+  const auto refuse = [&] { throw Error(place, std::string("cannot read the JPEG picture: ") + open.reader.message, "save it again"); };
+  if (!read_header(open.reader, bytes)) refuse();
+  jpeg_decompress_struct& codec = open.reader.codec;
+  const std::size_t texels = checked_texels(codec.image_width, codec.image_height, place, max_texels);
+  // A picture of several scans keeps its coefficients, 16 bits each, until the last; blocks are whole.
+  const auto components = static_cast<std::size_t>(codec.num_components);
+  const std::size_t coefficients = jpeg_has_multiple_scans(&codec) ? 2 * components * (texels + kRoundedUp) : 0;
+  budget.take_memory(place, "the picture's texels", 4 * texels + coefficients);
+  Image image;
+  image.width = static_cast<int>(codec.image_width);
+  image.height = static_cast<int>(codec.image_height);
+  image.rgba.resize(4 * texels);
+  if (!read_pixels(open.reader, image.rgba.data(), coefficients + kWorkingBytes)) refuse();
+  budget.give_back_memory(coefficients);
+  return image;
+}
+
+}  // namespace steradian
