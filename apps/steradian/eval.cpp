@@ -156,6 +156,7 @@ struct Options {
   int spp = 256;
   std::uint64_t seed = 1;
   bool plane = false;
+  Limits limits;
 };
 
 }  // namespace
@@ -175,6 +176,7 @@ void add_eval(CLI::App& app, Exit& exit) {
   verb->add_option("-o,--output", options->output, "File of answers (default: standard output)")
       ->group("Input and output")
       ->default_str("");
+  add_limits(*verb, options->limits);
   verb->add_flag("--plane", options->plane,
                  "Light at points of SVG scenes: {\"scene\": \"file.svg\", \"position\": [x, y]}; methods exact, par, sampled, marched")
       ->group("Input and output");
@@ -194,6 +196,7 @@ void add_eval(CLI::App& app, Exit& exit) {
       PlaneQueryDefaults plane;
       if (options->method != "auto") plane.method = plane_method_from_name(options->method);
       plane.sampling = {options->spp, options->seed};
+      plane.limits = options->limits;
       PlaneAnswers answers(plane);
       const auto point = [&](std::string_view line, std::string& out) { return answers.answer_line(line, out); };
       if (!answer_stream(options->input, options->output, point)) exit.code = 1;

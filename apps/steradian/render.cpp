@@ -104,6 +104,7 @@ void run_plane(Options& options) {
   job.output = options.output;
   job.method = options.render.method;
   job.stats = options.stats;
+  job.limits = options.limits;
   job.exposure = static_cast<float>(options.exposure);
   if (options.size != kDefaultSize) {
     parse_size(options.size, options.render);
