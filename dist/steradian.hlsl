@@ -795,12 +795,13 @@ float3 steradian_microfacet_half_vector(float3 l, float3 v) {
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
 //
 // In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
+// Degenerate: the sum is at least 1 for a unit h; the zero half vector of l = -v, finite.
 // Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
 // "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
 float steradian_ggx_distribution(float3 h, float ax, float ay) {
     float x = h.x / ax;
     float y = h.y / ay;
-    float d = x * x + y * y + h.z * h.z;
+    float d = max(x * x + y * y + h.z * h.z, 1.0e-6);
     return steradian_inverse_pi() / (ax * ay * d * d);
 }
 
@@ -1173,7 +1174,7 @@ float3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     float2 up = float2(e.axis_a.z, e.axis_b.z);
     float rise = sqrt(dot(up, up));
-    float2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, steradian_smallest_divisor())), float2(1.0, 0.0));
+    float2 turn = steradian_select(rise > steradian_smallest_divisor(), up * (1.0 / max(rise, steradian_smallest_divisor())), float2(1.0, 0.0));
     SteradianEllipse level;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -1209,7 +1210,10 @@ float3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
         float angle = steradian_trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
         sum = steradian_select(cut, sum + float3(0.0, 0.0, 0.5 * angle), sum);
     }
-    return float3(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
+    // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    float size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
+    bool seen = dot(e.center, cross(e.axis_a, e.axis_b)) > steradian_smallest_divisor() * size;
+    return float3(steradian_select(seen, sum.x, 0.0), steradian_select(seen, sum.y, 0.0), steradian_select(seen, clamp(sum.z, 0.0, steradian_pi()), 0.0));
 }
 
 // A polygon about an ellipse: where its corners gather.

@@ -791,12 +791,13 @@ fn steradian_microfacet_half_vector(l: vec3f, v: vec3f) -> vec3f {
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
 //
 // In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
+// Degenerate: the sum is at least 1 for a unit h; the zero half vector of l = -v, finite.
 // Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
 // "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
 fn steradian_ggx_distribution(h: vec3f, ax: f32, ay: f32) -> f32 {
     let x = h.x / ax;
     let y = h.y / ay;
-    let d = x * x + y * y + h.z * h.z;
+    let d = max(x * x + y * y + h.z * h.z, 1.0e-6);
     return steradian_inverse_pi() / (ax * ay * d * d);
 }
 
@@ -1169,7 +1170,7 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     let up = vec2f(e.axis_a.z, e.axis_b.z);
     let rise = sqrt(dot(up, up));
-    let turn = select(vec2f(1.0, 0.0), up * (1.0 / max(rise, steradian_smallest_divisor())), rise > 0.0);
+    let turn = select(vec2f(1.0, 0.0), up * (1.0 / max(rise, steradian_smallest_divisor())), rise > steradian_smallest_divisor());
     var level: SteradianEllipse;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -1205,7 +1206,10 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
         let angle = steradian_trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
         sum = select(sum, sum + vec3f(0.0, 0.0, 0.5 * angle), cut);
     }
-    return vec3f(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
+    // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    let size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
+    let seen = dot(e.center, cross(e.axis_a, e.axis_b)) > steradian_smallest_divisor() * size;
+    return vec3f(select(0.0, sum.x, seen), select(0.0, sum.y, seen), select(0.0, clamp(sum.z, 0.0, steradian_pi()), seen));
 }
 
 // A polygon about an ellipse: where its corners gather.

@@ -181,12 +181,13 @@ vec3 steradian_microfacet_half_vector(vec3 l, vec3 v) {
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
 //
 // In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
+// Degenerate: the sum is at least 1 for a unit h; the zero half vector of l = -v, finite.
 // Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
 // "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
 float steradian_ggx_distribution(vec3 h, float ax, float ay) {
     float x = h.x / ax;
     float y = h.y / ay;
-    float d = x * x + y * y + h.z * h.z;
+    float d = max(x * x + y * y + h.z * h.z, 1.0e-6);
     return steradian_inverse_pi() / (ax * ay * d * d);
 }
 

@@ -279,7 +279,7 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
     float rise = sqrt(dot(up, up));
-    vec2 turn = steradian_select(rise > 0.0, up * (1.0 / max(rise, steradian_smallest_divisor())), vec2(1.0, 0.0));
+    vec2 turn = steradian_select(rise > steradian_smallest_divisor(), up * (1.0 / max(rise, steradian_smallest_divisor())), vec2(1.0, 0.0));
     SteradianEllipse level;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -315,7 +315,10 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
         float angle = steradian_trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
         sum = steradian_select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
     }
-    return vec3(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
+    // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    float size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
+    bool seen = dot(e.center, cross(e.axis_a, e.axis_b)) > steradian_smallest_divisor() * size;
+    return vec3(steradian_select(seen, sum.x, 0.0), steradian_select(seen, sum.y, 0.0), steradian_select(seen, clamp(sum.z, 0.0, steradian_pi()), 0.0));
 }
 
 // A polygon about an ellipse: where its corners gather.

@@ -181,12 +181,13 @@ fn steradian_microfacet_half_vector(l: vec3f, v: vec3f) -> vec3f {
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
 //
 // In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
+// Degenerate: the sum is at least 1 for a unit h; the zero half vector of l = -v, finite.
 // Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
 // "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
 fn steradian_ggx_distribution(h: vec3f, ax: f32, ay: f32) -> f32 {
     let x = h.x / ax;
     let y = h.y / ay;
-    let d = x * x + y * y + h.z * h.z;
+    let d = max(x * x + y * y + h.z * h.z, 1.0e-6);
     return steradian_inverse_pi() / (ax * ay * d * d);
 }
 

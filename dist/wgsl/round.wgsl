@@ -279,7 +279,7 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     let up = vec2f(e.axis_a.z, e.axis_b.z);
     let rise = sqrt(dot(up, up));
-    let turn = select(vec2f(1.0, 0.0), up * (1.0 / max(rise, steradian_smallest_divisor())), rise > 0.0);
+    let turn = select(vec2f(1.0, 0.0), up * (1.0 / max(rise, steradian_smallest_divisor())), rise > steradian_smallest_divisor());
     var level: SteradianEllipse;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -315,7 +315,10 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
         let angle = steradian_trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
         sum = select(sum, sum + vec3f(0.0, 0.0, 0.5 * angle), cut);
     }
-    return vec3f(sum.x, sum.y, clamp(sum.z, 0.0, steradian_pi()));
+    // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    let size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
+    let seen = dot(e.center, cross(e.axis_a, e.axis_b)) > steradian_smallest_divisor() * size;
+    return vec3f(select(0.0, sum.x, seen), select(0.0, sum.y, seen), select(0.0, clamp(sum.z, 0.0, steradian_pi()), seen));
 }
 
 // A polygon about an ellipse: where its corners gather.

@@ -15,12 +15,13 @@ vec3 microfacet_half_vector(vec3 l, vec3 v) {
 // Distribution of GGX: 1 / (pi ax ay ((h_x/ax)^2 + (h_y/ay)^2 + h_z^2)^2).
 //
 // In the components of h, not in 1 - h_z^2, which cancels in float at small alpha.
+// Degenerate: the sum is at least 1 for a unit h; the zero half vector of l = -v, finite.
 // Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction", 2007, eq. 33; anisotropic: Heitz,
 // "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014, eq. 85.
 real ggx_distribution(vec3 h, real ax, real ay) {
     real x = h.x / ax;
     real y = h.y / ay;
-    real d = x * x + y * y + h.z * h.z;
+    real d = max(x * x + y * y + h.z * h.z, 1.0e-6);
     return inverse_pi() / (ax * ay * d * d);
 }
 

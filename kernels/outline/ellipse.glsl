@@ -41,7 +41,7 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
     real rise = sqrt(dot(up, up));
-    vec2 turn = select(rise > 0.0, up * (1.0 / max(rise, smallest_divisor())), vec2(1.0, 0.0));
+    vec2 turn = select(rise > smallest_divisor(), up * (1.0 / max(rise, smallest_divisor())), vec2(1.0, 0.0));
     Ellipse level;
     level.center = e.center;
     level.axis_a = e.axis_a * turn.x + e.axis_b * turn.y;
@@ -77,7 +77,10 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
         real angle = trig_atan2(down.x * back_up.y - down.y * back_up.x, down.x * back_up.x + down.y * back_up.y);
         sum = select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
     }
-    return vec3(sum.x, sum.y, clamp(sum.z, 0.0, pi()));
+    // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    real size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
+    mask seen = dot(e.center, cross(e.axis_a, e.axis_b)) > smallest_divisor() * size;
+    return vec3(select(seen, sum.x, 0.0), select(seen, sum.y, 0.0), select(seen, clamp(sum.z, 0.0, pi()), 0.0));
 }
 
 // A polygon about an ellipse: where its corners gather.
