@@ -122,7 +122,7 @@ Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& s
   const Vec3d v = normalized(frame.to_local(wide(view)));
   std::vector<lobes::Lobe> lobes;
   for (const SurfaceLobe& l : lobes_of(receiver)) {
-    const lobes::Lobe lobe(lobes::in_frame(l.material, frame), l.diffuse ? Vec3d{0, 0, 1} : v);
+    const lobes::Lobe lobe(lobes::in_frame(l.material, frame), v);
     if (lobe.above_surface()) lobes.push_back(lobe);
   }
   Estimate result;

@@ -29,6 +29,7 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   tile.sheen_alpha[i] = s.sheen_alpha;
   tile.coat[i] = s.coat;
   tile.coat_alpha[i] = s.coat_alpha;
+  put(tile.coat_normal, i, s.coat_normal);
   put(tile.radiance, i, s.emission);
   tile.material[i] = s.material;
   tile.any_surface = true;
@@ -42,7 +43,7 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
 // What packs read where there is no surface: finite, and weighing nothing.
 void put_nothing(SurfaceTile& tile, std::size_t i) {
   for (TileVector* v : {&tile.position, &tile.normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent, &tile.sheen,
-                        &tile.radiance})
+                        &tile.coat_normal, &tile.radiance})
     put(*v, i, {});
   tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
   tile.coat[i] = 0;
@@ -67,6 +68,7 @@ Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   s.sheen_alpha = tile.sheen_alpha[i];
   s.coat = tile.coat[i];
   s.coat_alpha = tile.coat_alpha[i];
+  s.coat_normal = get(tile.coat_normal, i);
   s.material = tile.material[i];
   return s;
 }

@@ -128,6 +128,7 @@ std::vector<const PackLight*> lights_reaching(const std::vector<PackLight>& ligh
     if (tile.material[i] == nullptr) continue;
     positions.add({tile.position.x[i], tile.position.y[i], tile.position.z[i]});
     normals.add({tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
+    if (tile.coat[i] > 0) normals.add({tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]});
   }
   std::vector<const PackLight*> result;
   for (const PackLight& light : lights)

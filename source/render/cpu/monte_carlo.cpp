@@ -53,28 +53,40 @@ DirectSampler::~DirectSampler() = default;
 
 Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp,
                                  reference::Random& random) {
-  Scratch& scratch = *scratch_;
-  const auto p = static_cast<Vec3d>(surface.position);
-  const Frame frame =
-      Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
-  const Vec3d v = normalized(frame.to_local(static_cast<Vec3d>(view)));
-  std::vector<Lobe>& lobes = scratch.lobes;
-  lobes.clear();
-  for (const SurfaceLobe& l : lobes_of(surface)) {
-    if (choice == LobeChoice::specular && l.diffuse) continue;
-    // A view below the shading normal still sees the diffuse lobe, which does not depend on it.
-    const Lobe lobe(lobes::in_frame(l.material, frame), l.diffuse ? Vec3d{0, 0, 1} : v);
-    if (lobe.above_surface()) lobes.push_back(lobe);
+  std::vector<SurfaceLobe> rest = lobes_of(surface);
+  if (choice == LobeChoice::specular) std::erase_if(rest, [](const SurfaceLobe& l) { return l.diffuse; });
+  Estimate sum;
+  while (!rest.empty()) {  // the lobes about one normal share their samples; a coat may have a normal of its own
+    const Vec3f normal = rest.front().normal;
+    const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(normal)), static_cast<Vec3d>(surface.tangent));
+    const Vec3d v = normalized(frame.to_local(static_cast<Vec3d>(view)));
+    scratch_->lobes.clear();
+    std::erase_if(rest, [&](const SurfaceLobe& l) {
+      if (!(l.normal == normal)) return false;
+      const Lobe lobe(lobes::in_frame(l.material, frame), v);
+      if (lobe.above_surface()) scratch_->lobes.push_back(lobe);
+      return true;
+    });
+    if (scratch_->lobes.empty()) continue;
+    const Estimate part = estimate_in(frame, surface.position, spp, random);
+    sum.mean += part.mean;
+    sum.variance += part.variance;
   }
+  return sum;
+}
+
+Estimate DirectSampler::estimate_in(const Frame& frame, Vec3f position, int spp, reference::Random& random) {
+  Scratch& scratch = *scratch_;
+  const std::vector<Lobe>& lobes = scratch.lobes;
+  const auto p = static_cast<Vec3d>(position);
   Estimate result;
-  if (lobes.empty()) return result;
 
   for (const PunctualLight& light : scene_.punctual_lights) {
     const auto incident = shapes::incident<double>(packed::prepare(light), shapes::to_kernel<double>(p));
     const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v}, l = frame.to_local(to);
     if (l.z <= 0) continue;
     const Vec3d origin = light.kind == PunctualKind::directional ? p + to * 1e6 : light.position;
-    if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(origin))) continue;
+    if (shadows_ != nullptr && shadows_->occluded(position, static_cast<Vec3f>(origin))) continue;
     result.mean += light.intensity * incident.irradiance.v * evaluate(lobes, l);
   }
 
@@ -102,7 +114,7 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
       const double distance = light.area->shape == LightShape::capsule ? distance_along(capsule_of(*light.area), p, direction)
                                                                        : plane_height / dot(direction, polygon.normal);
       const Vec3d there = p + direction * distance;
-      if (shadows_ != nullptr && shadows_->occluded(surface.position, static_cast<Vec3f>(there))) return {};
+      if (shadows_ != nullptr && shadows_->occluded(position, static_cast<Vec3f>(there))) return {};
       return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
     };
     const auto contribution = [&](Vec3d l, double light_pdf) -> Vec3d {

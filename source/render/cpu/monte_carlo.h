@@ -34,6 +34,8 @@ class DirectSampler {
  private:
   struct Light;
   struct Scratch;
+  // Of scratch_->lobes, which share the frame's normal.
+  Estimate estimate_in(const Frame& frame, Vec3f position, int spp, reference::Random& random);
   const Scene& scene_;
   const RayScene* shadows_;
   std::vector<Light> lights_;

@@ -22,9 +22,13 @@ struct Points {
 
 inline VectorArrays arrays_of(const TileVector& v) { return {v.x.data(), v.y.data(), v.z.data()}; }
 
-// Every slot of a tile, with one lobe's widths.
+// Every slot of a tile, with one lobe's normals and widths.
+inline Points points_of(const SurfaceTile& tile, const TileVector& normal, const TilePlane& alpha_x, const TilePlane& alpha_y) {
+  return {kTilePixels,    arrays_of(tile.position), arrays_of(normal),        arrays_of(tile.view), arrays_of(tile.tangent),
+          alpha_x.data(), alpha_y.data()};
+}
 inline Points points_of(const SurfaceTile& tile, const TilePlane& alpha_x, const TilePlane& alpha_y) {
-  return {kTilePixels, arrays_of(tile.position), arrays_of(tile.normal), arrays_of(tile.view), arrays_of(tile.tangent), alpha_x.data(), alpha_y.data()};
+  return points_of(tile, tile.normal, alpha_x, alpha_y);
 }
 inline Points points_of(const SurfaceTile& tile) { return points_of(tile, tile.alpha_x, tile.alpha_y); }
 

@@ -19,8 +19,9 @@
 
 namespace steradian {
 
-// One GGX lobe of every pixel of a tile: widths and Fresnel's two reflectances.
+// One GGX lobe of every pixel of a tile: normal, widths and Fresnel's two reflectances.
 struct SpecularPass::Lobe {
+  const TileVector& normal;
   const TilePlane &alpha_x, &alpha_y;
   TileVector f0, f90;
   bool over_diffuse = false;  // the lobe whose walk may serve the diffuse one
@@ -50,10 +51,11 @@ void add_diffuse(TilePlane& radiance, const TilePlane& albedo, const TilePlane& 
   for (std::size_t i = 0; i < kTilePixels; ++i) radiance[i] += albedo[i] * factor * irradiance[i];
 }
 
-ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) {
-  return {static_cast<Vec3d>(get(tile.position, i)), normalized(static_cast<Vec3d>(get(tile.normal, i))),
+ShadingPoint shading_point(const SurfaceTile& tile, const TileVector& normal, std::size_t i) {
+  return {static_cast<Vec3d>(get(tile.position, i)), normalized(static_cast<Vec3d>(get(normal, i))),
           normalized(static_cast<Vec3d>(get(tile.view, i)))};
 }
+ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) { return shading_point(tile, tile.normal, i); }
 
 // The ellipse that a point sees of a round light, if it shines there.
 std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
@@ -127,7 +129,7 @@ bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& ligh
 // False where the method does not run on packs.
 bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light,
                                  const LtcSums& sums) const {
-  const Points points = points_of(tile, lobe.alpha_x, lobe.alpha_y);
+  const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
   if (!light.is_area()) {
     direct_table_for(active_simd()).punctual_ggx(light, points, sums.specular, sums.grazing);
     return true;
@@ -161,7 +163,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       for (std::size_t i = 0; i < kTilePixels; ++i) {
         if (!(plain[i] > 0 || fresnel[i] > 0)) continue;
         const double lobe_width = width(static_cast<double>(lobe.alpha_x[i]), static_cast<double>(lobe.alpha_y[i]));
-        const Vec3f radiance = light->textured->seen_by_ggx(shading_point(tile, i), lobe_width);
+        const Vec3f radiance = light->textured->seen_by_ggx(shading_point(tile, lobe.normal, i), lobe_width);
         const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
         add_to(tile.radiance, i, radiance * (f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i]));
       }
@@ -178,7 +180,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
       m.f0 = static_cast<Vec3d>(f0);
       m.f90 = static_cast<Vec3d>(f90);
-      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, shading_point(tile, i), m)));
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, shading_point(tile, lobe.normal, i), m)));
     }
   }
 }
@@ -232,10 +234,10 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 }
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
-  if (tile.any_specular) add_ggx(tile, {tile.alpha_x, tile.alpha_y, tile.f0, tile.f90, true}, lights);
+  if (tile.any_specular) add_ggx(tile, {tile.normal, tile.alpha_x, tile.alpha_y, tile.f0, tile.f90, true}, lights);
   if (tile.any_sheen) add_sheen(tile, lights);
   if (tile.any_coat) {
-    Lobe coat = {tile.coat_alpha, tile.coat_alpha, {}, {}};
+    Lobe coat = {tile.coat_normal, tile.coat_alpha, tile.coat_alpha, {}, {}};
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       coat.f0.x[i] = coat.f0.y[i] = coat.f0.z[i] = tile.coat[i] * static_cast<float>(kCoatF0);
       coat.f90.x[i] = coat.f90.y[i] = coat.f90.z[i] = tile.coat[i];

@@ -59,16 +59,28 @@ Vec3f any_tangent(Vec3f n) {
   return {1 + s * n.x * n.x * a, n.x * n.y * a * s, -s * n.x};
 }
 
-// The frame of tangent-space textures: the mesh's tangent made perpendicular to n.
-Vec3f tangent_of(const Mesh& mesh, const Corner& at, Vec3f n, float& handedness) {
-  handedness = 1;
-  if (mesh.tangents.empty()) return any_tangent(n);
-  const Vec4f t4 = at(mesh.tangents);
-  const Vec3f t{t4.x, t4.y, t4.z};
-  const Vec3f perpendicular = unit(t - n * dot(n, t));
-  if (!(dot(perpendicular, perpendicular) > 0.5f)) return any_tangent(n);
-  handedness = t4.w < 0 ? -1.0f : 1.0f;
-  return perpendicular;
+// The frame of tangent-space textures, of the front face: the vertices' normal, and the mesh's tangent made perpendicular.
+struct TangentFrame {
+  Vec3f x, y, z;
+};
+TangentFrame tangent_frame(const Mesh& mesh, const Corner& at, Vec3f n) {
+  if (!mesh.tangents.empty()) {
+    const Vec4f t4 = at(mesh.tangents);
+    const Vec3f t{t4.x, t4.y, t4.z};
+    const Vec3f x = unit(t - n * dot(n, t));
+    if (dot(x, x) > 0.5f) return {x, cross(n, x) * (t4.w < 0 ? -1.0f : 1.0f), n};
+  }
+  const Vec3f x = any_tangent(n);
+  return {x, cross(n, x), n};
+}
+
+// The normal that a normal map shows, of the front face; the vertices' where the map points below the surface.
+Vec3f bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use, const TangentFrame& frame) {
+  if (!use.present()) return frame.z;
+  const Vec4f c = texel(scene, mesh, at, use);
+  const Vec3f bent = unit(frame.x * ((2 * c.x - 1) * use.scale) + frame.y * ((2 * c.y - 1) * use.scale) +
+                          frame.z * std::max(2 * c.z - 1, 0.0f));
+  return dot(bent, bent) > 0.5f && dot(bent, frame.z) > 0 ? bent : frame.z;
 }
 
 double cosine_of_view(const Surface& s, Vec3f view) {
@@ -116,6 +128,15 @@ void add_sheen(Surface& s, const Scene& scene, const Mesh& mesh, const Corner& a
 
 Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1 - t) + b * t; }
 
+// A surface that is seen is seen from above: where interpolation or a normal map turns the normal away from the viewer, it is
+// turned back until the view stands just above its horizon.
+//
+//   facing   cosine between the view and the triangle, which is never changed itself
+Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
+  const float least = std::min(0.01f, 0.5f * facing), c = dot(n, view);
+  return c >= least ? n : unit(n + view * (least - c));
+}
+
 }  // namespace
 
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v) {
@@ -134,12 +155,12 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   const bool front = dot(geometric, view) >= 0;
   Vec3f n = unit(at(mesh.normals));
   if (!(dot(n, n) > 0.5f)) n = unit(geometric);
-  if (!front) n = -n;
+  const float side = front ? 1.0f : -1.0f;
 
   const Vec4f base = base_color(scene, mesh, at, m);
   const Vec3f color{base.x, base.y, base.z};
   if (m.unlit) {
-    s.normal = n;
+    s.normal = s.coat_normal = n * side;
     s.tangent = any_tangent(n);
     s.emission = color;
     return s;
@@ -152,20 +173,10 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     }
   }
 
-  float handedness = 1;
-  Vec3f t = tangent_of(mesh, at, n, handedness);
-  if (m.normal_texture.present()) {
-    const Vec4f c = texel(scene, mesh, at, m.normal_texture);
-    const float scale = m.normal_texture.scale;
-    const float side = front ? 1.0f : -1.0f;  // the back shows the bumps from inside
-    const Vec3f b = cross(n, t) * handedness;
-    const Vec3f bent = unit(t * ((2 * c.x - 1) * scale * side) + b * ((2 * c.y - 1) * scale * side) +
-                                  n * std::max(2 * c.z - 1, 0.0f));
-    if (dot(bent, bent) > 0.5f && dot(bent, n) > 0) n = bent;
-    t = unit(t - n * dot(n, t));
-    if (!(dot(t, t) > 0.5f)) t = any_tangent(n);
-  }
-  s.normal = n;
+  const TangentFrame frame = tangent_frame(mesh, at, n);
+  const float facing = std::fabs(dot(unit(geometric), view));
+  s.normal = turned_to(bent_normal(scene, mesh, at, m.normal_texture, frame) * side, view, facing);
+  s.coat_normal = turned_to(bent_normal(scene, mesh, at, m.clearcoat_normal_texture, frame) * side, view, facing);
 
   float metallic = m.metallic, roughness = m.roughness;
   if (m.metallic_roughness_texture.present()) {
@@ -176,7 +187,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   metallic = std::clamp(metallic, 0.0f, 1.0f);
   const float alpha = std::clamp(roughness * roughness, kMinAlpha, 1.0f);
   s.alpha_x = s.alpha_y = alpha;
-  s.tangent = t;
+  Vec3f along = frame.x;
   if (m.anisotropy > 0) {
     float strength = m.anisotropy, angle = m.anisotropy_rotation;
     if (m.anisotropy_texture.present()) {
@@ -186,8 +197,10 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     }
     // KHR_materials_anisotropy: the lobe widens along the rotated tangent towards alpha = 1.
     s.alpha_x = alpha + (1 - alpha) * strength * strength;
-    s.tangent = t * std::cos(angle) + cross(n, t) * (handedness * std::sin(angle));
+    along = frame.x * std::cos(angle) + frame.y * std::sin(angle);
   }
+  s.tangent = unit(along - s.normal * dot(s.normal, along));
+  if (!(dot(s.tangent, s.tangent) > 0.5f)) s.tangent = any_tangent(s.normal);
 
   float specular = m.specular;
   if (m.specular_texture.present()) specular *= texel(scene, mesh, at, m.specular_texture).w;
@@ -215,7 +228,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
       coat_roughness *= texel(scene, mesh, at, m.clearcoat_roughness_texture).y;
     s.coat_alpha = std::clamp(coat_roughness * coat_roughness, kMinAlpha, 1.0f);
     // KHR_materials_clearcoat: what the coat reflects at the view's angle does not reach the layers below.
-    const float c = std::clamp(1 - std::fabs(dot(n, view)), 0.0f, 1.0f);
+    const float c = std::clamp(1 - dot(s.coat_normal, view), 0.0f, 1.0f);
     const float under = 1 - s.coat * (kCoatF0 + (1 - kCoatF0) * c * c * c * c * c);
     s.albedo *= under;
     s.f0 *= under;
@@ -242,20 +255,20 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s) {
   if (weighs(s.albedo)) {
     Material m;
     m.albedo = static_cast<Vec3d>(s.albedo);
-    lobes.push_back({m, true});
+    lobes.push_back({m, s.normal, true});
   }
   if (weighs(s.f0) || weighs(s.f90)) {
-    lobes.push_back({ggx_of(s), false});
+    lobes.push_back({ggx_of(s), s.normal, false});
   }
-  if (weighs(s.sheen)) lobes.push_back({sheen_of(s), false});
-  for (const Material& m : s.material->specular_override) lobes.push_back({m, m.brdf == Brdf::lambert});
+  if (weighs(s.sheen)) lobes.push_back({sheen_of(s), s.normal, false});
+  for (const Material& m : s.material->specular_override) lobes.push_back({m, s.normal, m.brdf == Brdf::lambert});
   if (s.coat > 0) {
     Material m;
     m.brdf = Brdf::ggx;
     m.alpha_x = m.alpha_y = s.coat_alpha;
     m.f0 = Vec3d{kCoatF0, kCoatF0, kCoatF0} * static_cast<double>(s.coat);
     m.f90 = Vec3d{1, 1, 1} * static_cast<double>(s.coat);
-    lobes.push_back({m, false});
+    lobes.push_back({m, s.coat_normal, false});
   }
   return lobes;
 }

@@ -7,12 +7,15 @@ namespace steradian {
 
 // The metallic-roughness surface at one point, textures looked up.
 //
+// A back face shows the front's frame with its normal reversed: bumps and directions of brushing stay where they are.
+//
 // Radiance = emission + diffuse + specular (+ sheen) (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - max F0 of
 // the dielectric): what its specular lobe reflects at the normal does not reach it.
 struct Surface {
   Vec3f position;
-  Vec3f normal;      // shading normal, unit, turned to the viewer's side
+  Vec3f normal;      // shading normal, unit; the view is above its horizon, as it is above the triangle
   Vec3f tangent;     // unit, perpendicular to the normal: direction of alpha_x
+  Vec3f coat_normal; // of the clear coat, which lies smooth over what bends the base
   Vec3f emission;    // radiance towards the viewer
   Vec3f albedo;      // diffuse
   Vec3f f0, f90;     // specular; both 0: no such lobe
@@ -35,6 +38,7 @@ Material sheen_of(const Surface& surface);
 // zero weight are left out.
 struct SurfaceLobe {
   Material material;
+  Vec3f normal;
   bool diffuse = false;
 };
 std::vector<SurfaceLobe> lobes_of(const Surface& surface);

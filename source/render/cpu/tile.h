@@ -34,6 +34,7 @@ struct SurfaceTile {
   TileVector tangent;
   alignas(64) TilePlane alpha_x, alpha_y;
   alignas(64) TilePlane coat, coat_alpha;
+  TileVector coat_normal;
   TileVector sheen;           // colour of Charlie's lobe, black where there is none
   alignas(64) TilePlane sheen_alpha;
   TileVector radiance;        // the result
