@@ -1,6 +1,8 @@
 #include "eval/answer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "eval/curved_light.h"
 #include "eval/point_light.h"
@@ -57,7 +59,11 @@ class Sum {
     answer_.precision = precision;
     const bool error_is_finite =
         std::isfinite(answer_.bound.value_or(0.0)) && std::isfinite(answer_.standard_error.value_or(0.0));
-    if (!is_finite(answer_.radiance) || !error_is_finite)
+    // What is printed as a float must be one.
+    const Vec3d r = answer_.radiance;
+    const double largest = std::max({std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
+    const bool fits = precision == Precision::double_ || largest <= static_cast<double>(std::numeric_limits<float>::max());
+    if (!is_finite(r) || !fits || !error_is_finite)
       throw Error("radiance", "the result is out of the range of numbers",
                   "scale radiance, intensity, albedo or distances down");
     return std::move(answer_);

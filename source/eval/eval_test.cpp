@@ -287,6 +287,20 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
   }
 }
 
+// A result that only a double holds is no float: an error, not "inf".
+TEST(Eval, AResultBeyondTheRangeOfFloatIsRefusedInFloat) {
+  const std::string lights[] = {R"("light":{"type":"point","position":[0,1,0],"intensity":1e300})",
+                                R"("light":{"type":"point","position":[0,1e-25,0],"intensity":1})",
+                                R"("light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1],"radiance":1e41})",
+                                R"("light":{"type":"disk","center":[0,2,0],"x":[1,0,0],"y":[0,0,1],"radiance":1e41})",
+                                R"("light":{"type":"capsule","ends":[[0,2,0],[1,2,0]],"radius":0.1,"radiance":1e41})"};
+  for (const std::string& light : lights) {
+    const std::string text = answer_text(query(light, kPlace, kLambert, R"("precision":"float")"));
+    EXPECT_EQ(text.find("inf"), std::string::npos) << text;
+    EXPECT_NE(text.find("error"), std::string::npos) << text;
+  }
+}
+
 TEST(Eval, MessagesAreJsonWhateverTheKeyIs) {
   const std::string odd = R"("a\"\\\n\u0001\u00e9)" + std::string(200, 'k') + R"(":1)";
   const json a = answer(query(kLight, kPlace, kLambert, odd));

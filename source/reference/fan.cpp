@@ -27,6 +27,8 @@ Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) 
   inverse_y_ = cross(shape.z, shape.x) / determinant_;
   inverse_z_ = cross(shape.x, shape.y) / determinant_;
   half_vectors_ = !(shape.offset == Vec3d{});
+  const double across = length(shape.x), along = length(shape.y);
+  stretched_ = std::max(across, along) > 2 * std::min(across, along);
 
   const Vec3d peak{0, 0, 1};
   Vec3d apex = peak;
@@ -53,22 +55,48 @@ Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) 
 
 Vec3d Fan::to_lobe_space(Vec3d v) const { return {dot(inverse_x_, v), dot(inverse_y_, v), dot(inverse_z_, v)}; }
 
+// Where an arc crosses the two planes through an axis of lobe space. A space stretched a hundredfold or more passes the axis
+// in so small a part of the arc that no even probes would meet it.
+std::vector<double> Fan::crossings(const Arc& arc, const Frame& axis) const {
+  std::vector<double> taus;
+  if (!stretched_) return taus;
+  const Vec3d offset = axis.to_local(to_lobe_space(shape_.offset)), begin = axis.to_local(to_lobe_space(arc.a)),
+              along = axis.to_local(to_lobe_space(cross(arc.normal, arc.a)));
+  const auto solve = [&](double a, double b, double c) {  // a + b cos + c sin = 0
+    const double r = std::hypot(b, c);
+    if (!(std::fabs(a) < r)) return;
+    const double middle = std::atan2(c, b), half = std::acos(-a / r);
+    for (double tau : {middle - half, middle + half}) {
+      tau -= 2 * std::numbers::pi * std::floor(tau / (2 * std::numbers::pi));
+      if (tau > 0 && tau < arc.angle) taus.push_back(tau);
+    }
+  };
+  solve(offset.x, begin.x, along.x);
+  solve(offset.y, begin.y, along.y);
+  return taus;
+}
+
 // Roughly: it only says where to begin.
 double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
   const auto closeness = [&](double tau) {
     return dot(normalized(to_lobe_space(arc_point(arc, tau) + shape_.offset)), to);
   };
   constexpr int kProbes = 12;
-  double best = 0, best_closeness = -2;
-  for (int i = 0; i <= kProbes; ++i) {
-    const double tau = arc.angle * i / kProbes, c = closeness(tau);
+  std::vector<double> probes = crossings(arc, Frame::from_normal(to));
+  for (int i = 0; i <= kProbes; ++i) probes.push_back(arc.angle * i / kProbes);
+  std::sort(probes.begin(), probes.end());
+  std::size_t best_probe = 0;
+  double best_closeness = -2;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const double c = closeness(probes[i]);
     if (c > best_closeness) {
       best_closeness = c;
-      best = tau;
+      best_probe = i;
     }
   }
   // Narrow down between the best probe's neighbours by thirds.
-  double low = std::max(best - arc.angle / kProbes, 0.0), high = std::min(best + arc.angle / kProbes, arc.angle);
+  const double best = probes[best_probe];
+  double low = probes[best_probe > 0 ? best_probe - 1 : 0], high = probes[std::min(best_probe + 1, probes.size() - 1)];
   for (int i = 0; i < 24; ++i) {
     const double third = (high - low) / 3;
     if (closeness(low + third) < closeness(high - third))
@@ -80,8 +108,20 @@ double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
   return closeness(inner) > best_closeness ? inner : best;
 }
 
+// One for each place where the arc passes the apex or comes nearest to it, as far as half the way to the next.
 void Fan::add_triangles(const Arc& arc) {
-  const double tau = nearest_tau(arc, apex_.z);
+  std::vector<double> anchors = crossings(arc, apex_);
+  anchors.push_back(nearest_tau(arc, apex_.z));
+  std::sort(anchors.begin(), anchors.end());
+  double from = 0;
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    const double to = i + 1 < anchors.size() ? 0.5 * (anchors[i] + anchors[i + 1]) : arc.angle;
+    add_triangle(arc, anchors[i], from, to);
+    from = to;
+  }
+}
+
+void Fan::add_triangle(const Arc& arc, double tau, double from, double to) {
   Triangle t;
   t.nearest = arc_point(arc, tau);
   t.along = cross(arc.normal, t.nearest);
@@ -93,7 +133,7 @@ void Fan::add_triangles(const Arc& arc) {
   const double distance = std::atan2(std::hypot(direction.x, direction.y), direction.z);
   const double across = length(cross(p / size, speed)) / size;
   t.tau_scale = std::clamp(std::hypot(distance, theta_scale_) / std::max(across, 1e-300), 1e-12, 1.0);
-  const double begin = std::asinh(-tau / t.tau_scale), end = std::asinh((arc.angle - tau) / t.tau_scale);
+  const double begin = std::asinh((from - tau) / t.tau_scale), end = std::asinh((to - tau) / t.tau_scale);
   if (begin < 0) {
     t.u_begin = begin;
     t.u_end = 0;

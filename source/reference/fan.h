@@ -29,6 +29,7 @@ class Fan {
     double u_begin, u_end;
   };
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  bool is_stretched() const { return stretched_; }
 
   // All points of a triangle at one u.
   struct Ray {
@@ -48,12 +49,15 @@ class Fan {
  private:
   Vec3d to_lobe_space(Vec3d v) const;
   void add_triangles(const Arc& arc);
+  void add_triangle(const Arc& arc, double tau, double from, double to);
+  std::vector<double> crossings(const Arc& arc, const Frame& axis) const;
   double nearest_tau(const Arc& arc, Vec3d to) const;
 
   LobeShape shape_;
   Vec3d inverse_x_, inverse_y_, inverse_z_;  // rows of the inverse of (x, y, z)
   double determinant_;
   bool half_vectors_;
+  bool stretched_;      // by more than twice in one direction: a lobe of two widths
   Frame apex_;          // z is the apex
   double theta_scale_;  // on which the lobe falls off from the apex
   std::vector<Triangle> triangles_;

@@ -31,13 +31,16 @@ struct Cell {
   friend bool operator<(const Cell& a, const Cell& b) { return a.error() < b.error(); }
 };
 
-// QUADPACK's estimate: Kronrod's rule is better than its distance from Gauss's tells, the more so the smaller it is.
+// QUADPACK's estimate: Kronrod's rule is better than its distance from Gauss's tells, the more so the smaller it is. Ten times
+// as large: in the tails of narrow lobes, where a single cell holds all, the estimate is too small by up to 8 (one of 1,500
+// random configurations; Reference.BoundHoldsForEveryLobe).
 //
 //   variation  integral of the distance from the mean
 double error_estimate(double difference, double variation) {
   if (!(variation > 0) || !(difference > 0)) return std::fabs(difference);
+  constexpr double kSafety = 10;
   const double share = 200 * difference / variation;
-  return share < 1 ? variation * share * std::sqrt(share) : std::max(variation, difference);
+  return kSafety * (share < 1 ? variation * share * std::sqrt(share) : std::max(variation, difference));
 }
 
 class Cubature {
@@ -49,7 +52,11 @@ class Cubature {
   void run(double relative, double absolute, int max_evaluations) {
     for (std::size_t i = 0; i < fan_.triangles().size(); ++i) {
       const Fan::Triangle& t = fan_.triangles()[i];
-      push(evaluated({i, t.u_begin, t.u_end, 0, 1, {}}));
+      const int pieces = fan_.is_stretched() ? 4 : 1;  // one cell's nodes may all miss a ridge
+      for (int k = 0; k < pieces; ++k) {
+        const double width = (t.u_end - t.u_begin) / pieces;
+        push(evaluated({i, t.u_begin + k * width, k + 1 == pieces ? t.u_end : t.u_begin + (k + 1) * width, 0, 1, {}}));
+      }
     }
     resum();
     while (!heap_.empty() && evaluations_ < max_evaluations) {
@@ -67,7 +74,9 @@ class Cubature {
   double bound() const {
     // Rounding: of the lobe's arithmetic in every term, and of the light's vertices along its outline.
     const double ulp = std::numeric_limits<double>::epsilon();
-    return error_ + ulp * (4 * (8 + lobe_.sensitivity()) * magnitude_ + 4 * region_.magnification * boundary_);
+    // And what is below 0 was missed elsewhere.
+    const double missed = std::max(-(value_.plain * factors_.plain), 0.0);
+    return error_ + missed + ulp * (4 * (8 + lobe_.sensitivity()) * magnitude_ + 4 * region_.magnification * boundary_);
   }
 
  private:

@@ -1,6 +1,8 @@
 #include "steradian/polygon_light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "integrals/irradiance.h"
@@ -35,13 +37,13 @@ void check_contour(const Contour& contour, const std::string& name) {
     if (!is_finite(contour[i])) throw Error(name + "[" + std::to_string(i) + "]", "a coordinate is not finite");
 }
 
-void check_plane(const Contour& contour, const std::string& name, Vec3d origin, Vec3d normal, double size) {
+void check_plane(const Contour& contour, const std::string& name, Vec3d origin, Vec3d normal, double tolerance) {
   for (std::size_t i = 0; i < contour.size(); ++i) {
     const Vec3d& v = contour[i];
     // Coordinates come with the rounding of single precision, which grows with the distance from the origin.
     const double rounding = 2e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
     const double off = std::fabs(dot(v - origin, normal));
-    if (off > 1e-5 * size + rounding)
+    if (off > tolerance + rounding)
       throw Error(name + "[" + std::to_string(i) + "]",
                   "the vertex is " + std::to_string(off) + " off the polygon's plane",
                   "a light must be flat; split it into triangles");
@@ -60,6 +62,9 @@ S irradiance(const PreparedPolygon& light, Vec3d position, Vec3d normal) {
 int PreparedPolygon::side_of(Vec3d p) const {
   if (vertices.empty()) return 0;
   const double height = dot(p - centroid, normal);
+  // Nearer to the plane than the rounding of what it is computed from: neither side is to be trusted with the outline.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * (length(p) + length(centroid));
+  if (std::fabs(height) <= rounding) return 0;
   return (height > 0) - (height < 0);
 }
 
@@ -82,7 +87,9 @@ PreparedPolygon prepare_polygon(const PolygonLight& light) {
   if (outline.size() < 3 || !(length(area) > 1e-14 * size * size)) return result;
   result.normal = normalized(area);
   result.area = length(area);
-  check_plane(outline, "vertices", result.centroid, result.normal, size);
+  // The thinner the outline, the less its own numbers say of its plane: the area's rounding tilts the normal.
+  const double tolerance = size * (1e-5 + 16 * std::numeric_limits<double>::epsilon() * size * size / result.area);
+  check_plane(outline, "vertices", result.centroid, result.normal, tolerance);
 
   const auto append = [&](const Contour& contour, bool reversed) {
     if (reversed)
@@ -95,7 +102,7 @@ PreparedPolygon prepare_polygon(const PolygonLight& light) {
   for (std::size_t h = 0; h < light.holes.size(); ++h) {
     const Contour hole = without_repeats(light.holes[h]);
     if (hole.size() < 3) continue;
-    check_plane(hole, "holes[" + std::to_string(h) + "]", result.centroid, result.normal, size);
+    check_plane(hole, "holes[" + std::to_string(h) + "]", result.centroid, result.normal, tolerance);
     const double along = dot(area_vector(hole), result.normal);
     result.area -= std::fabs(along);
     append(hole, along < 0);  // in walk order a hole runs counter-clockwise as seen from the lit side

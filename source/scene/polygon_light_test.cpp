@@ -166,4 +166,36 @@ TEST(PolygonIrradiance, OrderOfHolesAndOfTheirVerticesDoesNotMatter) {
   EXPECT_LT(expected, without - 0.05);
 }
 
+// However thin a flat outline is, its own rounding is not held against it.
+TEST(PreparedPolygon, TakesThinOutlines) {
+  Random random(13);
+  for (double width = 1; width > 1e-13; width /= 10)
+    for (int i = 0; i < 200; ++i) {
+      const Frame frame = Frame::from_normal(random_direction(random));
+      const Vec3d centre = random_direction(random);
+      PolygonLight light;
+      for (int k = 0; k < 12; ++k) light.vertices.push_back(centre + frame.x * std::cos(k * M_PI / 6) + frame.y * (width * std::sin(k * M_PI / 6)));
+      ASSERT_NO_THROW(EXPECT_FALSE(prepare_polygon(light).vertices.empty())) << width;
+    }
+}
+
+// Nearer to the plane than rounding a point has no side: its arcs run this way round or that, whatever a sign says.
+TEST(PreparedPolygon, APointInItsPlaneHasNoSide) {
+  Random random(14);
+  for (int i = 0; i < 2000; ++i) {
+    const auto c = reference::random_configuration(random);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    Vec3d p{};
+    double weights = 0;
+    for (const Vec3d& v : c.light.vertices) {
+      const double w = random.uniform();
+      p += v * w;
+      weights += w;
+    }
+    p = p / weights;
+    EXPECT_EQ(light.side_of(p), 0) << i << " " << c.kind;
+    EXPECT_NE(light.side_of(p + light.normal * 1e-6 * (1 + length(p))), 0) << i << " " << c.kind;
+  }
+}
+
 }  // namespace steradian
