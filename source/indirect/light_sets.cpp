@@ -198,20 +198,39 @@ TexelIrradiance irradiance_at(const ShadowMap& map, const LobeArrays& lobes, std
           largest(glossy_brightness(map, lobes, i)) * half * inverse};
 }
 
+namespace {
+
+// Texel k of many, by the golden ratio, so that the choice does not follow the rows of a map.
+std::size_t spread(std::size_t k, std::size_t count) {
+  const double x = 0.5 + static_cast<double>(k) * 0.61803398874989485;
+  return std::min(static_cast<std::size_t>((x - std::floor(x)) * static_cast<double>(count)), count - 1);
+}
+
+}  // namespace
+
+double travelled(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers) {
+  constexpr std::size_t kLights = 256;
+  double sum = 0, weighted = 0;
+  for (std::size_t a = 0; a < receivers.size(); ++a)
+    for (std::size_t b = 0; b < std::min(kLights, map.count); ++b) {
+      const std::size_t i = spread(b, map.count);
+      const TexelIrradiance e = irradiance_at(map, lobes, i, receivers[a]);
+      const double weight = static_cast<double>(e.diffuse) + static_cast<double>(e.glossy);
+      sum += weight;
+      weighted += weight * static_cast<double>(length(map.position[i] - receivers[a]));
+    }
+  return sum > 0 ? weighted / sum : 0;
+}
+
 double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers, int stride, double kept) {
   constexpr std::size_t kLights = 512;
   const std::size_t places = receivers.size(), lights = std::min(kLights, map.count);
   if (map.count == 0 || places == 0 || !(kept > 0)) return 0;
   const double weight = stride * stride, share = static_cast<double>(map.count) / static_cast<double>(lights) / weight;
-  // By the golden ratio, so that the choice does not follow the rows of a map.
-  const auto spread = [&](std::size_t k) {
-    const double x = 0.5 + static_cast<double>(k) * 0.61803398874989485;
-    return std::min(static_cast<std::size_t>((x - std::floor(x)) * static_cast<double>(map.count)), map.count - 1);
-  };
   std::vector<double> values;
   for (std::size_t a = 0; a < places; ++a)
     for (std::size_t b = 0; b < lights; ++b) {
-      const TexelIrradiance e = irradiance_at(map, lobes, spread(b), receivers[a]);
+      const TexelIrradiance e = irradiance_at(map, lobes, spread(b, map.count), receivers[a]);
       if (e.diffuse > 0) values.push_back(weight * static_cast<double>(e.diffuse));
       if (e.glossy > 0) values.push_back(weight * static_cast<double>(e.glossy));
     }

@@ -92,6 +92,10 @@ std::vector<LightSet> make_sets(const ShadowMap& map, const LobeArrays& lobes, c
 // so many. It follows the receivers slowly: a camera that moves changes ranges by little.
 double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers, int stride, double kept);
 
+// How far the light that reaches these receivers has come from the virtual lights: the mean distance, weighted by their
+// irradiance. Light varies on this scale. 0 where none arrives.
+double travelled(const ShadowMap& map, const LobeArrays& lobes, const VectorArray& receivers);
+
 // Irradiance at p of one texel by its diffuse and by its glossy lobe: largest channel, mean Fresnel.
 struct TexelIrradiance {
   float diffuse, glossy;

@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 
@@ -49,6 +50,41 @@ VectorArray some_receivers(const FrameSurfaces& s) {
     }
   places.resize(n);
   return places;
+}
+
+// Distance between the surfaces of neighbouring pixels: the median over places spread over the picture.
+double pixel_spacing(const FrameSurfaces& s) {
+  constexpr int kAcross = 32, kDown = 18;
+  std::vector<double> spacings;
+  for (int j = 0; j < kDown; ++j)
+    for (int i = 0; i < kAcross; ++i) {
+      const int x = (2 * i + 1) * s.raster.width / (2 * kAcross), y = (2 * j + 1) * s.raster.height / (2 * kDown);
+      if (x + 1 >= s.raster.width || y + 1 >= s.raster.height) continue;
+      const std::size_t at = s.raster.at(x, y), right = s.raster.at(x + 1, y), below = s.raster.at(x, y + 1);
+      const Vec3f n = s.normal[at];
+      if (!(dot(n, n) > 0) || !(dot(n, s.normal[right]) > 0.9f) || !(dot(n, s.normal[below]) > 0.9f)) continue;  // another surface
+      spacings.push_back(0.5 * static_cast<double>(length(s.position[right] - s.position[at]) + length(s.position[below] - s.position[at])));
+    }
+  if (spacings.empty()) return 0;
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
+}
+
+// Side of the pattern that the picture bears: the filter joins what lies within four sides, and light must not vary much over that.
+constexpr double kFilterShare = 0.25;  // of the way that light comes: what 1280 pixels across `ring` have with the whole pattern
+int pattern_side(int wanted, double spacing, double way) {
+  int side = wanted;
+  while (side > 1 && 4 * side * spacing > kFilterShare * way) side /= 2;
+  return side;
+}
+
+// Virtual lights that a pixel keeps: as many as a pattern of the side that was wanted would have joined, as far as a frame of
+// 1080p would have taken that time.
+double kept_pairs(const RenderOptions& options, int side) {
+  const double joined = static_cast<double>(options.indirect.interleave) / side;
+  const double room = 1920.0 * 1080.0 / (static_cast<double>(options.width) * options.height);
+  return options.indirect.kept_pairs * std::clamp(room, 1.0, joined * joined);
 }
 
 }  // namespace
@@ -115,22 +151,25 @@ void Pipeline::add_to(Picture& picture) {
 
 void Pipeline::add_sum(Picture& picture) {
   const IndirectOptions& o = options_.indirect;
-  const Layout layout(options_.width, options_.height, o.interleave);
   const ShadowMap map = timed("shadow map", [&] { return make_shadow_map(scene_, rays_, o.virtual_lights); });
   const LobeArrays lobes = timed("virtual lights", [&] {
     LobeArrays result(map.alpha.size());
     virtual_light_table_for(active_simd()).prepare(map, tables_, result);
     return result;
   });
+  int side = o.interleave;
   const std::vector<LightSet> sets = timed("ranges", [&] {
+    const VectorArray receivers = some_receivers(surfaces_);
+    if (o.filter) side = pattern_side(o.interleave, pixel_spacing(surfaces_), travelled(map, lobes, receivers));
     SetOptions set;
     set.mode = o.mode;
-    set.stride = o.interleave;
-    set.threshold = threshold_for(map, lobes, some_receivers(surfaces_), o.interleave, o.kept_pairs);
+    set.stride = side;
+    set.threshold = threshold_for(map, lobes, receivers, side, kept_pairs(options_, side));
     set.soften = o.soften;
     set.seed = options_.seed;
     return make_sets(map, lobes, set);
   });
+  const Layout layout(options_.width, options_.height, side);
   Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
   LightingOptions lighting;
   lighting.mode = o.mode;
@@ -145,14 +184,14 @@ void Pipeline::add_sum(Picture& picture) {
   receivers = {};  // its memory is the next planes'
   Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
   lit.light = {};
-  if (o.filter && o.interleave > 1)
+  if (o.filter && side > 1)
     light = timed("filter", [&] {
       FloatArray width(surfaces_.raster.size());
       tbb::parallel_for(std::size_t{0}, width.size() / 16, [&](std::size_t block) {  // a pitch is a multiple of 16
         for (std::size_t i = 16 * block; i < 16 * block + 16; ++i)
           width[i] = surfaces_.f0.x[i] + surfaces_.f0.y[i] + surfaces_.f0.z[i] + surfaces_.f90.x[i] > 0 ? surfaces_.alpha[i] : -1.0f;
       });
-      return filter(surfaces_, width, o.interleave, light);
+      return filter(surfaces_, width, side, light);
     });
   timed("resolve", [&] {
     VectorArray radiance(surfaces_.raster.size());
