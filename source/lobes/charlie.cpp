@@ -8,7 +8,8 @@ namespace steradian::lobes {
 namespace {
 
 // Lambda of the shadowing: a curve fitted by its authors, for the roughest and the smoothest cloth, blended.
-double lambda(double cos_theta, double alpha) {
+double lambda(double cosine, double alpha) {
+  const double cos_theta = std::clamp(cosine, 0.0, 1.0);  // of a unit vector up to rounding
   const double t = (1 - alpha) * (1 - alpha);
   const auto blend = [t](double smooth, double rough) { return t * smooth + (1 - t) * rough; };
   const double a = blend(25.3245, 21.5473), b = blend(3.32435, 3.82987), c = blend(0.16801, 0.19823);
@@ -25,7 +26,7 @@ double charlie_lobe(double given_alpha, Vec3d v, Vec3d l) {
   const Vec3d h = normalized(l + v);
   const double sine = std::sqrt(h.x * h.x + h.y * h.y);
   const double d = (2 + 1 / alpha) * std::pow(sine, 1 / alpha) / (2 * std::numbers::pi);
-  return d / (4 * v.z * (1 + lambda(v.z, alpha) + lambda(std::min(l.z, 1.0), alpha)));
+  return d / (4 * v.z * (1 + lambda(v.z, alpha) + lambda(l.z, alpha)));
 }
 
 }  // namespace steradian::lobes
