@@ -634,7 +634,135 @@ fn steradian_lambert_lobe(l: vec3f) -> f32 {
     return max(l.z, 0.0) * steradian_inverse_pi();
 }
 
+// Schlick's (1 - v.h)^5 in one direction of the light. Unit vectors; 0 where l = v, 1 where l = -v.
+fn steradian_lambert_grazing(l: vec3f, v: vec3f) -> f32 {
+    let x = 1.0 - sqrt(clamp(0.5 + 0.5 * dot(l, v), 0.0, 1.0));
+    let x2 = x * x;
+    return x2 * x2 * x;
+}
+
+// The same averaged over an even sky, each direction by its cosine.
+//
+//   v_z      cosine of the view, in [0, 1]
+//
+// Error: 9.0e-6. The test LambertUnderFresnel.MeanOverTheSkyIsThatOfQuadrature finds the polynomial again.
+fn steradian_lambert_grazing_of_sky(v_z: f32) -> f32 {
+    let t = 1.0 - clamp(v_z, 0.0, 1.0);
+    return 8.2571e-5 + t * (2.01647e-3 + t * (9.33829e-3 + t * (7.74731e-3 + t * 8.97984e-3)));
+}
+
+// The same averaged over a light, each direction by its cosine. Approximate: in the light's mean direction, blended with
+// the sky's mean by the share of the sky that the light is.
+//
+//   e        irradiance vector of the light above the horizon; e.z its irradiance, in [0, pi]
+//   v        unit view
+//
+// Exact for small lights and for the whole sky. Error: see docs/accuracy.md, "Diffuse under Fresnel".
+// Degenerate: no light gives a number in [0, 1].
+fn steradian_lambert_grazing_of_light(e: vec3f, v: vec3f) -> f32 {
+    let mean = e * inverseSqrt(max(dot(e, e), steradian_smallest_square()));
+    let in_mean = steradian_lambert_grazing(mean, v);
+    let share = clamp(e.z * steradian_inverse_pi(), 0.0, 1.0);
+    return in_mean + (steradian_lambert_grazing_of_sky(v.z) - in_mean) * share;
+}
+
+// Irradiance that reaches a diffuse lobe below a dielectric's boundary, of what it would get at F = F0.
+//
+//   loss     (F90 - F0) / (1 - F0) of the boundary; 0: what the lobe gets does not depend on the light's direction
+//   e, v     as for lambert_grazing_of_light
+//
+// Source: glTF 2.0, appendix B: diffuse light weighs 1 - F(v.h).
+fn steradian_lambert_irradiance_below(e: vec3f, v: vec3f, loss: f32) -> f32 {
+    return e.z * (1.0 - loss * steradian_lambert_grazing_of_light(e, v));
+}
+
 // ======== lobe: lobes of surfaces ========
+
+// ==== charlie ====
+
+// Charlie: the sheen of cloth, glTF's KHR_materials_sheen.
+//
+// Frame: z the surface normal; l light and v view unit and pointing away from the surface. Brightest where light or view
+// grazes, and dark about the mirror direction: no peak, but a hole.
+// Source: Estevez, Kulla, "Production friendly microfacet sheen BRDF", 2017, eq. 2 to 4 and table 1.
+
+// The lobe of one view.
+//   exponent  of the half vector's sine squared: 1 / (2 alpha)
+//   scale     what multiplies its power over 1 + both shadowings: (2 + 1 / alpha) / (8 pi v_z); 0 for a view below
+//   a ... e   the curve of the shadowing's logarithm, blended for alpha
+//   middle    that curve at 1/2
+//   masking   the view's own 1 + Lambda
+struct SteradianCharlieLobe {
+    view: vec3f,
+    exponent: f32,
+    scale: f32,
+    a: f32,
+    b: f32,
+    c: f32,
+    d: f32,
+    e: f32,
+    middle: f32,
+    masking: f32,
+}
+
+// The authors' curve: a / (1 + b x^c) + d x + e.
+//
+//   x        in [0, 1/2]; below 1.0e-9 it is taken there, where the power is not yet 0 but the lobe is
+fn steradian_charlie_curve(lobe: SteradianCharlieLobe, x: f32) -> f32 {
+    let power = exp(lobe.c * log(max(x, 1.0e-9)));
+    return lobe.a / (1.0 + lobe.b * power) + lobe.d * x + lobe.e;
+}
+
+// Lambda of the shadowing, fitted by its authors; the curve's mirror image beyond cosine 1/2.
+//
+//   cosine   of light or view; outside of [0, 1] (by rounding) it is taken at the end
+fn steradian_charlie_lambda(lobe: SteradianCharlieLobe, cosine: f32) -> f32 {
+    let x = clamp(cosine, 0.0, 1.0);
+    let steep = x > 0.5;
+    let curve = steradian_charlie_curve(lobe, select(x, 1.0 - x, steep));
+    return exp(select(curve, 2.0 * lobe.middle - curve, steep));
+}
+
+// Prepares the lobe of a view.
+//
+//   v        unit view
+//   alpha    roughness squared in (0, 1], taken to be at least 0.04: below, the model reflects more than arrives and only
+//            within a few degrees of the horizon
+//
+// Degenerate: a view that is not above the surface makes a lobe of 0.
+fn steradian_charlie_prepare(v: vec3f, alpha: f32) -> SteradianCharlieLobe {
+    let width = clamp(alpha, 0.04, 1.0);
+    let t = (1.0 - width) * (1.0 - width);
+    var lobe: SteradianCharlieLobe;
+    lobe.view = v;
+    lobe.exponent = 0.5 / width;
+    lobe.scale = select(0.0, (2.0 + 1.0 / width) * 0.0397887357729738339 / max(v.z, 1.0e-6), v.z > 0.0);
+    lobe.a = 21.5473 + t * (25.3245 - 21.5473);
+    lobe.b = 3.82987 + t * (3.32435 - 3.82987);
+    lobe.c = 0.19823 + t * (0.16801 - 0.19823);
+    lobe.d = -1.97760 + t * (1.97760 - 1.27393);
+    lobe.e = -4.32054 + t * (4.32054 - 4.85967);
+    lobe.middle = 0.0;
+    lobe.middle = steradian_charlie_curve(lobe, 0.5);
+    lobe.masking = 0.0;
+    lobe.masking = 1.0 + steradian_charlie_lambda(lobe, v.z);
+    return lobe;
+}
+
+// BRDF of colour 1 times the light's cosine, D / (4 v_z (1 + Lambda_v + Lambda_l)).
+//
+//   l        unit; 0 where it is not above the surface
+//
+// Degenerate: l = -v has no half vector and gives a finite number.
+// Error: see docs/accuracy.md, "Charlie lobe".
+fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
+    let h = l + lobe.view;
+    let across = h.x * h.x + h.y * h.y;
+    let sine2 = across / max(across + h.z * h.z, steradian_smallest_divisor());
+    let power = exp(lobe.exponent * log(clamp(sine2, steradian_smallest_divisor(), 1.0)));
+    let shadowed = lobe.scale * power / (lobe.masking + steradian_charlie_lambda(lobe, l.z));
+    return select(0.0, shadowed, l.z > 0.0);
+}
 
 // ==== lobe_product ====
 
@@ -3005,6 +3133,103 @@ fn steradian_ltc_charlie_magnitude(place: vec2f) -> vec2f {
 }
 
 // ======== ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann ========
+
+// ==== charlie_cubature ====
+
+// Charlie's sheen under an area light: cubature over the light's outline, fanned about its mean direction.
+//
+// The lobe is smooth, with a hole where others have a peak; no transformed cosine is like it, but a few nodes are.
+// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = polygon_edge(start, end),
+// the second the nodes.
+//   CharlieCubature c = charlie_cubature_begin(charlie_prepare(v, alpha), e, facing);
+//   for each edge: c = charlie_cubature_edge(c, start, end);
+//   real radiance = charlie_cubature_finish(c);
+
+// The state of the second walk.
+//   centre   where the light is on average: what its outline is fanned about
+//   facing   1.0; -1.0 where the outline is walked the wrong way round
+//   sum      over the nodes so far
+//   at_centre  the centre's weight, which all edges share
+struct SteradianCharlieCubature {
+    lobe: SteradianCharlieLobe,
+    centre: vec3f,
+    facing: f32,
+    sum: f32,
+    at_centre: f32,
+}
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+fn steradian_charlie_cubature_begin(lobe: SteradianCharlieLobe, e: vec3f, facing: f32) -> SteradianCharlieCubature {
+    let inward = e * facing;
+    let length2 = dot(inward, inward);
+    var c: SteradianCharlieCubature;
+    c.lobe = lobe;
+    c.centre = select(vec3f(0.0, 0.0, 1.0), inward * inverseSqrt(max(length2, steradian_smallest_square())), length2 > steradian_smallest_square());
+    c.facing = facing;
+    c.sum = 0.0;
+    c.at_centre = 0.0;
+    return c;
+}
+
+// A direction on the way from the centre to the rim, by the share of 1 - cosine.
+fn steradian_charlie_cubature_inward(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f32) -> vec3f {
+    let cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
+// Adds the nodes of an arc of at most a quarter of a circle.
+//
+//   a, b     unit directions of its ends, in walk order
+//
+// Along the chord, whose points' directions have a fan of det(c, a, b) / |u|^2 per length: 2 to 4 nodes of Gauss for
+// angles up to 0.25, 0.8 and beyond. Inwards, in the cosine: Radau's rule of four nodes, of which the centre is one.
+fn steradian_charlie_cubature_arc(c: SteradianCharlieCubature, a: vec3f, b: vec3f) -> SteradianCharlieCubature {
+    var next = c;
+    let cosine = dot(a, b);
+    let n = 2.0 + select(0.0, 1.0, cosine < 0.968912421710644784) + select(0.0, 1.0, cosine < 0.696706709347165421);
+    let fan = dot(c.centre, cross(a, b)) * c.facing;
+    for (var j: i32 = 0; j < 4; j++) {
+        let present = n > f32(j) + 0.5 && abs(fan) > 0.0;
+        if (present) {
+            let rule = select(select(steradian_gauss_legendre_node(2, j), steradian_gauss_legendre_node(3, j), n > 2.5), steradian_gauss_legendre_node(4, j), n > 3.5);
+            let u = a + (b - a) * rule.x;
+            let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+            let rim = u * sqrt(inverse2);
+            let rim_cosine = dot(rim, c.centre);
+            let aside = rim - c.centre * rim_cosine;
+            let outward = aside * inverseSqrt(max(dot(aside, aside), steradian_smallest_divisor()));
+            let weight = select(0.0, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), present);
+            next.at_centre = next.at_centre + 0.0625 * weight;
+            var radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            next.sum = next.sum + weight * radial;
+        }
+    }
+    return next;
+}
+
+// Adds the nodes of one edge, or of an arc of the horizon; one longer than a quarter of a circle in two halves.
+fn steradian_charlie_cubature_edge(c: SteradianCharlieCubature, a: vec3f, b: vec3f) -> SteradianCharlieCubature {
+    let wide = dot(a, b) < 0.0;
+    var middle = a + b;
+    middle = select(b, middle * inverseSqrt(max(dot(middle, middle), steradian_smallest_divisor())), wide);
+    var next = steradian_charlie_cubature_arc(c, a, middle);
+    if (wide) {
+        next = steradian_charlie_cubature_arc(next, middle, b);
+    }
+    return next;
+}
+
+// Radiance of colour 1 for radiance 1, at least 0.
+//
+// Error: see docs/accuracy.md, "Sheen".
+fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
+    return max(c.sum + c.at_centre * steradian_charlie_lobe(c.lobe, c.centre), 0.0);
+}
 
 // ==== ggx_closed_form ====
 

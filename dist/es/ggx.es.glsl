@@ -26,6 +26,103 @@
 // OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
 // SOFTWARE.
 
+// ==== charlie_cubature ====
+
+// Charlie's sheen under an area light: cubature over the light's outline, fanned about its mean direction.
+//
+// The lobe is smooth, with a hole where others have a peak; no transformed cosine is like it, but a few nodes are.
+// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = steradian_polygon_edge(start, end),
+// the second the nodes.
+//   SteradianCharlieCubature c = steradian_charlie_cubature_begin(steradian_charlie_prepare(v, alpha), e, facing);
+//   for each edge: c = steradian_charlie_cubature_edge(c, start, end);
+//   real radiance = steradian_charlie_cubature_finish(c);
+
+// The state of the second walk.
+//   centre   where the light is on average: what its outline is fanned about
+//   facing   1.0; -1.0 where the outline is walked the wrong way round
+//   sum      over the nodes so far
+//   at_centre  the centre's weight, which all edges share
+struct SteradianCharlieCubature {
+    SteradianCharlieLobe lobe;
+    vec3 centre;
+    float facing;
+    float sum;
+    float at_centre;
+};
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+SteradianCharlieCubature steradian_charlie_cubature_begin(SteradianCharlieLobe lobe, vec3 e, float facing) {
+    vec3 inward = e * facing;
+    float length2 = dot(inward, inward);
+    SteradianCharlieCubature c;
+    c.lobe = lobe;
+    c.centre = steradian_select(length2 > steradian_smallest_square(), inward * inversesqrt(max(length2, steradian_smallest_square())), vec3(0.0, 0.0, 1.0));
+    c.facing = facing;
+    c.sum = 0.0;
+    c.at_centre = 0.0;
+    return c;
+}
+
+// A direction on the way from the centre to the rim, by the share of 1 - cosine.
+vec3 steradian_charlie_cubature_inward(vec3 centre, vec3 outward, float rim_cosine, float share) {
+    float cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
+// Adds the nodes of an arc of at most a quarter of a circle.
+//
+//   a, b     unit directions of its ends, in walk order
+//
+// Along the chord, whose points' directions have a fan of det(c, a, b) / |u|^2 per length: 2 to 4 nodes of Gauss for
+// angles up to 0.25, 0.8 and beyond. Inwards, in the cosine: Radau's rule of four nodes, of which the centre is one.
+SteradianCharlieCubature steradian_charlie_cubature_arc(SteradianCharlieCubature c, vec3 a, vec3 b) {
+    SteradianCharlieCubature next = c;
+    float cosine = dot(a, b);
+    float n = 2.0 + steradian_select(cosine < 0.968912421710644784, 1.0, 0.0) + steradian_select(cosine < 0.696706709347165421, 1.0, 0.0);
+    float fan = dot(c.centre, cross(a, b)) * c.facing;
+    for (int j = 0; j < 4; j++) {
+        bool present = n > float(j) + 0.5 && abs(fan) > 0.0;
+        if (present) {
+            vec2 rule = steradian_select(n > 3.5, steradian_gauss_legendre_node(4, j), steradian_select(n > 2.5, steradian_gauss_legendre_node(3, j), steradian_gauss_legendre_node(2, j)));
+            vec3 u = a + (b - a) * rule.x;
+            float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+            vec3 rim = u * sqrt(inverse2);
+            float rim_cosine = dot(rim, c.centre);
+            vec3 aside = rim - c.centre * rim_cosine;
+            vec3 outward = aside * inversesqrt(max(dot(aside, aside), steradian_smallest_divisor()));
+            float weight = steradian_select(present, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), 0.0);
+            next.at_centre = next.at_centre + 0.0625 * weight;
+            float radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            next.sum = next.sum + weight * radial;
+        }
+    }
+    return next;
+}
+
+// Adds the nodes of one edge, or of an arc of the horizon; one longer than a quarter of a circle in two halves.
+SteradianCharlieCubature steradian_charlie_cubature_edge(SteradianCharlieCubature c, vec3 a, vec3 b) {
+    bool wide = dot(a, b) < 0.0;
+    vec3 middle = a + b;
+    middle = steradian_select(wide, middle * inversesqrt(max(dot(middle, middle), steradian_smallest_divisor())), b);
+    SteradianCharlieCubature next = steradian_charlie_cubature_arc(c, a, middle);
+    if (wide) {
+        next = steradian_charlie_cubature_arc(next, middle, b);
+    }
+    return next;
+}
+
+// Radiance of colour 1 for radiance 1, at least 0.
+//
+// Error: see docs/accuracy.md, "Sheen".
+float steradian_charlie_cubature_finish(SteradianCharlieCubature c) {
+    return max(c.sum + c.at_centre * steradian_charlie_lobe(c.lobe, c.centre), 0.0);
+}
+
 // ==== ggx_closed_form ====
 
 // The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and

@@ -26,6 +26,103 @@
 // OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
 // SOFTWARE.
 
+// ==== charlie_cubature ====
+
+// Charlie's sheen under an area light: cubature over the light's outline, fanned about its mean direction.
+//
+// The lobe is smooth, with a hole where others have a peak; no transformed cosine is like it, but a few nodes are.
+// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = polygon_edge(start, end),
+// the second the nodes.
+//   CharlieCubature c = charlie_cubature_begin(charlie_prepare(v, alpha), e, facing);
+//   for each edge: c = charlie_cubature_edge(c, start, end);
+//   real radiance = charlie_cubature_finish(c);
+
+// The state of the second walk.
+//   centre   where the light is on average: what its outline is fanned about
+//   facing   1.0; -1.0 where the outline is walked the wrong way round
+//   sum      over the nodes so far
+//   at_centre  the centre's weight, which all edges share
+struct SteradianCharlieCubature {
+    lobe: SteradianCharlieLobe,
+    centre: vec3f,
+    facing: f32,
+    sum: f32,
+    at_centre: f32,
+}
+
+// Starts the second walk.
+//
+//   e        sum of the edge vectors of the first walk, in the order in which the edges were walked
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+fn steradian_charlie_cubature_begin(lobe: SteradianCharlieLobe, e: vec3f, facing: f32) -> SteradianCharlieCubature {
+    let inward = e * facing;
+    let length2 = dot(inward, inward);
+    var c: SteradianCharlieCubature;
+    c.lobe = lobe;
+    c.centre = select(vec3f(0.0, 0.0, 1.0), inward * inverseSqrt(max(length2, steradian_smallest_square())), length2 > steradian_smallest_square());
+    c.facing = facing;
+    c.sum = 0.0;
+    c.at_centre = 0.0;
+    return c;
+}
+
+// A direction on the way from the centre to the rim, by the share of 1 - cosine.
+fn steradian_charlie_cubature_inward(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f32) -> vec3f {
+    let cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
+// Adds the nodes of an arc of at most a quarter of a circle.
+//
+//   a, b     unit directions of its ends, in walk order
+//
+// Along the chord, whose points' directions have a fan of det(c, a, b) / |u|^2 per length: 2 to 4 nodes of Gauss for
+// angles up to 0.25, 0.8 and beyond. Inwards, in the cosine: Radau's rule of four nodes, of which the centre is one.
+fn steradian_charlie_cubature_arc(c: SteradianCharlieCubature, a: vec3f, b: vec3f) -> SteradianCharlieCubature {
+    var next = c;
+    let cosine = dot(a, b);
+    let n = 2.0 + select(0.0, 1.0, cosine < 0.968912421710644784) + select(0.0, 1.0, cosine < 0.696706709347165421);
+    let fan = dot(c.centre, cross(a, b)) * c.facing;
+    for (var j: i32 = 0; j < 4; j++) {
+        let present = n > f32(j) + 0.5 && abs(fan) > 0.0;
+        if (present) {
+            let rule = select(select(steradian_gauss_legendre_node(2, j), steradian_gauss_legendre_node(3, j), n > 2.5), steradian_gauss_legendre_node(4, j), n > 3.5);
+            let u = a + (b - a) * rule.x;
+            let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+            let rim = u * sqrt(inverse2);
+            let rim_cosine = dot(rim, c.centre);
+            let aside = rim - c.centre * rim_cosine;
+            let outward = aside * inverseSqrt(max(dot(aside, aside), steradian_smallest_divisor()));
+            let weight = select(0.0, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), present);
+            next.at_centre = next.at_centre + 0.0625 * weight;
+            var radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            next.sum = next.sum + weight * radial;
+        }
+    }
+    return next;
+}
+
+// Adds the nodes of one edge, or of an arc of the horizon; one longer than a quarter of a circle in two halves.
+fn steradian_charlie_cubature_edge(c: SteradianCharlieCubature, a: vec3f, b: vec3f) -> SteradianCharlieCubature {
+    let wide = dot(a, b) < 0.0;
+    var middle = a + b;
+    middle = select(b, middle * inverseSqrt(max(dot(middle, middle), steradian_smallest_divisor())), wide);
+    var next = steradian_charlie_cubature_arc(c, a, middle);
+    if (wide) {
+        next = steradian_charlie_cubature_arc(next, middle, b);
+    }
+    return next;
+}
+
+// Radiance of colour 1 for radiance 1, at least 0.
+//
+// Error: see docs/accuracy.md, "Sheen".
+fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
+    return max(c.sum + c.at_centre * steradian_charlie_lobe(c.lobe, c.centre), 0.0);
+}
+
 // ==== ggx_closed_form ====
 
 // The GGX lobe over a light in closed form: what the distribution of half vectors alone sends, without shadowing and

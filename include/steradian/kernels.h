@@ -43,11 +43,13 @@ struct Kernels {
 #include "outline/horizon_clip.glsl"
 #include "outline/punctual.glsl"
 
+#include "lobe/charlie.glsl"
 #include "lobe/lambert.glsl"
 #include "lobe/lobe_product.glsl"
 #include "lobe/microfacet.glsl"
 #include "lobe/phong.glsl"
 
+#include "integral/charlie_cubature.glsl"
 #include "integral/ggx_closed_form.glsl"
 #include "integral/ggx_cubature.glsl"
 #include "integral/moment.glsl"

@@ -13,7 +13,7 @@ namespace steradian {
 // representative_point   for comparison: Karis 2013, no table at all                               "representative-point"
 enum class LtcMethod { classic, compact, clipless, representative_point };
 
-// Whether a method serves a material: isotropic GGX with shadowing; compact also Charlie's sheen.
+// Whether a method serves a material: isotropic GGX with shadowing.
 bool serves(LtcMethod method, const Material& material);
 
 // Radiance towards the view from a light of its radiance, Fresnel by the split into n_A and f_A.

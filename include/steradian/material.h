@@ -20,6 +20,7 @@ constexpr double alpha_from_roughness(double roughness) { return std::max(roughn
 struct Material {
   Brdf brdf = Brdf::lambert;
   Vec3d albedo{1, 1, 1};    // lambert, phong, charlie, lobe_product
+  double fresnel_loss = 0;  // lambert: under a dielectric, albedo times 1 - fresnel_loss (1 - v.h)^5
   double exponent = 1;      // phong, blinn_phong, lobe_product: n >= 0
   double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it, at least kSmallestAlpha; charlie: alpha_x
   double alpha_y = 0.25;

@@ -14,6 +14,7 @@ enum class Method {
   closed_form, ltc, ltc_compact, ltc_clipless, representative_point,  // GGX
   half_vector,                                                      // Blinn-Phong, Beckmann, GGX
   matched_lobe,                                                     // products of Phong lobes
+  cubature,                                                         // Charlie
   reference, sampled                                                // every lobe
 };
 

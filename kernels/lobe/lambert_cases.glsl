@@ -10,3 +10,11 @@ vec4 case_lambert_radiance(CaseInput i) { return case_of_real(lambert_radiance(i
 //   a.xyz  direction
 // Error: relative
 vec4 case_lambert_lobe(CaseInput i) { return case_of_real(lambert_lobe(case_xyz(i.a))); }
+
+// Lambert lobe under a dielectric boundary
+//   a.xyz  upper_direction
+//   b.xyz  upper_direction
+//   a.w    range(0, 1)
+vec4 case_lambert_irradiance_below(CaseInput i) {
+    return case_of_real(lambert_irradiance_below(case_xyz(i.a), case_xyz(i.b), i.a.w));
+}

@@ -96,7 +96,8 @@ Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions
       threads_(threads),
       tables_(ltc_compact_pack_tables()),
       surfaces_(Raster{options.width, options.height}),
-      materials_(needs_materials(options) ? surfaces_.raster.size() : 0) {
+      materials_(needs_materials(options) ? surfaces_.raster.size() : 0),
+      fresnel_loss_(materials_.size()) {
   blue_noise();  // a table, not a part of the frame
 }
 
@@ -131,8 +132,10 @@ void Pipeline::take(const SurfaceTile& tile, TileArea area) {
                                (weighs(get(tile.albedo, slot)) || weighs(get(tile.f0, slot)) || weighs(get(tile.f90, slot)));
       if (!takes_light)
         surfaces_.normal.put(i, {0, 0, 0});
-      else if (!materials_.empty())
+      else if (!materials_.empty()) {
         materials_[i] = tile.material[slot];
+        fresnel_loss_[i] = tile.fresnel_loss[slot];
+      }
     }
 }
 
@@ -225,6 +228,7 @@ void Pipeline::add_true(Picture& picture) {
       if (materials_[i] == nullptr) return;
       Surface surface = surface_of(surfaces_, i);
       surface.material = materials_[i];
+      surface.fresnel_loss = fresnel_loss_[i];
       Vec3d radiance;
       if (path) {
         reference::Random random(options_.seed, pixel * 2 + 1);

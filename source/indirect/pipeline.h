@@ -35,7 +35,8 @@ class Pipeline {
   const int threads_;
   const LtcPackTables tables_;
   FrameSurfaces surfaces_;
-  std::vector<const SurfaceMaterial*> materials_;  // path only
+  std::vector<const SurfaceMaterial*> materials_;  // ground truth only
+  std::vector<float> fresnel_loss_;                // likewise
   std::vector<PassTime> passes_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrals/charlie.h"
 #include "integrals/matched_lobe.h"
 #include "shapes/polygon.h"
 #include "steradian/closed_form.h"
@@ -20,6 +21,7 @@ bool every_lobe(const Material&) { return true; }
 bool phong_lobes(const Material& m) { return m.brdf == Brdf::phong; }
 bool plain_phong(const Material& m) { return m.brdf == Brdf::phong && !m.foreshortening; }
 bool ggx_lobes(const Material& m) { return m.brdf == Brdf::ggx; }
+bool sheen(const Material& m) { return m.brdf == Brdf::charlie; }
 bool products(const Material& m) { return m.brdf == Brdf::lobe_product; }
 bool half_vector_lobes(const Material& m) {
   return m.brdf == Brdf::blinn_phong || m.brdf == Brdf::beckmann || m.brdf == Brdf::ggx;
@@ -77,6 +79,21 @@ template <LtcMethod ltc_method, Method method>
 RadianceResult ltc(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
   const auto evaluate = options.precision == Precision::float_ ? ltc_radiance_float : ltc_radiance;
   return answer(method, evaluate(ltc_method, light, at, m));
+}
+
+template <class S>
+double sheen_radiance(const PreparedPolygon& light, const ShadingPoint& at, double alpha) {
+  const Frame frame = Frame::from_normal(at.normal);
+  integrals::Charlie<S> integral;
+  integral.alpha = alpha;
+  using integrals::to_kernel;
+  const auto shading = integrals::shading_from<S>(shapes::lit_side(light, at.position), to_kernel<S>(frame.to_local(at.view)));
+  return static_cast<double>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral).x.v);
+}
+
+RadianceResult cubature(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
+  const auto evaluate = options.precision == Precision::float_ ? sheen_radiance<float> : sheen_radiance<double>;
+  return answer(Method::cubature, light.radiance * m.albedo * evaluate(light, at, m.alpha_x));
 }
 
 template <class S>
@@ -141,8 +158,8 @@ constexpr Row kMethods[] = {
     {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, kNoQualities,
      "linearly transformed cosines by the classic table of 64 x 64: 3 % rms", ltc<LtcMethod::classic, Method::ltc>,
      ltc_derivatives<LtcMethod::classic>},
-    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing; charlie", ltc_lobes<LtcMethod::compact>, true,
-     kNoQualities, "the same by a table of 4 KB about the mirrored view; sheen by a table of its own, 8 % rms",
+    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true,
+     kNoQualities, "the same by a table of 4 KB about the mirrored view",
      ltc<LtcMethod::compact, Method::ltc_compact>, ltc_derivatives<LtcMethod::compact>},
     {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true,
      kNoQualities, "ltc with a sphere's form factor in place of clipping, for comparison",
@@ -154,6 +171,8 @@ constexpr Row kMethods[] = {
      "edges split into 3, 4 or 8 great-circle arcs in half-vector space: 0.6 % rms; ggx takes shadowing and Fresnel at one direction", half_vector},
     {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high",
      "one stretched lobe of the product's height and curvature at its peak, by the series: 1 % of the product on most lights, more where its axes are near 90 degrees apart", matched_lobe},
+    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities,
+     "a few nodes about the light's mean direction: 0.1 % rms, 1 % on lights five times as large as their distance", cubature},
     {Method::reference, "reference", "all", every_lobe, false, kNoQualities,
      "adaptive quadrature (render: path tracing until converged); tells a bound of its error", reference},
     {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities,

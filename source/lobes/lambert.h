@@ -12,9 +12,13 @@ struct Lambert {
   static constexpr Key kKeys[] = {kAlbedo};
   static LobeAxis axis_and_width(const Material&, const ShadingPoint& at) { return {mirrored(at), 1}; }
 
-  Lambert(const Material& material, Vec3d) : colours{material.albedo} {}
+  Lambert(const Material& material, Vec3d view_) : colours{material.albedo, material.albedo * -material.fresnel_loss}, view(view_) {}
 
-  LobeValue evaluate(Vec3d l) const { return {Kernels<double>().lambert_lobe(to_kernel(l)).v, 0}; }
+  // What a dielectric above reflects away goes as Schlick's Fresnel does.
+  LobeValue evaluate(Vec3d l) const {
+    const auto plain = Kernels<double>().lambert_lobe(to_kernel(l));
+    return {plain.v, (plain * Kernels<double>().lambert_grazing(to_kernel(l), to_kernel(view))).v};
+  }
   Vec3d sample(double u, double v) const { return sample_cosine_hemisphere(u, v); }
   double pdf(Vec3d l) const { return pdf_cosine_hemisphere(l); }
   LobeShape shape() const { return shape_about_normal(); }
@@ -22,6 +26,7 @@ struct Lambert {
   std::array<Vec3d, 2> ending_planes() const { return no_planes(); }
 
   Colours colours;
+  Vec3d view;
 };
 
 }  // namespace steradian::lobes

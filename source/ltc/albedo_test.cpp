@@ -1,4 +1,4 @@
-// Albedos, multiple scattering, sheen: by table or by few nodes, against plain quadrature of the reference's lobes.
+// Albedos, multiple scattering: by table or by few nodes, against plain quadrature of the reference's lobes.
 #include "steradian/albedo.h"
 
 #include <gtest/gtest.h>
@@ -129,19 +129,6 @@ TEST(MultipleScattering, IsTheSameFactorForEveryMethod) {
   expect_same(reference_radiance(lamp(), at, all).radiance, reference_radiance(lamp(), at, scaled).radiance);
 }
 
-TEST(Sheen, OfTheTableIsNearTheReference) {
-  // Three times the error that `steradian fit --lobe charlie --report` prints, of this lamp's radiance.
-  for (double r : {0.25, 0.4, 0.7, 1.0})
-    for (double c : {0.9, 0.5, 0.2}) {
-      const ShadingPoint at = {{}, {0, 0, 1}, view_at(c)};
-      const Vec3d expected = reference_radiance(lamp(), at, charlie(r * r)).radiance;
-      const Vec3d got = ltc_radiance(LtcMethod::compact, lamp(), at, charlie(r * r));
-      EXPECT_NEAR(got.x, expected.x, 3 * 3 * 0.0049) << r << " " << c;
-      EXPECT_NEAR(got.y / got.x, 2.0 / 3, 1e-12);
-      EXPECT_NEAR(ltc_radiance_float(LtcMethod::compact, lamp(), at, charlie(r * r)).x, got.x, 1e-5);
-    }
-}
-
 // One bounce reflects more than a quarter whatever the widths and the view, so that F0 = 1 grows to less than four times itself.
 TEST(MultipleScattering, StaysInBoundsAtGrazingViews) {
   for (double ax : {1e-4, 0.1, 1.0})
@@ -153,16 +140,6 @@ TEST(MultipleScattering, StaysInBoundsAtGrazingViews) {
         EXPECT_GE(all.f0.x, 1) << ax << " " << ay << " " << c;
         EXPECT_LT(all.f0.x, 4) << ax << " " << ay << " " << c;
       }
-}
-
-TEST(Sheen, IsNeverNegative) {
-  for (double r = 0; r <= 1; r += 0.01)
-    for (double c = 0.005; c <= 1; c += 0.005) EXPECT_GE(ltc_radiance(LtcMethod::compact, lamp(), {{}, {0, 0, 1}, view_at(c)}, charlie(r * r)).x, 0) << r << " " << c;
-}
-
-TEST(Sheen, IsRefusedByTheTablesOfGgx) {
-  EXPECT_FALSE(serves(LtcMethod::classic, charlie(0.3)));
-  EXPECT_TRUE(serves(LtcMethod::compact, charlie(0.3)));
 }
 
 }  // namespace steradian

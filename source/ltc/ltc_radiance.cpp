@@ -32,22 +32,18 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
       return by(integrals::CliplessLtc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
     case LtcMethod::compact: break;
   }
-  const bool sheen = material.brdf == Brdf::charlie;
-  const integrals::Ltc<S> integral(compact_lobe<S>(sheen ? charlie_compact_table() : ggx_compact_table(), alpha, cosine, view));
-  // Charlie's lobe has no Fresnel but its colour.
-  return sheen ? by(integral, material.albedo, material.albedo) : by(integral, material.f0, material.f90);
+  return by(integrals::Ltc<S>(compact_lobe<S>(ggx_compact_table(), alpha, cosine, view)), material.f0, material.f90);
 }
 
 void require_service(LtcMethod method, const Material& material) {
   if (!serves(method, material))
-    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing, and ltc-compact charlie",
+    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing",
                 "use the method closed-form or reference");
 }
 
 }  // namespace
 
-bool serves(LtcMethod method, const Material& material) {
-  if (material.brdf == Brdf::charlie) return method == LtcMethod::compact;
+bool serves(LtcMethod, const Material& material) {
   return material.brdf == Brdf::ggx && material.shadowing && material.alpha_x == material.alpha_y;
 }
 

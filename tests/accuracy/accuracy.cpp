@@ -17,9 +17,11 @@ int main(int argc, char** argv) {
   write_functions(page);
   write_targets(page);
   write_lambert(page);
+  write_diffuse_below(page);
   write_phong(page);
   write_ggx(page);
   write_half_vector(page);
+  write_sheen(page);
   std::ofstream file(argv[1], std::ios::binary);
   file << page.str();
   file.close();

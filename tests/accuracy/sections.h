@@ -9,6 +9,8 @@ namespace steradian::accuracy {
 void write_functions(std::ostream& out);  // every kernel: float against double
 void write_targets(std::ostream& out);    // every kernel: packs and GPUs against scalar float
 void write_lambert(std::ostream& out);    // polygons on Lambert surfaces: double against quadrature, float against double
+void write_diffuse_below(std::ostream& out);  // a diffuse lobe under a dielectric's boundary
+void write_sheen(std::ostream& out);       // Charlie by its cubature
 void write_phong(std::ostream& out);      // Phong lobes by every method
 void write_ggx(std::ostream& out);         // GGX by every real-time method against the reference
 void write_half_vector(std::ostream& out); // edge splitting against the reference

@@ -29,6 +29,8 @@ __attribute__((flatten)) void add_diffuse(SurfaceTile& tile, const PackLight* co
     if (!any_lane(albedo.x + albedo.y + albedo.z > PackReal(0.0))) continue;
     const PackVec3 p = load(points.position, i), n = load(points.normal, i);
     const auto frame = k.frame_from_normal(n);
+    const PackVec3 v = load(points.view, i);
+    const PackReal loss = fresnel_loss(points, i);
     PackVec3 irradiance(0.0, 0.0, 0.0);
     for (std::size_t l = 0; l < light_count; ++l) {
       const PackLight& light = *lights[l];
@@ -36,8 +38,9 @@ __attribute__((flatten)) void add_diffuse(SurfaceTile& tile, const PackLight* co
       if (const auto* source = std::get_if<packed::Punctual>(&light.shape)) {
         const auto incident = shapes::incident<Pack>(*source, p);
         e = incident.irradiance * max(dot(n, incident.direction), PackReal(0.0));
+        if (any_lane(loss > PackReal(0.0))) e = e * (PackReal(1.0) - loss * k.lambert_grazing(incident.direction, v));
       } else if (const SeenLight seen(light, p); any_lane(seen.seen.lit)) {
-        e = irradiance_vector(seen, frame, p).z;
+        e = irradiance_below(irradiance_vector(seen, frame, p), transform_transposed(frame, v), loss);
       }
       irradiance = irradiance + broadcast(light.radiance) * e;
     }

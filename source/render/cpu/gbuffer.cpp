@@ -20,6 +20,7 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   put(tile.normal, i, s.normal);
   put(tile.view, i, view);
   put(tile.albedo, i, s.albedo);
+  tile.fresnel_loss[i] = s.fresnel_loss;
   put(tile.f0, i, s.f0);
   put(tile.f90, i, s.f90);
   put(tile.tangent, i, s.tangent);
@@ -46,7 +47,7 @@ void put_nothing(SurfaceTile& tile, std::size_t i) {
                         &tile.coat_normal, &tile.radiance})
     put(*v, i, {});
   tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
-  tile.coat[i] = 0;
+  tile.coat[i] = tile.fresnel_loss[i] = 0;
   tile.material[i] = nullptr;
 }
 
@@ -59,6 +60,7 @@ Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   s.position = get(tile.position, i);
   s.normal = get(tile.normal, i);
   s.albedo = get(tile.albedo, i);
+  s.fresnel_loss = tile.fresnel_loss[i];
   s.f0 = get(tile.f0, i);
   s.f90 = get(tile.f90, i);
   s.tangent = get(tile.tangent, i);

@@ -8,7 +8,7 @@
 namespace steradian {
 
 struct IrradianceTable {
-  // Irradiance of radiance 1 in [0, pi] at every point, of an area light.
+  // Irradiance of radiance 1 in [0, pi] at every point, of an area light: what of it reaches the diffuse lobe.
   void (*irradiance)(const PackLight& light, const Points& points, float* result);
 };
 

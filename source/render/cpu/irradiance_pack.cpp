@@ -9,8 +9,14 @@ __attribute__((flatten)) void irradiance(const PackLight& light, const Points& p
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i);
     const SeenLight seen(light, p);
-    const bool lit = any_lane(seen.seen.lit);
-    store(result + i, lit ? irradiance_vector(seen, k.frame_from_normal(load(points.normal, i)), p).z : PackReal(0.0));
+    if (!any_lane(seen.seen.lit)) {
+      store(result + i, PackReal(0.0));
+      continue;
+    }
+    const auto frame = k.frame_from_normal(load(points.normal, i));
+    const PackVec3 e = irradiance_vector(seen, frame, p);
+    const bool below = points.fresnel_loss != nullptr;
+    store(result + i, below ? irradiance_below(e, transform_transposed(frame, load(points.view, i)), fresnel_loss(points, i)) : e.z);
   }
 }
 

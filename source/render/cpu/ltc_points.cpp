@@ -25,9 +25,4 @@ LtcPackTables ltc_compact_pack_tables() {
   return {padded(t.shapes, t.shape_size, 4), padded(t.magnitudes, t.magnitude_size, 2)};
 }
 
-LtcPackTables ltc_sheen_pack_tables() {
-  const CompactTable& t = charlie_compact_table();
-  return {padded(t.shapes.data()->data(), t.shape_size, 4), padded(t.magnitudes.data()->data(), t.magnitude_size, 2)};
-}
-
 }  // namespace steradian

@@ -16,17 +16,16 @@ struct PackTable {
   std::vector<float> nodes;
 };
 
-// The shipped tables. classic: matrix and magnitude; compact and sheen: shapes and magnitudes.
+// The shipped tables. classic: matrix and magnitude; compact: shapes and magnitudes.
 struct LtcPackTables {
   PackTable matrix, magnitude;
 };
 LtcPackTables ltc_classic_pack_tables();
 LtcPackTables ltc_compact_pack_tables();
-LtcPackTables ltc_sheen_pack_tables();
 
 // What light of radiance 1 does to every point.
 struct LtcSums {
-  float* irradiance;  // in [0, pi]; null: not wanted
+  float* irradiance;  // that reaches the diffuse lobe, in [0, pi]; null: not wanted
   float* specular;    // for F0 = 1 and F90 = 1: n_A times the lobe's integral
   float* grazing;     // f_A times the same: what F90 - F0 multiplies
 };
@@ -34,8 +33,6 @@ struct LtcSums {
 struct LtcPackTable {
   void (*classic)(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums);
   void (*compact)(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums);
-  // Charlie's lobe of colour 1: its specular; it has no grazing.
-  void (*sheen)(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(LtcPackTable, ltc_pack_table)

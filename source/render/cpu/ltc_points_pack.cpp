@@ -9,7 +9,7 @@ namespace {
 using Lobe = integrals::LtcLobe<Pack>;
 
 struct Both {
-  PackReal irradiance;
+  PackVec3 irradiance;
   integrals::Part<Pack> specular;
 };
 
@@ -19,10 +19,10 @@ STERADIAN_INLINE Both integrate_over(const Outline& outline, const integrals::Sh
   if constexpr (with_diffuse) {
     integrals::Together<integrals::Irradiance<Pack>, integrals::Ltc<Pack>> both{{}, integrals::Ltc<Pack>(lobe)};
     const auto r = integrate(outline, shading, both);
-    return {r.first.z, r.second};
+    return {r.first, r.second};
   } else {
     integrals::Ltc<Pack> ltc(lobe);
-    return {PackReal(0.0), integrate(outline, shading, ltc)};
+    return {PackVec3(0.0, 0.0, 0.0), integrate(outline, shading, ltc)};
   }
 }
 
@@ -55,13 +55,13 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
                        scale.x, scale.y};
 
     const SeenLight seen(light, p);
-    Both both = {PackReal(0.0), {PackReal(0.0), PackReal(0.0)}};
+    Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
     if (any_lane(seen.seen.lit)) {
       const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
       both = light.is_round() ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
                               : integrate_polygon<with_diffuse>(seen, frame, p, view, lobe);
     }
-    if (with_diffuse) store(sums.irradiance + i, both.irradiance);
+    if (with_diffuse) store(sums.irradiance + i, irradiance_below(both.irradiance, view, fresnel_loss(points, i)));
     store(sums.specular + i, both.specular.x);
     store(sums.grazing + i, both.specular.y);
   }
@@ -88,17 +88,10 @@ __attribute__((flatten)) void compact(const PackLight& light, const Points& poin
   });
 }
 
-__attribute__((flatten)) void sheen(const PackLight& light, const Points& points, const LtcPackTables& tables,
-                                    const LtcSums& sums) {
-  run<false>(light, points, tables, sums, [](const PackKernels::vec4& e, PackReal, const PackVec3&) {
-    return PackKernels{}.ltc_from_compact(e, PackReal(1.0), PackVec3(0.0, 0.0, 1.0));
-  });
-}
-
 }  // namespace
 
 const LtcPackTable& ltc_pack_table() {
-  static constexpr LtcPackTable table = {classic, compact, sheen};
+  static constexpr LtcPackTable table = {classic, compact};
   return table;
 }
 

@@ -81,4 +81,14 @@ __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenL
   return integrate(contours_in(light.light, frame, p), light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
 }
 
+// What of it reaches a diffuse lobe under a dielectric's boundary (kernels/lobe/lambert.glsl). view: in the frame.
+STERADIAN_INLINE PackReal irradiance_below(const PackVec3& e, const PackVec3& view, const PackReal& loss) {
+  return any_lane(loss > PackReal(0.0)) ? PackKernels().lambert_irradiance_below(e, view, loss) : e.z;
+}
+
+// The loss at points i and on; 0 where there is no boundary.
+STERADIAN_INLINE PackReal fresnel_loss(const Points& points, std::size_t i) {
+  return points.fresnel_loss != nullptr ? load(points.fresnel_loss + i) : PackReal(0.0);
+}
+
 STERADIAN_END_ISA

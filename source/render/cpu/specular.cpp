@@ -12,6 +12,7 @@
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/phong.h"
+#include "render/cpu/sheen.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
@@ -118,8 +119,7 @@ SpecularPass::SpecularPass(const DirectMethod& method)
     : method_(method),
       tables_(method.ggx == Method::ltc           ? ltc_classic_pack_tables()
               : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
-                                                      : LtcPackTables{}),
-      sheen_tables_(ltc_sheen_pack_tables()) {}
+                                                      : LtcPackTables{}) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;
@@ -185,12 +185,12 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
   }
 }
 
-// By its table whatever the method of GGX: nobody has a closed form for it.
+// By its cubature whatever the method of GGX.
 void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
-  alignas(64) TilePlane plain, grazing;
+  alignas(64) TilePlane plain;
   for (const PackLight* light : lights) {
     if (light->is_area()) {
-      ltc_pack_table_for(active_simd()).sheen(*light, points_of(tile, tile.sheen_alpha, tile.sheen_alpha), sheen_tables_, {nullptr, plain.data(), grazing.data()});
+      sheen_table_for(active_simd()).radiance(*light, points_of(tile, tile.sheen_alpha, tile.sheen_alpha), plain.data());
       for (std::size_t i = 0; i < kTilePixels; ++i) add_to(tile.radiance, i, get(tile.sheen, i) * light->radiance * plain[i]);
       continue;
     }

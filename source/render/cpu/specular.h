@@ -30,7 +30,7 @@ class SpecularPass {
   bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
 
   const DirectMethod method_;
-  const LtcPackTables tables_, sheen_tables_;
+  const LtcPackTables tables_;
 };
 
 }  // namespace steradian

@@ -213,7 +213,9 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   const auto clamp1 = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
   const Vec3f colored = specular_color * (r * r);
   const Vec3f dielectric = Vec3f{clamp1(colored.x), clamp1(colored.y), clamp1(colored.z)} * specular;
-  s.albedo = color * ((1 - metallic) * (1 - std::max({dielectric.x, dielectric.y, dielectric.z})));
+  const float largest_f0 = std::max({dielectric.x, dielectric.y, dielectric.z});
+  s.albedo = color * ((1 - metallic) * (1 - largest_f0));
+  s.fresnel_loss = largest_f0 < 1 ? (specular - largest_f0) / (1 - largest_f0) : 0;
   s.f0 = mix(dielectric, color, metallic);
   s.f90 = mix(Vec3f{specular, specular, specular}, Vec3f{1, 1, 1}, metallic);
 
@@ -236,7 +238,10 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     s.sheen *= under;
     s.emission *= under;
   }
-  if (!m.specular_override.empty()) s.f0 = s.f90 = {};
+  if (!m.specular_override.empty()) {
+    s.f0 = s.f90 = {};
+    s.fresnel_loss = 0;
+  }
   return s;
 }
 
@@ -255,6 +260,7 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s) {
   if (weighs(s.albedo)) {
     Material m;
     m.albedo = static_cast<Vec3d>(s.albedo);
+    m.fresnel_loss = static_cast<double>(s.fresnel_loss);
     lobes.push_back({m, s.normal, true});
   }
   if (weighs(s.f0) || weighs(s.f90)) {

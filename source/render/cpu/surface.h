@@ -9,15 +9,16 @@ namespace steradian {
 //
 // A back face shows the front's frame with its normal reversed: bumps and directions of brushing stay where they are.
 //
-// Radiance = emission + diffuse + specular (+ sheen) (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - max F0 of
-// the dielectric): what its specular lobe reflects at the normal does not reach it.
+// Radiance = emission + diffuse + specular (+ sheen) (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - F), F the
+// largest channel of the dielectric's Fresnel: what its specular lobe reflects does not reach it.
 struct Surface {
   Vec3f position;
   Vec3f normal;      // shading normal, unit; the view is above its horizon, as it is above the triangle
   Vec3f tangent;     // unit, perpendicular to the normal: direction of alpha_x
   Vec3f coat_normal; // of the clear coat, which lies smooth over what bends the base
   Vec3f emission;    // radiance towards the viewer
-  Vec3f albedo;      // diffuse
+  Vec3f albedo;      // diffuse, in the direction in which the boundary above reflects F0
+  float fresnel_loss = 0;  // ... and less by this share of (1 - v.h)^5 in all others
   Vec3f f0, f90;     // specular; both 0: no such lobe
   float alpha_x = 1, alpha_y = 1;
   Vec3f sheen;       // colour of Charlie's lobe; black: none

@@ -30,6 +30,7 @@ struct TileVector {
 struct SurfaceTile {
   TileVector position, normal, view;
   TileVector albedo;          // diffuse
+  alignas(64) TilePlane fresnel_loss;
   TileVector f0, f90;         // specular GGX, zero where there is none
   TileVector tangent;
   alignas(64) TilePlane alpha_x, alpha_y;

@@ -1,0 +1,17 @@
+// Sheen of cloth from area lights at many surface points at once, on packs.
+#pragma once
+
+#include "core/simd.h"
+#include "render/cpu/light_list.h"
+#include "render/cpu/points.h"
+
+namespace steradian {
+
+struct SheenTable {
+  // Radiance of Charlie's lobe of colour 1 and width points.alpha_x towards the views, for radiance 1.
+  void (*radiance)(const PackLight& light, const Points& points, float* result);
+};
+
+STERADIAN_DECLARE_PACK_TABLE(SheenTable, sheen_table)
+
+}  // namespace steradian
