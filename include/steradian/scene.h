@@ -84,6 +84,7 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  // three a triangle
   std::vector<std::int32_t> triangle_lights;  // emitters: into Scene::area_lights, -1 dropped; others: none
   bool is_light_shape = false;
+  bool casts_shadow = true;  // false: rays between a point and a light pass it, as they do is_light_shape
 
   std::size_t triangle_count() const { return indices.size() / 3; }
   bool is_emitter() const { return !triangle_lights.empty(); }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
+#include "scene/closed_parts.h"
+#include "scene/fit_ellipsoid.h"
 #include "scene/merge_polygons.h"
 
 namespace steradian {
@@ -121,6 +124,19 @@ void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial
   budget.take_work(place, "the means of its emissive texture", kStepsPerSample * samples);
 }
 
+// An outline that stands for an ellipse becomes a disk light: exact, with one edge.
+void become_disk(AreaLight& light) {
+  const std::optional<Ellipse> ellipse = fit_ellipse(light.polygon.vertices);
+  if (!ellipse) return;
+  const bool two_sided = light.polygon.two_sided;
+  light.shape = LightShape::disk;
+  light.center = ellipse->center;
+  light.x = ellipse->x;
+  light.y = ellipse->y;
+  light.polygon = equal_area_polygon(*ellipse, light.polygon.radiance);
+  light.polygon.two_sided = two_sided;
+}
+
 AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   AreaLight light;
@@ -135,30 +151,143 @@ AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) 
   light.polygon.vertices = std::move(polygon.outline);
   light.polygon.holes = std::move(polygon.holes);
   light.power = luminance(light.polygon.radiance) * prepare_polygon(light.polygon).area;
+  if (!light.texture && light.polygon.holes.empty()) become_disk(light);
   return light;
+}
+
+AreaLight to_sphere(const Scene& scene, const Mesh& mesh, const Ellipsoid& shape, double area) {
+  const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+  AreaLight light;
+  light.name = mesh.name.empty() ? m.name : mesh.name;
+  light.shape = LightShape::sphere;
+  light.center = shape.center;
+  light.x = shape.x;
+  light.y = shape.y;
+  light.z = shape.z;
+  light.polygon.radiance = static_cast<Vec3d>(m.emissive);
+  light.power = luminance(light.polygon.radiance) * area;
+  return light;
+}
+
+struct Bounds {
+  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+
+  void add(Vec3d v) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  bool any() const { return low.x <= high.x; }
+};
+
+// Of each mesh, the bounds of all others, in one pass from either end.
+std::vector<Bounds> bounds_of_the_others(const Scene& scene) {
+  std::vector<Bounds> result(scene.meshes.size());
+  const auto pass = [&](auto begin, auto end, auto out) {
+    Bounds before;
+    for (auto mesh = begin; mesh != end; ++mesh, ++out) {
+      if (before.any()) {
+        out->add(before.low);
+        out->add(before.high);
+      }
+      for (const Vec3f& p : mesh->positions) before.add(static_cast<Vec3d>(p));
+    }
+  };
+  pass(scene.meshes.begin(), scene.meshes.end(), result.begin());
+  pass(scene.meshes.rbegin(), scene.meshes.rend(), result.rbegin());
+  return result;
+}
+
+// A dome that lights what it encloses.
+bool encloses(const MeshPart& part, const Bounds& others) {
+  const Vec3d a = others.low - part.low, b = part.high - others.high;
+  return others.any() && a.x > 0 && a.y > 0 && a.z > 0 && b.x > 0 && b.y > 0 && b.z > 0;
+}
+
+// Where a mesh's emission goes. Files say `doubleSided` of nearly everything; of a closed surface, that would let its far
+// half shine through the near one, so it shines outwards. Not a dome around the scene: from within, both sides are right.
+enum class Shines { as_the_file_says, outwards, outwards_and_faces_inwards };
+
+Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Bounds& others) {
+  if (!part.closed || part.volume == 0) return Shines::as_the_file_says;
+  if (!m.double_sided) return part.volume > 0 ? Shines::outwards : Shines::as_the_file_says;
+  if (encloses(part, others)) return Shines::as_the_file_says;
+  return part.volume > 0 ? Shines::outwards : Shines::outwards_and_faces_inwards;
+}
+
+void turn_outwards(MergedPolygon& polygon) {
+  std::reverse(polygon.outline.begin(), polygon.outline.end());
+  for (std::vector<Vec3d>& hole : polygon.holes) std::reverse(hole.begin(), hole.end());
+}
+
+double area_of(const std::vector<Triangle>& triangles, const MeshPart& part) {
+  double area = 0;
+  for (const std::size_t t : part.triangles)
+    area += length(cross(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0])) / 2;
+  return area;
+}
+
+// A light for every part, where each of them stands for an ellipsoid that shines outwards; else none.
+std::vector<AreaLight> as_spheres(const Scene& scene, const Mesh& mesh, const std::vector<Triangle>& triangles,
+                                  const std::vector<MeshPart>& parts, const std::vector<Shines>& shines) {
+  std::vector<AreaLight> lights;
+  if (scene.materials[static_cast<std::size_t>(mesh.material)].emissive_texture.present()) return lights;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (shines[i] == Shines::as_the_file_says) return {};
+    const std::optional<Ellipsoid> shape = fit_ellipsoid(triangles, parts[i].triangles);
+    if (!shape) return {};
+    lights.push_back(to_sphere(scene, mesh, *shape, area_of(triangles, parts[i])));
+  }
+  return lights;
+}
+
+// The polygons that a mesh's triangles merge to, as lights.
+std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& triangles,
+                         const std::vector<MeshPart>& parts, const std::vector<Shines>& shines) {
+  const TextureUse& texture = scene.materials[static_cast<std::size_t>(mesh.material)].emissive_texture;
+  MergedPolygons merged = merge_coplanar(triangles, [&](std::size_t a, std::size_t b) {
+    return !texture.present() || continues(uv_map(mesh, texture.texcoord, a), mesh, texture.texcoord, b);
+  });
+  std::vector<Shines> of_triangle(triangles.size(), Shines::as_the_file_says);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const std::size_t t : parts[i].triangles) of_triangle[t] = shines[i];
+  for (MergedPolygon& polygon : merged.polygons) {
+    const Shines where = of_triangle[polygon.triangles.front()];
+    if (where == Shines::outwards_and_faces_inwards) turn_outwards(polygon);
+    for (const std::size_t t : polygon.triangles)
+      mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
+    AreaLight light = to_light(scene, mesh, std::move(polygon));
+    if (where != Shines::as_the_file_says) light.polygon.two_sided = false;
+    scene.area_lights.push_back(std::move(light));
+  }
+  return merged.without_area;
 }
 
 }  // namespace
 
 std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path) {
   std::size_t without_area = 0;
-  for (Mesh& mesh : scene.meshes) {
+  const std::vector<Bounds> others = bounds_of_the_others(scene);
+  for (std::size_t index = 0; index < scene.meshes.size(); ++index) {
+    Mesh& mesh = scene.meshes[index];
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (mesh.is_light_shape || m.unlit || !m.emits()) continue;
     take_for_lights(scene, mesh, m, budget, path);
     std::vector<Triangle> triangles;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) triangles.push_back(world_triangle(mesh, t));
-    const bool textured = m.emissive_texture.present();
-    const int set = m.emissive_texture.texcoord;
-    MergedPolygons merged = merge_coplanar(triangles, [&](std::size_t a, std::size_t b) {
-      return !textured || continues(uv_map(mesh, set, a), mesh, set, b);
-    });
-    without_area += merged.without_area;
     mesh.triangle_lights.assign(triangles.size(), -1);
-    for (MergedPolygon& polygon : merged.polygons) {
-      for (const std::size_t t : polygon.triangles)
+    const std::vector<MeshPart> parts = mesh_parts(triangles);
+    std::vector<Shines> shines;
+    for (const MeshPart& part : parts) shines.push_back(where_it_shines(m, part, others[index]));
+    std::vector<AreaLight> spheres = as_spheres(scene, mesh, triangles, parts, shines);
+    if (spheres.empty()) {
+      without_area += add_polygons(scene, mesh, triangles, parts, shines);
+      continue;
+    }
+    mesh.casts_shadow = false;  // its facets lie on both sides of the sphere
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (const std::size_t t : parts[i].triangles)
         mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
-      scene.area_lights.push_back(to_light(scene, mesh, std::move(polygon)));
+      scene.area_lights.push_back(std::move(spheres[i]));
     }
   }
   return without_area;

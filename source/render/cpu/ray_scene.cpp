@@ -52,7 +52,7 @@ RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")), rtc_(nullptr
                 mesh.positions.size());
     copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(),
                 mesh.triangle_count());
-    rtcSetGeometryMask(geometry, mesh.is_light_shape ? kSeenByCamera : kSeenByCamera | kCastsShadow);
+    rtcSetGeometryMask(geometry, mesh.is_light_shape || !mesh.casts_shadow ? kSeenByCamera : kSeenByCamera | kCastsShadow);
     if (scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask) {
       alpha_tests_.push_back(std::make_unique<AlphaTest>(AlphaTest{scene, mesh}));
       rtcSetGeometryUserData(geometry, alpha_tests_.back().get());

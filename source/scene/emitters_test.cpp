@@ -1,0 +1,171 @@
+#include "scene/emitters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/framing.h"
+#include "steradian/ellipse_light.h"
+
+namespace steradian {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A ball of segments and rings as modelling programs make them, under an affine map.
+Mesh ball(int segments, int rings, Vec3d x, Vec3d y, Vec3d z, Vec3d center) {
+  Mesh mesh;
+  const auto corner = [&](int ring, int segment) {
+    const double theta = kPi * ring / rings, phi = 2 * kPi * segment / segments;  // at poles and seam equal but for rounding
+    const double s = std::sin(theta), c = std::cos(theta);
+    mesh.positions.push_back(static_cast<Vec3f>(center + x * (s * std::cos(phi)) + y * (s * std::sin(phi)) + z * c));
+    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  };
+  for (int j = 0; j < rings; ++j)
+    for (int i = 0; i < segments; ++i) {
+      const std::uint32_t a = corner(j, i), b = corner(j + 1, i), c = corner(j + 1, i + 1), d = corner(j, i + 1);
+      if (j + 1 < rings) mesh.indices.insert(mesh.indices.end(), {a, b, c});
+      if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, c, d});
+    }
+  return mesh;
+}
+
+Mesh box(Vec3d low, Vec3d high) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.push_back(static_cast<Vec3f>(
+        Vec3d{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z}));
+  for (const std::uint32_t q : {0x0264u, 0x1573u, 0x0451u, 0x2376u, 0x0132u, 0x4675u}) {
+    const std::uint32_t a = q >> 12, b = q >> 8 & 7, c = q >> 4 & 7, d = q & 7;
+    mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+  }
+  return mesh;
+}
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const auto at = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[i + c]]); };
+    area += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
+  }
+  return area;
+}
+
+void turn(Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+}
+
+Scene emitting(Mesh mesh, bool double_sided) {
+  Scene scene;
+  SurfaceMaterial m;
+  m.emissive = {2, 2, 2};
+  m.double_sided = double_sided;
+  scene.materials.push_back(m);
+  scene.meshes.push_back(std::move(mesh));
+  EXPECT_EQ(add_emitters(scene), 0u);
+  return scene;
+}
+
+// Irradiance of polygons of the scene at a point, over the radiance.
+double irradiance(const Scene& scene, Vec3d position, Vec3d normal) {
+  double sum = 0;
+  for (const AreaLight& light : scene.area_lights) sum += polygon_irradiance(prepare_polygon(light.polygon), position, normal);
+  return sum;
+}
+
+TEST(Emitters, ABallIsOneSphereOfItsAreaWhateverItsSidesAndAxes) {
+  const Vec3d x{0.3, 0.1, 0}, y{-0.1, 0.3, 0}, z{0, 0, 0.2}, center{3, 1, -2};
+  for (const bool double_sided : {false, true}) {
+    const Scene scene = emitting(ball(32, 16, x, y, z, center), double_sided);
+    ASSERT_EQ(scene.area_lights.size(), 1u);
+    const AreaLight& light = scene.area_lights[0];
+    EXPECT_EQ(light.shape, LightShape::sphere);
+    EXPECT_LT(length(light.center - center), 1e-6);
+    const double size = std::sqrt(area_of(ball(32, 16, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {})) / (4 * kPi));
+    EXPECT_LT(size, 0.997);
+    const double volume = std::fabs(dot(light.x, cross(light.y, light.z)));
+    EXPECT_NEAR(std::cbrt(volume / dot(x, cross(y, z))), size, 1e-5);
+    for (const std::int32_t index : scene.meshes[0].triangle_lights) EXPECT_EQ(index, 0);
+    EXPECT_FALSE(scene.meshes[0].casts_shadow);
+  }
+}
+
+TEST(Emitters, ACubeIsNoBall) {
+  const Scene scene = emitting(box({-1, -1, -1}, {1, 1, 1}), true);
+  EXPECT_EQ(scene.area_lights.size(), 6u);
+  EXPECT_TRUE(scene.meshes[0].casts_shadow);
+}
+
+TEST(Emitters, AClosedMeshShinesOutwardsWhateverItsFlagAndWinding) {
+  const Vec3d point{0, 3, 0}, down{0, -1, 0};
+  // Of the front alone: a square of side 2, two units away.
+  Scene front;
+  front.area_lights.emplace_back();
+  front.area_lights[0].polygon.vertices = {{-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}};
+  const double right = irradiance(front, point, down);
+  EXPECT_GT(right, 0.5);
+  for (const bool turned : {false, true}) {
+    Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
+    if (turned) turn(mesh);
+    EXPECT_NEAR(irradiance(emitting(mesh, true), point, down), right, 1e-6) << turned;
+  }
+  EXPECT_NEAR(irradiance(emitting(box({-1, -1, -1}, {1, 1, 1}), false), point, down), right, 1e-6);
+}
+
+TEST(Emitters, AnOpenMeshAndADomeShineAsTheFileSays) {
+  Mesh open = box({-1, -1, -1}, {1, 1, 1});
+  open.indices.resize(open.indices.size() - 6);
+  for (const AreaLight& light : emitting(open, true).area_lights) EXPECT_TRUE(light.polygon.two_sided);
+
+  Scene scene;
+  SurfaceMaterial m;
+  m.emissive = {1, 1, 1};
+  m.double_sided = true;
+  scene.materials = {m, {}};
+  scene.meshes = {box({-9, -9, -9}, {9, 9, 9}), box({-1, -1, -1}, {1, 1, 1})};
+  scene.meshes[1].material = 1;
+  add_emitters(scene);
+  ASSERT_EQ(scene.area_lights.size(), 6u);
+  EXPECT_GT(irradiance(scene, {0, 2, 0}, {0, 1, 0}), 3.14);  // from within a dome: pi
+}
+
+TEST(Emitters, ARoundFlatPatchIsADisk) {
+  for (const int corners : {12, 32}) {
+    Mesh mesh;
+    for (int i = 0; i < corners; ++i) {
+      const double t = 2 * kPi * i / corners;
+      mesh.positions.push_back(static_cast<Vec3f>(Vec3d{0.5 * std::cos(t), 2, 0.25 * std::sin(t)}));
+    }
+    for (int i = 1; i + 1 < corners; ++i)
+      mesh.indices.insert(mesh.indices.end(), {0u, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 1)});
+    const Scene scene = emitting(mesh, false);
+    ASSERT_EQ(scene.area_lights.size(), 1u);
+    const AreaLight& light = scene.area_lights[0];
+    EXPECT_EQ(light.shape, corners == 32 ? LightShape::disk : LightShape::polygon);
+    if (corners != 32) continue;
+    const double area = kPi * length(cross(light.x, light.y));
+    EXPECT_NEAR(area, 16 * std::sin(2 * kPi / 32) * 0.125, 1e-6);  // of the mesh
+    EXPECT_GT(cross(light.x, light.y).y * (dot(Vec3d{0, 1, 0}, prepare_polygon(light.polygon).normal)), 0);
+  }
+}
+
+TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
+  Scene scene = emitting(box({-1, -1, -1}, {1, 1, 1}), false);
+  measure_bounds(scene);
+  for (AreaLight& light : scene.area_lights) light.power = 1e-6;
+  EXPECT_FALSE(wants_light(scene));  // placed by its author, however weak
+  for (AreaLight& light : scene.area_lights) light.texture.emplace();
+  EXPECT_TRUE(wants_light(scene));
+  scene.area_lights[0].power = default_light(scene).power;
+  EXPECT_FALSE(wants_light(scene));
+  scene.area_lights.clear();
+  EXPECT_TRUE(wants_light(scene));
+  add_lights(scene, {AddedLight::sun, AddedLight::studio});
+  EXPECT_EQ(scene.punctual_lights.size(), 1u);
+  EXPECT_EQ(scene.area_lights.size(), 3u);
+  EXPECT_FALSE(wants_light(scene));
+}
+
+}  // namespace
+}  // namespace steradian
