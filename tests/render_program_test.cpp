@@ -38,8 +38,8 @@ TEST_F(Program, RenderGivesTheSameBytesAtOneAndTwoThreads) {
   for (const std::string method : {"auto", "sampled"}) {
     const auto picture = [&](const std::string& threads) {
       const std::string path = folder / ("t" + threads + ".exr");
-      const Outcome r = run({"render", glossy_scene(), "-o", path, "--size", "96x54", "--method", method, "--spp", "2", "--aa", "2",
-                             "--seed", "7", "--threads", threads});
+      const Outcome r = run({"render", glossy_scene(), "-o", path, "--size", "96x54", "--method", method, "--aa", "2", "--seed", "7",
+                             "--threads", threads});
       EXPECT_EQ(r.status, 0) << r.err;
       return contents(path);
     };

@@ -7,6 +7,7 @@
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "verbs.h"
+#include "wrong_use.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Light computed without sampling: area light integrals in closed form.");
@@ -25,6 +26,10 @@ int main(int argc, char** argv) {
 
   // A limit on file sizes is then an error of the write, with the file's name, and not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
+  if (const std::string message = steradian::app::unknown_verb(app, argc, argv); !message.empty()) {
+    std::fprintf(stderr, "steradian: %s\nsteradian --help lists them\n", message.c_str());
+    return 2;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command_line.h"
 #include "core/atomic_file.h"
@@ -17,6 +18,7 @@
 #include "steradian/render.h"
 #include "steradian/version.h"
 #include "verbs.h"
+#include "wrong_use.h"
 
 namespace steradian::app {
 namespace {
@@ -24,8 +26,8 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats;
-  double exposure = 0;
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto";
+  std::vector<std::string> lights;
   int max_lights = 256;
   Limits limits;
   bool moments = false, multiple_scattering = false, spp_given = false;
@@ -40,6 +42,27 @@ void parse_size(const std::string& text, RenderOptions& render) {
       render.width <= 16384 && render.height <= 16384)
     return;
   throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
+}
+
+// Stops; none for auto.
+std::optional<float> exposure_of(const Options& options) {
+  if (options.exposure == "auto") return {};
+  float stops = 0;
+  int used = 0;
+  if (std::sscanf(options.exposure.c_str(), "%f%n", &stops, &used) == 1 &&
+      static_cast<std::size_t>(used) == options.exposure.size() && stops >= -30 && stops <= 30)
+    return stops;
+  throw CLI::ValidationError("--exposure", "'" + options.exposure + "' is not auto or a number of stops, -30 to 30");
+}
+
+std::vector<AddedLight> added_lights(const std::vector<std::string>& names) {
+  std::vector<AddedLight> lights;
+  for (const std::string& name : names)
+    lights.push_back(name == "sun"      ? AddedLight::sun
+                     : name == "studio" ? AddedLight::studio
+                     : name == "none"   ? AddedLight::none
+                                        : AddedLight::standard);
+  return lights;
 }
 
 nlohmann::ordered_json stats_json(const Options& options, const RenderStats& stats) {
@@ -97,7 +120,44 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-// A plane scene has its own size, one unit a pixel, and its own methods; what belongs to three dimensions is refused.
+// Of three dimensions: what an option needs to have an effect.
+void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
+  const RenderOptions& r = options.render;
+  const bool path = options.indirect == "path", points = options.indirect == "ltc" || options.indirect == "ggx";
+  const bool samples = r.method == "sampled" || path || (r.method == "auto" && options.shadows == "on");
+  const char* bounce = "--indirect ltc or ggx";
+  refuse_without_effect(verb, {{"--spp", samples, "--method sampled or --indirect path"},
+                               {"--target-error", r.method == "reference", "--method reference"},
+                               {"--vpls", points, bounce},
+                               {"--indirect-pairs", points, bounce},
+                               {"--indirect-clamp", points, bounce},
+                               {"--indirect-shadows", points, bounce},
+                               {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
+                               {"--moments", false, "a plane scene (.svg)"}});
+}
+
+// Of the plane: the options of three dimensions have none.
+void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
+  const std::string& method = options.render.method;
+  const char* third = "a scene in three dimensions (.gltf, .glb)";
+  refuse_without_effect(verb, {{"--quality", false, third},
+                               {"--shadows", options.shadows != "off", third},
+                               {"--multiple-scattering", false, third},
+                               {"--indirect", false, third},
+                               {"--vpls", false, third},
+                               {"--indirect-shadows", false, third},
+                               {"--indirect-pairs", false, third},
+                               {"--indirect-quads", false, third},
+                               {"--indirect-clamp", false, third},
+                               {"--max-lights", false, third},
+                               {"--light", false, third},
+                               {"--camera", false, third},
+                               {"--target-error", false, third},
+                               {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
+                               {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"}});
+}
+
+// A plane scene has its own size, one unit a pixel, and its own methods.
 void run_plane(Options& options) {
   PlaneRender job;
   job.scene = options.scene;
@@ -105,7 +165,7 @@ void run_plane(Options& options) {
   job.method = options.render.method;
   job.stats = options.stats;
   job.limits = options.limits;
-  job.exposure = static_cast<float>(options.exposure);
+  job.exposure = exposure_of(options).value_or(0.0f);  // light maps keep their scale from frame to frame
   if (options.size != kDefaultSize) {
     parse_size(options.size, options.render);
     job.frame.width = options.render.width;
@@ -118,9 +178,12 @@ void run_plane(Options& options) {
   render_plane_scene(job);
 }
 
-void run(Options& options) {
+void run(const CLI::App& verb, Options& options) {
   RenderOptions& render_options = options.render;
-  if (is_plane_scene(options.scene)) return run_plane(options);
+  if (is_plane_scene(options.scene)) {
+    refuse_unused_in_plane(verb, options);
+    return run_plane(options);
+  }
   if (render_options.method == "par" || render_options.method == "marched")
     throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
@@ -129,8 +192,10 @@ void run(Options& options) {
                            : options.quality == "high" ? Quality::high
                                                        : Quality::normal;
 
+  refuse_unused_in_space(verb, options);
+  const std::optional<float> fixed_exposure = exposure_of(options);
   parse_indirect(options);
-  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits});
+  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, added_lights(options.lights)});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
   loaded.scene.multiple_scattering = options.multiple_scattering;
@@ -146,6 +211,9 @@ void run(Options& options) {
   progress.reset();
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
+  const float exposure = fixed_exposure.value_or(auto_exposure(picture));
+  if (!fixed_exposure && options.output.ends_with(".png"))
+    fmt::print(stderr, "steradian: --exposure {:.2f} (auto)\n", exposure);
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", options.scene},
                       {"steradian.method", stats.method},
@@ -153,8 +221,8 @@ void run(Options& options) {
                       {"steradian.size", options.size},
                       {"steradian.aa", std::to_string(render_options.aa)},
                       {"steradian.seed", std::to_string(render_options.seed)},
-                      {"steradian.exposure", fmt::format("{}", options.exposure)}};
-  write_picture(picture, options.output, static_cast<float>(options.exposure));
+                      {"steradian.exposure", fmt::format("{}", exposure)}};
+  write_picture(picture, options.output, exposure);
   if (!options.stats.empty()) write_text(options.stats, stats_json(options, stats).dump(2) + "\n");
 }
 
@@ -202,9 +270,12 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")
       ->check(CLI::Range(1, 1 << 20))
       ->group("Light");
+  verb->add_option("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
+      ->check(CLI::IsMember({"default", "none", "sun", "studio"}))
+      ->group("Light");
   verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->group("Picture");
   verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
-  verb->add_option("--exposure", options->exposure, "stops, of .png")->check(CLI::Range(-30.0, 30.0))->group("Picture");
+  verb->add_option("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)")->group("Picture");
   verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
   CLI::Option* spp = verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
       ->check(CLI::Range(1, 1 << 20))
@@ -220,9 +291,9 @@ void add_render(CLI::App& app, Exit&) {
   add_limits(*verb, options->limits);
   verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")
       ->group("Picture");
-  verb->callback([options, spp] {
+  verb->callback([options, spp, verb] {
     options->spp_given = spp->count() > 0;
-    run(*options);
+    run(*verb, *options);
   });
 }
 

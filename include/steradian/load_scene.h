@@ -10,9 +10,14 @@
 
 namespace steradian {
 
+// Lights beside those of the file. standard: a square light above, in front and to the left; sun: a directional light from
+// there; studio: a key, a fill and a rim light. none: not even where the file has none.
+enum class AddedLight { standard, none, sun, studio };
+
 struct LoadOptions {
   int max_lights = 256;  // area lights kept, strongest first (AreaLight::power); at least 1
   Limits limits{};
+  std::vector<AddedLight> lights = {};  // empty: standard where the file's own lights are too weak for a picture
 };
 
 struct LoadedScene {
@@ -22,7 +27,8 @@ struct LoadedScene {
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file
-// without lights gets a default area light, one without cameras a camera that frames the scene; both are said
+// without lights, or with no other light than emissive textures that send less than a thirtieth of what the default light
+// does, gets a default area light, one without cameras a camera that frames the scene; both are said
 // in a warning. Throws Error with file, place in the file and what to do for everything that is broken or
 // required but unsupported.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});

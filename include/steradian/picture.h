@@ -31,6 +31,11 @@ struct Picture {
 // Source: Khronos, "PBR Neutral Tone Mapper", 2024: base colours up to 0.8 - 0.04 pass unchanged in hue and value.
 Vec3f tone_map(Vec3f radiance, float exposure_stops);
 
+// The exposure in stops that brings the geometric mean of a picture's luminance to 0.18, middle grey. What is below a
+// millionth of the largest luminance, a black background above all, is left out; 0 for a black picture; within +-30.
+// Source: Reinhard et al., "Photographic tone reproduction for digital images", 2002, equations 1 and 2.
+float auto_exposure(const Picture& picture);
+
 // sRGB transfer functions, IEC 61966-2-1.
 float srgb_encode(float linear);
 float srgb_decode(float encoded);

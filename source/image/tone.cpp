@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "steradian/area_light.h"  // luminance
 #include "steradian/picture.h"
 
 namespace steradian {
@@ -33,6 +34,23 @@ float srgb_encode(float linear) {
 float srgb_decode(float encoded) {
   if (encoded <= 0.04045f) return encoded / 12.92f;
   return std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+float auto_exposure(const Picture& picture) {
+  const auto luminance_of = [](Vec3f c) {
+    const double y = luminance(static_cast<Vec3d>(c));
+    return std::isfinite(y) ? y : 0.0;
+  };
+  double largest = 0;
+  for (const Vec3f& c : picture.pixels) largest = std::max(largest, luminance_of(c));
+  double sum = 0, count = 0;
+  for (const Vec3f& c : picture.pixels) {
+    const double y = luminance_of(c);
+    if (!(y > 1e-6 * largest)) continue;
+    sum += std::log2(y);
+    ++count;
+  }
+  return count > 0 ? static_cast<float>(std::clamp(std::log2(0.18) - sum / count, -30.0, 30.0)) : 0.0f;
 }
 
 Vec3f tone_map(Vec3f radiance, float exposure_stops) {

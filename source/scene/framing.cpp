@@ -44,22 +44,64 @@ Camera framing_camera(const Scene& scene) {
   return camera;
 }
 
-AreaLight default_light(const Scene& scene) {
+namespace {
+
+const Vec3d kTowardsKey = {-0.4, 0.8, 0.6};
+
+// A square that looks at the scene's centre from three radii away, a radius half wide. Irradiance [radiance 1 is pi] there,
+// where a surface faces it: radiance (2 r)^2 / (3 r)^2.
+AreaLight square_light(const Scene& scene, const char* name, Vec3d towards, double irradiance) {
   const Sphere sphere = bounding_sphere(scene);
   const double r = sphere.radius;
-  const Vec3d towards_light = normalized(Vec3d{-0.4, 0.8, 0.6});
-  const Frame frame = Frame::from_normal(-towards_light);
+  const Vec3d to_light = normalized(towards);
+  const Frame frame = Frame::from_normal(-to_light);
   AreaLight light;
-  light.name = "default";
-  light.center = sphere.center + towards_light * (3 * r);
+  light.name = name;
+  light.center = sphere.center + to_light * (3 * r);
   const Vec3d x = frame.x * r, y = frame.y * r;
   light.polygon.vertices = {light.center - x - y, light.center + x - y, light.center + x + y,
                             light.center - x + y};
-  // Irradiance about pi where the scene's centre faces the light: radiance (2r)^2 / (3r)^2 = pi.
-  const double radiance = 3.14159265358979324 * 9 / 4;
+  const double radiance = irradiance * 9 / 4;
   light.polygon.radiance = {radiance, radiance, radiance};
   light.power = luminance(light.polygon.radiance) * 4 * r * r;
   return light;
+}
+
+constexpr double kPi = 3.14159265358979324;
+
+}  // namespace
+
+AreaLight default_light(const Scene& scene) { return square_light(scene, "default", kTowardsKey, kPi); }
+
+bool wants_light(const Scene& scene) {
+  if (!scene.punctual_lights.empty()) return false;
+  double power = 0;
+  for (const AreaLight& light : scene.area_lights) {
+    if (!light.texture) return false;
+    power += light.power;
+  }
+  return power < default_light(scene).power / 30;
+}
+
+void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {
+  for (const AddedLight light : lights) switch (light) {
+      case AddedLight::none: break;
+      case AddedLight::standard: scene.area_lights.push_back(default_light(scene)); break;
+      case AddedLight::sun: {
+        PunctualLight sun;
+        sun.name = "sun";
+        sun.kind = PunctualKind::directional;
+        sun.direction = -normalized(kTowardsKey);
+        sun.intensity = {kPi, kPi, kPi};
+        scene.punctual_lights.push_back(sun);
+        break;
+      }
+      case AddedLight::studio:
+        scene.area_lights.push_back(square_light(scene, "key", {-0.8, 0.7, 0.8}, kPi));
+        scene.area_lights.push_back(square_light(scene, "fill", {1, 0.3, 0.7}, kPi / 4));
+        scene.area_lights.push_back(square_light(scene, "rim", {0.4, 0.8, -1}, kPi / 2));
+        break;
+    }
 }
 
 }  // namespace steradian

@@ -1,6 +1,7 @@
 // What a scene gets that brings no camera or no light.
 #pragma once
 
+#include "steradian/load_scene.h"
 #include "steradian/scene.h"
 
 namespace steradian {
@@ -13,5 +14,13 @@ Camera framing_camera(const Scene& scene);
 
 // A square light above, in front and to the left, that looks at the scene's centre. It is not visible itself.
 AreaLight default_light(const Scene& scene);
+
+// Whether the scene's own lights are too weak for a picture: it has none, or none but emissive textures whose radiance
+// times area is below a thirtieth of the default light's. Such textures are a panel's diodes or a helmet's visor; a light
+// that an author placed, however weak, is meant.
+bool wants_light(const Scene& scene);
+
+// Adds what a user asks for; none of these lights is visible itself.
+void add_lights(Scene& scene, const std::vector<AddedLight>& lights);
 
 }  // namespace steradian

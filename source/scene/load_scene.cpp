@@ -111,9 +111,13 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   check_extent(scene, document.path);
   if (nodes.zero_scaled > 0) warnings.say(counted(nodes.zero_scaled, "node") + " of scale zero left out");
   if (scene.meshes.empty()) warnings.say("the scene has no triangles");
-  if (scene.area_lights.empty() && scene.punctual_lights.empty()) {
+  if (!options.lights.empty()) {
+    add_lights(scene, options.lights);
+  } else if (wants_light(scene)) {
+    warnings.say(scene.area_lights.empty()
+                     ? "the scene has no lights: a default area light shines from above"
+                     : "the scene's emissive textures are too weak to light it: a default area light shines from above");
     scene.area_lights.push_back(default_light(scene));
-    warnings.say("the scene has no lights: a default area light shines from above");
   }
   if (scene.cameras.empty()) {
     scene.cameras.push_back(framing_camera(scene));

@@ -1,0 +1,57 @@
+#include "wrong_use.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace steradian::app {
+namespace {
+
+// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (optimal string alignment).
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  std::iota(d[0].begin(), d[0].end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  if (word.size() > 64) return {};
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> verbs;
+  std::string list;
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    if (verb->get_name() == word) return {};
+    verbs.push_back(verb->get_name());
+    list += (list.empty() ? "" : ", ") + verb->get_name();
+  }
+  const std::string nearest = nearest_word(word, verbs);
+  return "'" + word.substr(0, 64) + "' is not a verb" + (nearest.empty() ? "; verbs: " + list : "; did you mean '" + nearest + "'?");
+}
+
+void refuse_without_effect(const CLI::App& verb, std::initializer_list<ConditionalOption> options) {
+  for (const ConditionalOption& option : options)
+    if (!option.has_effect && verb.get_option(option.name)->count() > 0)
+      throw CLI::ValidationError(option.name, std::string("changes nothing here: it needs ") + option.needs);
+}
+
+}  // namespace steradian::app
