@@ -49,6 +49,41 @@ TEST_F(Program, RenderGivesTheSameBytesAtOneAndTwoThreads) {
   }
 }
 
+TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
+  const std::string exr = folder / "x.exr", png = folder / "x.png", svg = test::kSourceDir + "/scenes/plane/room.svg";
+  const std::vector<std::vector<std::string>> wrong = {
+      {"render", floor_scene(), "-o", exr, "--spp", "8"},
+      {"render", floor_scene(), "-o", exr, "--target-error", "0.1"},
+      {"render", floor_scene(), "-o", exr, "--indirect-shadows", "4"},
+      {"render", floor_scene(), "-o", exr, "--vpls", "4096"},
+      {"render", floor_scene(), "-o", exr, "--moments"},
+      {"render", floor_scene(), "-o", exr, "--exposure", "bright"},
+      {"render", floor_scene(), "-o", exr, "--light", "moon"},
+      {"render", svg, "-o", png, "--moments"},
+      {"render", svg, "-o", png, "--indirect", "ltc"},
+      {"render", svg, "-o", png, "--camera", "left"},
+  };
+  for (const auto& arguments : wrong) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 2) << arguments.back() << ": " << r.err;
+    EXPECT_FALSE(fs::exists(exr) || fs::exists(png)) << arguments.back();
+  }
+  const Outcome verb = run({"rendr"});
+  EXPECT_EQ(verb.status, 2);
+  EXPECT_NE(verb.err.find("did you mean 'render'?"), std::string::npos) << verb.err;
+}
+
+TEST_F(Program, ExposesPngToMiddleGreyUnlessTold) {
+  const std::string exr = folder / "a.exr", automatic = folder / "a.png", told = folder / "b.png";
+  ASSERT_EQ(run({"render", floor_scene(), "-o", exr, "--size", "64x36"}).status, 0);
+  const float stops = auto_exposure(read_picture(exr));
+  const Outcome r = run({"render", floor_scene(), "-o", automatic, "--size", "64x36"});
+  EXPECT_NE(r.err.find("(auto)"), std::string::npos) << r.err;
+  ASSERT_EQ(run({"render", floor_scene(), "-o", told, "--size", "64x36", "--exposure", std::to_string(stops)}).status, 0);
+  const Picture a = read_picture(automatic), b = read_picture(told);
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) ASSERT_NEAR(a.pixels[i].y, b.pixels[i].y, 0.01f) << i;  // a step of 8 bits
+}
+
 TEST_F(Program, RenderRefusesWrongUseWithTwo) {
   const std::string out = folder / "x.exr";
   const std::vector<std::vector<std::string>> wrong = {

@@ -47,8 +47,8 @@ class GgxArcs {
   struct Edge {
     vec3 a, b;
   };
-  typename K::GgxView view_;
-  Mask<S> lit_;
+  typename K::GgxView view_{};
+  Mask<S> lit_{};
   std::vector<Edge> edges_;
   std::vector<typename K::ConicArc> arcs_;
 };
