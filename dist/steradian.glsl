@@ -1338,8 +1338,9 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
         sum = steradian_select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
     }
     // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    float least = 1.0e-12;
     float size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
-    bool seen = dot(e.center, cross(e.axis_a, e.axis_b)) > steradian_smallest_divisor() * size;
+    bool seen = dot(e.center, cross(e.axis_a, e.axis_b)) > least * size;
     return vec3(steradian_select(seen, sum.x, 0.0), steradian_select(seen, sum.y, 0.0), steradian_select(seen, clamp(sum.z, 0.0, steradian_pi()), 0.0));
 }
 

@@ -316,8 +316,9 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
         sum = select(sum, sum + vec3f(0.0, 0.0, 0.5 * angle), cut);
     }
     // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    let least = 1.0e-12;
     let size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
-    let seen = dot(e.center, cross(e.axis_a, e.axis_b)) > steradian_smallest_divisor() * size;
+    let seen = dot(e.center, cross(e.axis_a, e.axis_b)) > least * size;
     return vec3f(select(0.0, sum.x, seen), select(0.0, sum.y, seen), select(0.0, clamp(sum.z, 0.0, steradian_pi()), seen));
 }
 

@@ -78,8 +78,12 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
         sum = select(cut, sum + vec3(0.0, 0.0, 0.5 * angle), sum);
     }
     // Seen from its plane it may pass through the shading point, where the curve has no direction.
+    real least = 1.0e-12;
+    if (real_digits() > 24) {
+        least = smallest_divisor();
+    }
     real size = sqrt(dot(e.center, e.center)) * sqrt(dot(e.axis_a, e.axis_a)) * sqrt(dot(e.axis_b, e.axis_b));
-    mask seen = dot(e.center, cross(e.axis_a, e.axis_b)) > smallest_divisor() * size;
+    mask seen = dot(e.center, cross(e.axis_a, e.axis_b)) > least * size;
     return vec3(select(seen, sum.x, 0.0), select(seen, sum.y, 0.0), select(seen, clamp(sum.z, 0.0, pi()), 0.0));
 }
 
