@@ -172,7 +172,7 @@ constexpr Row kMethods[] = {
     {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high",
      "one stretched lobe of the product's height and curvature at its peak, by the series: 1 % of the product on most lights, more where its axes are near 90 degrees apart", matched_lobe},
     {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities,
-     "a few nodes about the light's mean direction: 0.1 % rms, 1 % on lights five times as large as their distance", cubature},
+     "a few nodes about the light's mean direction: 0.1 % rms, 0.4 % on lights five times as large as their distance", cubature},
     {Method::reference, "reference", "all", every_lobe, false, kNoQualities,
      "adaptive quadrature (render: path tracing until converged); tells a bound of its error", reference},
     {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities,
