@@ -6,6 +6,7 @@
 
 #include "eval/curved_light.h"
 #include "eval/point_light.h"
+#include "eval/shadowed.h"
 #include "steradian/error.h"
 #include "steradian/polygon_derivatives.h"
 
@@ -85,18 +86,23 @@ Answer evaluate(const Query& query) {
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
   if (query.derivatives && polygon == nullptr)
     throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
+  if (query.derivatives && query.occluders != nullptr)
+    throw Error("derivatives", "there are none past occluders yet", "leave one of the keys out");
   Sum sum;
   for (const Material& material : query.materials) {
     const MethodEntry& entry = methods::resolve(query.method, material, query.precision, query.quality);
     if (query.derivatives) add_derivatives(sum.answer(), *polygon, at, material, entry, query.quality);
+    const auto unoccluded = [&] {
+      if (polygon != nullptr) return entry.polygon(prepared, at, material, options);
+      if (curved != nullptr) return curved_light_answer(*curved, at, material, entry, options);
+      return point_answer(std::get<PointLight>(query.light), at, material, entry.method);
+    };
     if (!seen)
       sum.add(entry, nothing(entry.method));
-    else if (polygon != nullptr)
-      sum.add(entry, entry.polygon(prepared, at, material, options));
-    else if (curved != nullptr)
-      sum.add(entry, curved_light_answer(*curved, at, material, entry, options));
+    else if (query.occluders != nullptr)
+      sum.add(entry, shadowed_answer(query, at, material, entry, options, unoccluded));
     else
-      sum.add(entry, point_answer(std::get<PointLight>(query.light), at, material, entry.method));
+      sum.add(entry, unoccluded());
     options.seed += 0x9e3779b97f4a7c15u;  // far from the seeds that people choose
   }
   return std::move(sum).finish(query.precision);

@@ -5,6 +5,7 @@
 
 #include "eval/json_object.h"
 #include "lobes/lobe.h"
+#include "steradian/load_scene.h"
 
 namespace steradian::eval {
 namespace {
@@ -191,6 +192,74 @@ void read_quality(Problems& problems, const Place& place, Json value, Query& que
   query.quality = name == "high" ? Quality::high : name == "draft" ? Quality::draft : Quality::normal;
 }
 
+// {"positions": [...], "indices": [...]}
+struct MeshKeys {
+  std::vector<Vec3d> positions;
+  std::vector<std::uint32_t> indices;
+};
+constexpr Field<MeshKeys> kMeshFields[] = {
+    {"positions",
+     [](Problems& p, const Place& at, Json v, MeshKeys& k) {
+       if (auto points = read_points(p, at, "a list of points", v)) k.positions = std::move(*points);
+     },
+     true},
+    {"indices",
+     [](Problems& p, const Place& at, Json v, MeshKeys& k) {
+       simdjson::dom::array list;
+       if (v.get(list) != simdjson::SUCCESS) return wrong_type(p, at, "a list of whole numbers", v);
+       for (const Json i : list)
+         k.indices.push_back(static_cast<std::uint32_t>(read_integer(p, at.at(k.indices.size()), i, 0, std::numeric_limits<std::int32_t>::max())));
+       if (k.indices.size() % 3 != 0) p.add(at, "expected three a triangle, found " + std::to_string(k.indices.size()));
+     },
+     true},
+};
+
+// A file's triangles; the last file is kept for the lines that name it again.
+std::shared_ptr<const shadow::Occluders> occluders_in(const std::string& file) {
+  thread_local std::pair<std::string, std::shared_ptr<const shadow::Occluders>> last;
+  if (last.first != file || last.second == nullptr)
+    last = {file, std::make_shared<shadow::Occluders>(shadow::build_edges(load_scene(file).scene))};
+  return last.second;
+}
+
+// The name of a scene file, a mesh, or triangles as lists of three points.
+void read_occluders(Problems& problems, const Place& place, Json value, Query& query) {
+  std::string_view name;
+  if (value.get(name) == simdjson::SUCCESS) {
+    try {
+      query.occluders = occluders_in(std::string(name));
+    } catch (const Error& e) {
+      problems.add(place, e.what());
+    }
+    return;
+  }
+  MeshKeys mesh;
+  simdjson::dom::array triangles;
+  if (value.is_object()) {
+    read_fields(problems, place, value, {}, std::span<const Field<MeshKeys>>(kMeshFields), mesh);
+    for (const std::uint32_t i : mesh.indices)
+      if (i >= mesh.positions.size()) return problems.add(place.in("indices"), std::to_string(i) + " is none of the positions");
+  } else if (value.get(triangles) == simdjson::SUCCESS) {
+    std::size_t number = 0;
+    for (const Json t : triangles) {
+      const Place at = place.at(number++);
+      const auto corners = read_points(problems, at, "a triangle of three points", t);
+      if (!corners) continue;
+      if (corners->size() != 3) {
+        problems.add(at, "expected 3 points, found " + std::to_string(corners->size()));
+        continue;
+      }
+      for (const Vec3d& corner : *corners) {
+        mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.positions.push_back(corner);
+      }
+    }
+  } else {
+    return wrong_type(problems, place, "triangles, a mesh or the name of a scene", value);
+  }
+  if (!problems.any()) query.occluders = std::make_shared<shadow::Occluders>(shadow::build_edges(mesh.positions, mesh.indices));
+}
+
 constexpr Field<Query> kQueryFields[] = {
     {"light", read_light, true},
     {"position", [](Problems& p, const Place& at, Json v, Query& q) { q.position = read_vector(p, at, v); }, true},
@@ -208,6 +277,8 @@ constexpr Field<Query> kQueryFields[] = {
      [](Problems& p, const Place& at, Json v, Query& q) {
        q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max()));
      }},
+    {"occluders", read_occluders},
+    {"geometric_normal", [](Problems& p, const Place& at, Json v, Query& q) { q.geometric_normal = read_direction(p, at, v); }},
     {"derivatives",
      [](Problems& p, const Place& at, Json v, Query& q) { q.derivatives = read_bool(p, at, v); }},
 };

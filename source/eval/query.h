@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "eval/methods.h"
+#include "shadow/visible_part.h"
 #include "shapes/shape.h"
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
@@ -34,6 +35,8 @@ struct Query {
   int spp = 256;
   std::uint64_t seed = 1;
   bool derivatives = false;  // of the radiance by the light's vertices
+  std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing blocks
+  std::optional<Vec3d> geometric_normal;  // unit, of the triangle that the position is on; none: the normal
 };
 
 struct QueryDefaults {

@@ -5,6 +5,7 @@
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
 #include "reference/random.h"
+#include "reference/sampled.h"
 #include "reference/spherical_region.h"
 #include "steradian/reference.h"
 
@@ -36,10 +37,10 @@ class Statistics {
   Vec3d mean_, squares_;
 };
 
-}  // namespace
+using Sees = std::function<bool(Vec3d)>;
 
-SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
-                               const SampledOptions& options) {
+SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
+                       const SampledOptions& options) {
   using namespace reference;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
@@ -55,7 +56,8 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
   Random random(options.seed);
   const auto contribution = [&](Vec3d l, double light_pdf) -> lobes::LobeValue {
     const double pdf = light_pdf + lobe.pdf(l);
-    return light_pdf > 0 && pdf > 0 ? lobe.evaluate(l) * (1 / pdf) : lobes::LobeValue{};
+    if (!(light_pdf > 0) || !(pdf > 0) || (sees != nullptr && !(*sees)(frame.to_world(l)))) return {};
+    return lobe.evaluate(l) * (1 / pdf);
   };
   Statistics statistics;
   for (int i = 0; i < options.spp; ++i) {
@@ -66,6 +68,18 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
     statistics.add(lobe.radiance(sum) * light.radiance);
   }
   return {statistics.mean(), statistics.standard_error()};
+}
+
+}  // namespace
+
+SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
+                               const SampledOptions& options) {
+  return estimate(nullptr, light, at, material, options);
+}
+
+SampledResult reference::sampled_radiance_past(const std::function<bool(Vec3d)>& sees, const PreparedPolygon& light,
+                                               const ShadingPoint& at, const Material& material, const SampledOptions& options) {
+  return estimate(&sees, light, at, material, options);
 }
 
 }  // namespace steradian

@@ -1,6 +1,7 @@
 #include "shadow/arrangement.h"
 
 #include <algorithm>
+#include <span>
 
 namespace steradian::shadow {
 namespace {
@@ -49,6 +50,37 @@ bool share_an_end(const Segment& e, const Segment& f) {
   return e.a.id == f.a.id || e.a.id == f.b.id || e.b.id == f.a.id || e.b.id == f.b.id;
 }
 
+// The segments that e may cross or that a ray to the left from its middle may: those whose heights it shares and that do not lie
+// to its right. Kept apart from the segments, so that the compiler compares several at once.
+class Neighbours {
+ public:
+  explicit Neighbours(const std::vector<Segment>& segments) : count_(segments.size()) {
+    for (std::vector<std::int32_t>* v : {&low_, &high_, &left_}) v->resize(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Segment& s = segments[i];
+      low_[i] = std::min(s.a.y, s.b.y);
+      high_[i] = std::max(s.a.y, s.b.y);
+      left_[i] = std::min(s.a.x, s.b.x);
+    }
+    found_.resize(count_);
+  }
+  // Ascending.
+  std::span<const std::uint32_t> of(const Segment& e) {
+    const std::int32_t low = std::min(e.a.y, e.b.y), high = std::max(e.a.y, e.b.y), right = std::max(e.a.x, e.b.x);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      found_[n] = static_cast<std::uint32_t>(i);
+      n += static_cast<std::size_t>((low_[i] <= high) & (high_[i] >= low) & (left_[i] <= right));
+    }
+    return {found_.data(), n};
+  }
+
+ private:
+  std::size_t count_;
+  std::vector<std::int32_t> low_, high_, left_;
+  std::vector<std::uint32_t> found_;
+};
+
 struct Crossing {
   bool after;  // e's midpoint
   double t;
@@ -78,6 +110,7 @@ int side_of_midpoint(const Segment& f, const Segment& e) { return side(f, midpoi
 void arrange(const SegmentSet& set, std::vector<Piece>& pieces) {
   pieces.clear();
   thread_local std::vector<Crossing> crossings;
+  Neighbours neighbours(set.segments);
   for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
     const Segment& e = set.segments[i];
     if (e.weight == 0 || (e.a.x == e.b.x && e.a.y == e.b.y)) continue;
@@ -88,7 +121,7 @@ void arrange(const SegmentSet& set, std::vector<Piece>& pieces) {
       if (y < m.y || (y == m.y && 2 * std::int64_t{event.dy} < m.dy)) count += event.weight;
     }
     crossings.clear();
-    for (std::uint32_t j = 0; j < set.segments.size(); ++j) {
+    for (const std::uint32_t j : neighbours.of(e)) {
       if (j == i) continue;
       const Segment& f = set.segments[j];
       const bool start_above = above(f.a, m), end_above = above(f.b, m);

@@ -24,15 +24,16 @@ Rectangle bounds(const PreparedPolygon& light, Vec3d x, Vec3d y) {
   return r;
 }
 
-}  // namespace
+struct Bounding {
+  Vec3d x, y;
+  Rectangle rectangle;
+};
 
-LightFrame light_frame(const PreparedPolygon& light, int side) {
-  // The smallest rectangle lies along an edge of the hull; outlines have few other edges.
+// The smallest rectangle lies along an edge of the hull; outlines have few other edges.
+Bounding bounding_of(const PreparedPolygon& light, Vec3d z) {
   const std::size_t count = light.contours[1];
-  Vec3d best_x{}, best_y{};
-  Rectangle best;
+  Bounding best;
   double least = INFINITY;
-  const Vec3d z = side < 0 ? light.normal : -light.normal;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d edge = light.vertices[(i + 1) % count] - light.vertices[i];
     const Vec3d x = normalized(edge - z * dot(edge, z)), y = cross(z, x);
@@ -40,11 +41,24 @@ LightFrame light_frame(const PreparedPolygon& light, int side) {
     const Rectangle r = bounds(light, x, y);
     if (r.area() < least * (1 - 1e-9)) {
       least = r.area();
-      best = r;
-      best_x = x;
-      best_y = y;
+      best = {x, y, r};
     }
   }
+  return best;
+}
+
+constexpr double kMargin = 4e-5;
+
+}  // namespace
+
+double margin_of_plane(const PreparedPolygon& light) {
+  const Bounding b = bounding_of(light, -light.normal);
+  return kMargin * 0.5 * std::max(b.rectangle.x1 - b.rectangle.x0, b.rectangle.y1 - b.rectangle.y0);
+}
+
+LightFrame light_frame(const PreparedPolygon& light, int side) {
+  const Vec3d z = side < 0 ? light.normal : -light.normal;
+  const auto [best_x, best_y, best] = bounding_of(light, z);
   LightFrame frame;
   frame.axes = {best_x, best_y, z};
   frame.origin = light.centroid + best_x * (0.5 * (best.x0 + best.x1)) + best_y * (0.5 * (best.y0 + best.y1));
@@ -52,8 +66,7 @@ LightFrame light_frame(const PreparedPolygon& light, int side) {
   frame.half_y = 0.5 * (best.y1 - best.y0);
   frame.box_x = frame.half_x * (1 + 1.0 / 64);
   frame.box_y = frame.half_y * (1 + 1.0 / 64);
-  // Vertices of a light may lie 1e-5 of its size off its plane (prepare_polygon), and so may the triangles that stand for it.
-  frame.eta = 4e-5 * std::max(frame.half_x, frame.half_y);
+  frame.eta = kMargin * std::max(frame.half_x, frame.half_y);
   for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
     std::vector<Corner> contour;
     for (std::size_t i = light.contours[c]; i < light.contours[c + 1]; ++i) {

@@ -26,6 +26,10 @@ struct LightFrame {
   Vec3d to_world(Vec3d p) const { return origin + axes.to_world(p); }
 };
 
+// How close to a light's plane nothing blocks: its vertices may lie 1e-5 of its size off it (prepare_polygon), and so may the
+// triangles that stand for it.
+double margin_of_plane(const PreparedPolygon& light);
+
 // side: +1 as the lit side sees it, -1 as the other does. The light must have an area.
 LightFrame light_frame(const PreparedPolygon& light, int side);
 

@@ -140,14 +140,12 @@ std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightF
 template <class S>
 void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
                            const std::vector<std::uint32_t>& crossing) {
-  frame_ = &frame;
-  vertices_.clear();
   vertex_numbers_.clear();
-  planes_.clear();
   incidences_.clear();
   edges_.clear();
   crossing_.clear();
-  std::vector<std::uint32_t> triangles = crossing;
+  std::vector<std::uint32_t>& triangles = plane_numbers_;
+  triangles = crossing;
   for (const std::uint32_t e : edges) {
     vertex_numbers_.push_back(mesh.edges[e].v0);
     vertex_numbers_.push_back(mesh.edges[e].v1);
@@ -164,17 +162,7 @@ void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const 
   const auto place = [](const std::vector<std::uint32_t>& v, std::uint32_t number) {
     return static_cast<std::uint32_t>(std::lower_bound(v.begin(), v.end(), number) - v.begin());
   };
-  for (const std::uint32_t v : vertex_numbers_) {
-    const Vec3d p = frame.to_local(mesh.vertices[v]);
-    vertices_.push_back({static_cast<S>(p.x), static_cast<S>(p.y), static_cast<S>(p.z)});
-  }
-  for (const std::uint32_t t : triangles) {
-    const Plane& plane = mesh.planes[t];
-    const Vec3d n = frame.axes.to_local(plane.normal);
-    // A plane far from the light's origin keeps its digits only if the offset is taken there.
-    const double offset = plane.offset - dot(plane.normal, frame.origin);
-    planes_.push_back({{static_cast<S>(n.x), static_cast<S>(n.y), static_cast<S>(n.z)}, static_cast<S>(offset)});
-  }
+  move_to(mesh, frame);
   for (const std::uint32_t e : edges) {
     const Edge& edge = mesh.edges[e];
     edges_.push_back({place(vertex_numbers_, edge.v0), place(vertex_numbers_, edge.v1),
@@ -191,6 +179,24 @@ void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const 
       local.edges[c] = mesh.triangle_edges[t][c];
     }
     crossing_.push_back(local);
+  }
+}
+
+template <class S>
+void LocalEdges<S>::move_to(const EdgeMesh& mesh, const LightFrame& frame) {
+  frame_ = &frame;
+  vertices_.clear();
+  planes_.clear();
+  for (const std::uint32_t v : vertex_numbers_) {
+    const Vec3d p = frame.to_local(mesh.vertices[v]);
+    vertices_.push_back({static_cast<S>(p.x), static_cast<S>(p.y), static_cast<S>(p.z)});
+  }
+  for (const std::uint32_t t : plane_numbers_) {
+    const Plane& plane = mesh.planes[t];
+    const Vec3d n = frame.axes.to_local(plane.normal);
+    // A plane far from the light's origin keeps its digits only if the offset is taken there.
+    const double offset = plane.offset - dot(plane.normal, frame.origin);
+    planes_.push_back({{static_cast<S>(n.x), static_cast<S>(n.y), static_cast<S>(n.z)}, static_cast<S>(offset)});
   }
 }
 

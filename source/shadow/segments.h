@@ -67,6 +67,8 @@ class LocalEdges {
   void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
               const std::vector<std::uint32_t>& crossing_triangles);
   void assign_all(const EdgeMesh& mesh, const LightFrame& frame);
+  // The same edges and triangles in another frame.
+  void move_to(const EdgeMesh& mesh, const LightFrame& frame);
 
   // All segments that the point sees. `eye` is the point in the light's frame, below the plane.
   void see(const Viewpoint& from, SegmentSet& result) const;
@@ -94,7 +96,7 @@ class LocalEdges {
 
   const LightFrame* frame_ = nullptr;
   std::vector<Vector> vertices_;
-  std::vector<std::uint32_t> vertex_numbers_;
+  std::vector<std::uint32_t> vertex_numbers_, plane_numbers_;
   std::vector<LocalPlane> planes_;
   std::vector<Incidence> incidences_;
   std::vector<LocalEdge> edges_;

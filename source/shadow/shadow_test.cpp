@@ -8,6 +8,7 @@
 #include "ltc/ggx_tables.h"
 #include "ltc/table.h"
 #include "lobes/lobe.h"
+#include "shadow/gather.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
 #include "shadow/triangle_rays.h"
@@ -205,6 +206,57 @@ TEST(SoftShadow, SilhouettesOfClosedMeshesWeighTwo) {
 
   const double shade = 0.2 * 2 / 0.9 * 0.2 * 2 / 0.9;
   EXPECT_NEAR(area_of(region) * box, light - shade, 1e-6);
+}
+
+// What a group gathers gives each of its points the segments that all edges give.
+TEST(SoftShadow, GroupsGatherWhatTheirPointsSee) {
+  std::size_t gathered = 0, all_edges = 0, groups = 0;
+  for (const families::Family& family : families::all()) {
+    if (family.name.starts_with("fine sphere")) continue;  // all its edges for each point take too long
+    SCOPED_TRACE(family.name);
+    const Stage stage(family);
+    const EdgeTree tree(stage.mesh);
+    families::Random random(3, 17);
+    SegmentSet by_all, by_group;
+    for (int g = 0; g < 6; ++g) {
+      const families::Point first = families::random_point(family, stage.mesh, stage.light, random);
+      const std::size_t side = stage.side_of(first.at);
+      const LightFrame& frame = stage.frames[side];
+      const Frame surface = Frame::from_normal(first.at.normal);
+      std::vector<Viewpoint> points;
+      std::vector<Vec3d> positions;
+      for (int i = 0; i < 16; ++i) {
+        Viewpoint at = first.at;
+        at.position += surface.x * random.uniform(-0.05, 0.05) + surface.y * random.uniform(-0.05, 0.05);
+        if (!(frame.to_local(at.position).z < -1e-3)) continue;
+        points.push_back(at);
+        positions.push_back(at.position);
+      }
+      if (points.empty()) continue;
+      const Shaft shaft(frame, positions);
+      std::vector<std::uint32_t> edges, crossing;
+      tree.gather(stage.mesh, shaft, edges);
+      for (const std::uint32_t t : crossing_triangles(stage.mesh, frame))
+        if (shaft.needs_triangle(stage.mesh, t)) crossing.push_back(t);
+      LocalEdges<double> local;
+      local.assign(stage.mesh, frame, edges, crossing);
+      gathered += edges.size();
+      all_edges += stage.mesh.edges.size();
+      ++groups;
+      for (const Viewpoint& at : points) {
+        stage.exact[side].see(at, by_all);
+        local.see(at, by_group);
+        ASSERT_EQ(by_all.segments.size(), by_group.segments.size());
+        EXPECT_EQ(by_all.events.size(), by_group.events.size());
+        for (std::size_t i = 0; i < by_all.segments.size(); ++i) {
+          const Segment &a = by_all.segments[i], &b = by_group.segments[i];
+          EXPECT_TRUE(a.a.id == b.a.id && a.b.id == b.b.id && a.weight == b.weight && a.a.x == b.a.x && a.a.y == b.a.y &&
+                      a.b.x == b.b.x && a.b.y == b.b.y);
+        }
+      }
+    }
+  }
+  EXPECT_LT(gathered, all_edges / 4) << groups;  // or gathering would be for nothing
 }
 
 // Strange input: finite answers in bounded time.

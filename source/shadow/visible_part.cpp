@@ -4,20 +4,17 @@
 
 namespace steradian::shadow {
 
-PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift) {
-  PreparedPolygon part = light;
-  part.vertices.clear();
-  part.contours = {0};
-  const int side = light.side_of(from.position);
-  if (side == 0 || (side < 0 && !light.two_sided)) return part;
-
-  const LightFrame frame = light_frame(light, side);
-  LocalEdges<double> edges;
-  edges.assign_all(occluders.mesh, frame);
-  Scratch scratch;
-  edges.see(from, scratch.set);
-  VisibleRegion region;
-  find_visible(frame, from.position, occluders.rays, scratch, region);
+PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& light, const LightFrame& frame, int side,
+                         const Viewpoint& from, double lift) {
+  PreparedPolygon part;
+  part.normal = light.normal;
+  part.centroid = light.centroid;
+  part.area = light.area;
+  part.radiance = light.radiance;
+  part.two_sided = light.two_sided;
+  part.contours.reserve(region.boundary.size() + 1);
+  part.vertices.reserve(2 * region.boundary.size());
+  part.contours.push_back(0);
   const auto place = [&](Vec3d relative) {
     const double least = lift * length(relative), height = dot(relative, from.normal);
     return from.position + (height < least ? relative + from.normal * (least - height) : relative);
@@ -30,6 +27,19 @@ PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occl
     part.contours.push_back(part.vertices.size());
   }
   return part;
+}
+
+PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift) {
+  VisibleRegion region;
+  const int side = light.side_of(from.position);
+  if (side == 0 || (side < 0 && !light.two_sided)) return light_of(region, light, {}, 0, from, lift);
+  const LightFrame frame = light_frame(light, side);
+  LocalEdges<double> edges;
+  edges.assign_all(occluders.mesh, frame);
+  Scratch scratch;
+  edges.see(from, scratch.set);
+  find_visible(frame, from.position, occluders.rays, scratch, region);
+  return light_of(region, light, frame, side, from, lift);
 }
 
 }  // namespace steradian::shadow

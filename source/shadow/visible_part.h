@@ -14,6 +14,10 @@ struct Occluders {
   TriangleRays rays;
 };
 
+// A region as a light: its pieces, each a contour of two vertices (visible_part). side: on which the point stands.
+PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& light, const LightFrame& frame, int side,
+                         const Viewpoint& from, double lift);
+
 // The pieces that bound the visible part, in walk order for this point, each a contour of two vertices: such a contour is the
 // one edge from the first to the second. Above both horizons. No vertices: nothing is seen.
 //
