@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,9 @@ void render_plane_scene(const PlaneRender& job) {
     for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;
     fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);
   }
+  const auto& bodies = loaded.scene.bodies;
+  if (std::none_of(bodies.begin(), bodies.end(), [](const PlaneBody& body) { return body.light.has_value(); }))
+    fmt::print(stderr, "steradian: {}: no light in this file, so the picture is black: give a shape or its group class=\"light\" or data-steradian=\"light\", or name its layer \"lights\"\n", job.scene);
   PlaneFrameOptions options = job.frame;
   options.limits = job.limits;
   try {

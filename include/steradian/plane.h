@@ -70,11 +70,20 @@ struct PlaneBody {
 PlaneBody plane_polygon(std::vector<Vec2d> vertices);
 PlaneBody plane_circle(Vec2d center, double radius);
 
+// Where the picture's shape is not the scene's.
+enum class PlaneFit {
+  stretch,  // the scene fills it
+  meet,     // all of the scene is in it, and what lies around it
+  slice,    // the scene fills it and is cut off
+};
+
 struct PlaneScene {
   Vec2d origin;  // of the picture: the viewBox
   double width = 512, height = 512;
   std::vector<PlaneBody> bodies;
-  std::string name = "scene";  // for messages: the file it came from
+  PlaneFit fit = PlaneFit::stretch;  // SVG files: meet, unless they say otherwise
+  Vec2d align{0.5, 0.5};             // of meet and slice: 0 the left and top, 1 the right and bottom
+  std::string name = "scene";        // for messages: the file it came from
 };
 
 enum class PlaneMethod {

@@ -21,7 +21,10 @@ double ms_since(Clock::time_point start) { return std::chrono::duration<double, 
 
 PixelGrid grid_of(const PlaneScene& scene, int width, int height) {
   const Vec2d step{scene.width / width, scene.height / height};
-  return {scene.origin, step, width, height};
+  if (scene.fit == PlaneFit::stretch || step.x == step.y) return {scene.origin, step, width, height};
+  const double unit = scene.fit == PlaneFit::meet ? std::max(step.x, step.y) : std::min(step.x, step.y);
+  const Vec2d room = Vec2d{scene.width, scene.height} - Vec2d{unit * width, unit * height};
+  return {scene.origin + Vec2d{room.x * scene.align.x, room.y * scene.align.y}, {unit, unit}, width, height};
 }
 
 Picture averaged(const Picture& fine, int n) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -117,7 +118,8 @@ TEST(PlaneFrame, EqualsTheQueryWithOverlappingShapesOfEveryKind) {
 
 TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
   for (const char* name : {"lamps", "room", "city", "logo"}) {
-    const PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/" + name + ".svg").scene;
+    PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/" + name + ".svg").scene;
+    scene.fit = PlaneFit::stretch;
     // A size that puts no pixel's centre on a line of no thickness, where either side may be meant.
     expect_query(scene, 97, 61, 7, name);
   }
@@ -178,6 +180,28 @@ TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   options.threads = 0;
   const Picture all = render_plane(world, options);
   for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], all.pixels[i]) << i;
+}
+
+// A picture of another shape shows the scene whole, or cut off, but never stretched unless that is asked for.
+TEST(PlaneFrame, KeepsTheAspectOfSvg) {
+  const auto scene = [](const std::string& aspect) {
+    return load_plane_scene_from_text("<svg viewBox='0 0 100 100' preserveAspectRatio='" + aspect + "'><circle class='light' fill='#fff' cx='50' cy='50' r='20'/></svg>", "aspect.svg").scene;
+  };
+  const auto lit = [](const PlaneScene& s) {
+    PlaneFrameOptions options;
+    options.width = 80;
+    options.height = 40;
+    const Picture picture = render_plane(PlaneWorld(s), options);
+    int first = 80, last = -1, above = 40, below = -1;
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 80; ++x)
+        if (picture.at(x, y).x == 1) first = std::min(first, x), last = std::max(last, x), above = std::min(above, y), below = std::max(below, y);
+    return std::array<int, 4>{first, last, above, below};
+  };
+  EXPECT_EQ(lit(scene("none")), (std::array<int, 4>{24, 55, 12, 27}));
+  EXPECT_EQ(lit(scene("")), (std::array<int, 4>{32, 47, 12, 27})) << "a pixel is 2.5 units, 50 of them to either side";
+  EXPECT_EQ(lit(scene("xMinYMid meet")), (std::array<int, 4>{12, 27, 12, 27}));
+  EXPECT_EQ(lit(scene("xMidYMid slice")), (std::array<int, 4>{24, 55, 4, 35})) << "a pixel is 1.25 units";
 }
 
 TEST(PlaneFrame, MomentsPointTowardsTheLight) {

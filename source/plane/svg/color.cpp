@@ -87,6 +87,26 @@ std::optional<Vec3d> functional(std::string_view arguments) {
   return from_srgb(value[0], value[1], value[2]);
 }
 
+// Hue in degrees, saturation and lightness in percent: CSS Color 3, 4.2.4.
+std::optional<Vec3d> from_hsl(std::string_view arguments) {
+  double value[3];
+  Scanner scan(arguments);
+  for (double& v : value) {
+    const auto number = scan.number();
+    if (!number) return {};
+    v = *number;
+    if (scan.peek() == 'd') scan.next(), scan.accept('e'), scan.accept('g');
+    scan.accept('%');
+    scan.skip_separators();
+  }
+  const double hue = value[0] / 30, saturation = std::clamp(value[1] / 100, 0.0, 1.0), lightness = std::clamp(value[2] / 100, 0.0, 1.0);
+  const auto channel = [&](double n) {
+    const double k = n + hue - 12 * std::floor((n + hue) / 12);
+    return lightness - saturation * std::min(lightness, 1 - lightness) * std::clamp(std::min(k - 3, 9 - k), -1.0, 1.0);
+  };
+  return from_srgb(channel(0), channel(8), channel(4));
+}
+
 }  // namespace
 
 std::optional<Vec3d> parse_color(std::string_view text) {
@@ -95,6 +115,7 @@ std::optional<Vec3d> parse_color(std::string_view text) {
   const std::size_t open = text.find('(');
   if (open != std::string_view::npos && (text.starts_with("rgb(") || text.starts_with("rgba(")))
     return functional(text.substr(open + 1));
+  if (open != std::string_view::npos && (text.starts_with("hsl(") || text.starts_with("hsla("))) return from_hsl(text.substr(open + 1));
   std::string name;
   for (char c : text) name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto* found = std::lower_bound(std::begin(kNamed), std::end(kNamed), std::string_view(name),

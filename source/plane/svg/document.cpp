@@ -16,13 +16,19 @@ Document::Document(std::string text, std::string name) : text_(std::move(text)),
                 "check the tags and quotes on this line");
   if (std::string_view(root().name()) != "svg")
     throw Error(place_of(root()), "the root element is <" + std::string(root().name()) + ">, not <svg>", "give an SVG file");
-  std::vector<pugi::xml_node> open{root()};
+  std::vector<pugi::xml_node> open{root()}, sheets;
   while (!open.empty()) {
     const pugi::xml_node n = open.back();
     open.pop_back();
+    if (std::string_view(n.name()) == "style") sheets.push_back(n);
     if (n.attribute("id")) ids_.insert({n.attribute("id").value(), n});
     for (pugi::xml_node child : n.children()) open.push_back(child);
   }
+  // The last of equal rules wins, so in the file's order.
+  std::sort(sheets.begin(), sheets.end(), [](pugi::xml_node a, pugi::xml_node b) { return a.offset_debug() < b.offset_debug(); });
+  for (pugi::xml_node sheet : sheets)
+    for (pugi::xml_node part : sheet.children()) sheet_.add(part.value());
+  ignored.insert(sheet_.unsupported.begin(), sheet_.unsupported.end());
 }
 
 std::string Document::place(std::ptrdiff_t offset) const {
@@ -72,16 +78,13 @@ double Document::length_attribute(pugi::xml_node n, const char* attribute, doubl
   return *v;
 }
 
-std::optional<std::string> Document::property(pugi::xml_node n, const char* key) {
-  std::string_view style = n.attribute("style").value();
-  while (!style.empty()) {
-    const std::size_t end = std::min(style.find(';'), style.size());
-    const std::string_view declaration = style.substr(0, end);
-    const std::size_t colon = declaration.find(':');
-    if (colon != std::string_view::npos && trimmed(declaration.substr(0, colon)) == key)
-      return std::string(trimmed(declaration.substr(colon + 1)));
-    style.remove_prefix(std::min(end + 1, style.size()));
+std::optional<std::string> Document::property(pugi::xml_node n, const char* key) const {
+  if (n.attribute("style")) {
+    auto declarations = parse_declarations(n.attribute("style").value());
+    if (const auto found = declarations.find(key); found != declarations.end()) return std::move(found->second);
   }
+  if (!sheet_.empty())
+    if (auto found = sheet_.property(n.name(), n.attribute("id").value(), n.attribute("class").value(), key)) return found;
   if (n.attribute(key)) return std::string(trimmed(n.attribute(key).value()));
   return {};
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "plane/svg/css.h"
 #include "steradian/vector.h"
 
 namespace steradian::plane::svg {
@@ -25,8 +26,8 @@ class Document {
   pugi::xml_node referred(pugi::xml_node n) const;
   pugi::xml_node by_id(const std::string& id) const;
 
-  // An attribute, or the same property in style="...".
-  static std::optional<std::string> property(pugi::xml_node n, const char* key);
+  // A property in style="...", else in a <style> of the file, else the attribute of that name.
+  std::optional<std::string> property(pugi::xml_node n, const char* key) const;
   // A length: user units, px, or an absolute unit at 96 to the inch; a percentage of `whole`.
   static std::optional<double> length_of(std::string_view text, double whole);
   double length_attribute(pugi::xml_node n, const char* attribute, double whole, double otherwise = 0) const;
@@ -40,6 +41,7 @@ class Document {
   std::string text_, name_;
   pugi::xml_document document_;
   std::map<std::string, pugi::xml_node> ids_;
+  StyleSheet sheet_;
 };
 
 }  // namespace steradian::plane::svg

@@ -18,6 +18,7 @@ struct Style {
   double stroke_width = 1;
   Role role = Role::by_shape;
   double intensity = 1;
+  double opacity = 1, fill_opacity = 1, stroke_opacity = 1;
   double range = std::numeric_limits<double>::infinity();
   PlaneProfile profile = PlaneProfile::uniform;
   Vec2d spot_axis;

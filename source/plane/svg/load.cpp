@@ -1,5 +1,6 @@
 // SVG to bodies: the tree, what is inherited down it, and the shapes.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <new>
@@ -27,6 +28,21 @@ constexpr double kFlatness = 1e-5;
 constexpr int kDeepest = 64;           // nested groups and uses: deeper is a cycle or an attack
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
+
+// Levenshtein's distance: letters to change, add or leave out.
+std::size_t edits_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = row[0]++;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t changed = corner + (a[i] == b[k] ? 0 : 1);
+      corner = row[k + 1];
+      row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
 
 std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> result;
@@ -71,14 +87,35 @@ class Reader {
       scene.width = document_.length_attribute(root, "width", 512, 512);
       scene.height = document_.length_attribute(root, "height", 512, 512);
     }
+    read_aspect(root, scene);
     if (!(scene.width > 0 && scene.height > 0 && scene.width < 1e6 && scene.height < 1e6))
       document_.fail(root, "the picture's width and height must be positive and below a million", "set the viewBox");
+  }
+
+  void read_aspect(pugi::xml_node root, PlaneScene& scene) const {
+    scene.fit = PlaneFit::meet;
+    const std::vector<std::string> given = words(root.attribute("preserveAspectRatio").value());
+    if (given.empty()) return;
+    const std::string& align = given.front();
+    if (align == "none") {
+      scene.fit = PlaneFit::stretch;
+      return;
+    }
+    const auto place = [&](std::size_t at) {
+      const std::string_view word = std::string_view(align).substr(std::min(at, align.size()), 3);
+      return word == "Min" ? 0.0 : word == "Mid" ? 0.5 : word == "Max" ? 1.0 : -1.0;
+    };
+    scene.align = {place(1), place(5)};
+    if (align.size() != 8 || scene.align.x < 0 || scene.align.y < 0)
+      document_.fail(root, "preserveAspectRatio=\"" + align + "\" is unknown", "write none, or xMidYMid and the like, then meet or slice");
+    if (given.size() > 1 && given[1] == "slice") scene.fit = PlaneFit::slice;
   }
 
   // What one element says of itself, read once however many <use> show it.
   struct Declared {
     std::optional<std::string> fill, stroke, color, cap, rule;
-    std::optional<double> stroke_width, intensity, range;
+    std::optional<double> stroke_width, intensity, range, fill_opacity, stroke_opacity;
+    double opacity = 1;  // of the whole element
     Role role = Role::by_shape;  // by_shape: says nothing
     std::optional<PlaneProfile> profile;
     std::optional<std::pair<Vec2d, double>> spot;
@@ -108,6 +145,10 @@ class Reader {
       if (*d.range == 0) document_.fail(n, "data-range must be positive", "leave it out for light without a limit");
     }
     if (const auto display = document_.property(n, "display"); display && *display == "none") d.role = Role::ignore;
+    d.opacity = share(n, "opacity").value_or(1);
+    d.fill_opacity = share(n, "fill-opacity");
+    d.stroke_opacity = share(n, "stroke-opacity");
+    refuse_misspelt(n);
     read_role(n, d);
     read_profile(n, d);
     if (n.attribute("transform")) {
@@ -130,10 +171,33 @@ class Reader {
     style.intensity = d.intensity.value_or(style.intensity);
     style.range = d.range.value_or(style.range);
     style.profile = d.profile.value_or(style.profile);
+    style.opacity *= d.opacity;
+    style.fill_opacity = d.fill_opacity.value_or(style.fill_opacity);
+    style.stroke_opacity = d.stroke_opacity.value_or(style.stroke_opacity);
     if (d.role != Role::by_shape && style.role != Role::ignore) style.role = d.role;
     if (d.spot) std::tie(style.spot_axis, style.spot_half_angle) = *d.spot;
     if (d.transform) style.transform = style.transform * *d.transform;
     return style;
+  }
+
+  // A share of 1, or a percentage.
+  std::optional<double> share(pugi::xml_node n, const char* key) const {
+    const auto text = document_.property(n, key);
+    if (!text || *text == "inherit") return {};
+    const auto v = document_.length_of(*text, 1);
+    if (!v) document_.fail(n, std::string(key) + "=\"" + *text + "\" is not a number", "write a number from 0 to 1");
+    return std::clamp(*v, 0.0, 1.0);
+  }
+
+  // Other programs write data- attributes of their own; one that is nearly ours is a slip.
+  void refuse_misspelt(pugi::xml_node n) const {
+    static constexpr const char* kOurs[] = {"data-steradian", "data-intensity", "data-range", "data-profile", "data-spot"};
+    for (pugi::xml_attribute a : n.attributes()) {
+      const std::string_view name = a.name();
+      if (!name.starts_with("data-") || std::find(std::begin(kOurs), std::end(kOurs), name) != std::end(kOurs)) continue;
+      for (const char* ours : kOurs)
+        if (edits_between(name, ours) <= 2) document_.fail(n, std::string(name) + " is unknown", std::string("write ") + ours);
+    }
   }
 
   void read_role(pugi::xml_node n, Declared& d) const {
@@ -143,6 +207,12 @@ class Reader {
     for (const std::string& word : words(n.attribute("class").value()))
       for (const auto& [key, role] : kRoles)
         if (word == key) d.role = role;
+    // Names of layers, as Inkscape writes them: "Lights", "light 2".
+    for (std::string word : words(n.attribute("inkscape:label").value())) {
+      for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      for (const auto& [key, role] : kRoles)
+        if (word == key || word == std::string(key) + "s") d.role = role;
+    }
     if (!n.attribute("data-steradian")) return;
     for (const auto& [key, role] : kRoles)
       if (trimmed(n.attribute("data-steradian").value()) == key) {
@@ -217,7 +287,7 @@ class Reader {
   void element(pugi::xml_node n, const Style& outer, int depth) {
     spend(n, kElementSteps, 0);
     const std::string_view name = n.name();
-    static const std::set<std::string_view> kSilent = {"title", "desc", "metadata", "defs", "linearGradient", "symbol"};
+    static const std::set<std::string_view> kSilent = {"title", "desc", "metadata", "defs", "linearGradient", "radialGradient", "symbol", "style"};
     if (kSilent.count(name) != 0 || name.find(':') != std::string_view::npos) return;
     static const std::set<std::string_view> kKnown = {"g",    "a",       "svg",     "use",  "rect", "circle", "ellipse",
                                                       "line", "polygon", "polyline", "path"};
@@ -247,7 +317,10 @@ class Reader {
 
   void shape(pugi::xml_node n, std::string_view name, const Style& style) {
     const double w = result_.scene.width, h = result_.scene.height;
-    const bool filled = style.fill != "none" && name != "line";
+    const bool filled = style.fill != "none" && style.fill_opacity > 0 && name != "line";
+    const double opacity = style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
+    if (opacity == 0) return;
+    if (opacity < 1 && style.role != Role::light) document_.ignored.insert("opacity (what is not a light blocks wholly)");
     PlaneBody body;
     if (name == "circle" || name == "ellipse") {
       const bool round = name == "circle";
@@ -346,8 +419,16 @@ class Reader {
     spend(n, 500, sizeof(PlaneBody) + 40);
     body.name = n.attribute("id").value();
     if (style.role == Role::light) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
     if (body.light && body.light->gradient) spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
     result_.scene.bodies.push_back(std::move(body));
+  }
+
+  // A translucent light shines as much less.
+  static void dim(PlaneEmission& light, double opacity) {
+    light.radiance = light.radiance * opacity;
+    if (!light.gradient) return;
+    for (PlaneStop& stop : light.gradient->stops) stop.radiance = stop.radiance * opacity;
   }
 
   Document document_;

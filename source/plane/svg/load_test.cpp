@@ -63,6 +63,38 @@ TEST(LoadSvg, ColorsAreMadeLinear) {
   EXPECT_NEAR(svg.scene.bodies[2].light->radiance.z, std::pow((237 / 255.0 + 0.055) / 1.055, 2.4), 1e-15);
 }
 
+TEST(LoadSvg, StyleSheetsSayWhatAttributesWouldWhereverTheyStand) {
+  const PlaneSvg svg = load(R"~(<rect id="a" class="lamp warm" width="9" height="9" fill="#000"/><circle class="lamp" r="4"/><circle r="2" class="cold"/>
+    <rect class="light cold" width="3" height="3" style="fill:#00f"/>
+    <style><![CDATA[ /* a { fill: red } */ .lamp, .cold { fill: #ff0000; } #a { fill: lime } circle.cold { display: none }
+    @media print { rect { display: none } } g > rect { fill: blue } ]]></style>)~");
+  ASSERT_EQ(svg.scene.bodies.size(), 3u) << "circle.cold is not displayed";
+  EXPECT_EQ(svg.ignored, (std::vector<std::string>{"CSS @media", "CSS selector 'g > rect'"}));
+  const PlaneSvg lit = load(R"~(<style>.lamp { fill: #f00 } #a { fill: #0f0 } rect { fill: #00f }</style>
+    <g class="light"><rect id="a" class="lamp" width="1" height="1" fill="#fff"/><rect class="lamp" width="1" height="1"/><rect width="1" height="1" fill="#fff"/>
+    <rect class="lamp" style="fill:#fff" width="1" height="1"/></g>)~");
+  const auto radiance = [&](std::size_t i) { return lit.scene.bodies.at(i).light->radiance; };
+  EXPECT_EQ(radiance(0), (Vec3d{0, 1, 0})) << "an id weighs more than a class";
+  EXPECT_EQ(radiance(1), (Vec3d{1, 0, 0})) << "a class more than an element";
+  EXPECT_EQ(radiance(2), (Vec3d{0, 0, 1})) << "a rule more than an attribute";
+  EXPECT_NEAR(radiance(3).y, 1, 1e-15) << "style=\"\" more than a rule";
+}
+
+TEST(LoadSvg, LayersAreNamedForTheirRole) {
+  const PlaneSvg svg = load(R"~(<g inkscape:label="Lights"><rect width="1" height="1"/></g><g inkscape:label="Highlight"><rect width="1" height="1"/></g>)~");
+  EXPECT_TRUE(svg.scene.bodies.at(0).light);
+  EXPECT_FALSE(svg.scene.bodies.at(1).light);
+}
+
+TEST(LoadSvg, OpacityDimsLights) {
+  const PlaneSvg svg = load(R"~(<g class="light" opacity="0.5"><circle r="1" fill="#fff" fill-opacity="50%"/><circle r="1" fill="hsl(120, 100%, 50%)"/></g>
+    <rect width="1" height="1" opacity="0"/><rect width="1" height="1" fill-opacity="0"/>)~");
+  ASSERT_EQ(svg.scene.bodies.size(), 2u) << "what is not seen does not block";
+  EXPECT_NEAR(svg.scene.bodies[0].light->radiance.x, 0.25, 1e-15);
+  EXPECT_EQ(svg.scene.bodies[1].light->radiance.x, 0);
+  EXPECT_NEAR(svg.scene.bodies[1].light->radiance.y, 0.5, 1e-15);
+}
+
 TEST(LoadSvg, TransformsNestAndUseMoves) {
   const PlaneSvg svg = load(R"~(<defs><rect id="box" width="2" height="1"/></defs>
     <g transform="translate(10 20)"><g transform="scale(3) rotate(90)"><use href="#box" x="1"/></g></g>)~");
@@ -213,6 +245,8 @@ TEST(LoadSvg, RefusesBrokenFilesWithLineAndHint) {
   expect_refusal("<circle r=\"-3\"/>", "2", "negative");
   expect_refusal("<rect data-steradian=\"lamp\" width=\"1\" height=\"1\"/>", "2", "unknown");
   expect_refusal("<rect data-range=\"0\" width=\"1\" height=\"1\"/>", "2", "positive");
+  expect_refusal("<rect data-intesity=\"2\" width=\"1\" height=\"1\"/>", "2", "data-intesity is unknown");
+  EXPECT_NO_THROW(load("<rect data-name=\"Layer 1\" width=\"1\" height=\"1\"/>"));
   expect_refusal("<g id=\"a\"><use href=\"#a\"/></g>", "2", "nest deeper");
   expect_refusal("<use href=\"#nobody\"/>", "2", "refers to nothing");
   EXPECT_THROW(load_plane_scene_from_text("", "test.svg"), Error);
