@@ -135,8 +135,8 @@ TEST(Methods, AutomaticIsTheFirstThatServesAndADraftTakesTheTable) {
   const auto chosen = [](const Material& lobe, Quality quality) {
     return std::string(methods::find(Method::automatic, lobe, quality)->name);
   };
-  const char* const normal[] = {"exact", "series", "series", "series", "closed-form", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact", "matched-lobe"};
-  const char* const draft[] = {"exact", "series", "series", "series", "ltc-compact", "closed-form", "exact", "half-vector", "half-vector", "ltc-compact", "matched-lobe"};
+  const char* const normal[] = {"exact", "series", "series", "series", "closed-form", "closed-form", "exact", "half-vector", "half-vector", "cubature", "matched-lobe"};
+  const char* const draft[] = {"exact", "series", "series", "series", "ltc-compact", "closed-form", "exact", "half-vector", "half-vector", "cubature", "matched-lobe"};
   const std::vector<NamedLobe> all = lobes();
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(chosen(all[i].lobe, Quality::normal), normal[i]) << all[i].words;
@@ -168,7 +168,7 @@ Scene scene_with(const Material& lobe) {
 TEST(Methods, EvalAndRenderServeTheSameLobes) {
   for (const Row& row : methods::all())
     for (const NamedLobe& l : lobes()) {
-      if (l.lobe.brdf == Brdf::lambert || l.lobe.brdf == Brdf::charlie) continue;  // exact and by its table beside all
+      if (l.lobe.brdf == Brdf::lambert || l.lobe.brdf == Brdf::charlie) continue;  // exact and by its cubature beside all
       RenderOptions options;
       options.method = row.name;
       const bool serves = methods::find(row.method, l.lobe, Quality::normal) != nullptr;
