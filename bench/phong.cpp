@@ -50,12 +50,12 @@ void add_phong(BenchList& list) {
     std::string name;
     PhongOptions options;
   };
-  const std::vector<Variant> variants = {{"arvo", {PhongMethod::arvo}},
-                                         {"lorentzian", {PhongMethod::lorentzian}},
-                                         {"pearson", {PhongMethod::pearson}},
-                                         {"ellipsoid", {PhongMethod::ellipsoid}},
-                                         {"series", {PhongMethod::series}},
-                                         {"series-high", {PhongMethod::series, PhongQuality::high}}};
+  const std::vector<Variant> variants = {{"arvo", {Method::arvo}},
+                                         {"lorentzian", {Method::lorentzian}},
+                                         {"pearson", {Method::pearson}},
+                                         {"ellipsoid", {Method::ellipsoid}},
+                                         {"series", {Method::series}},
+                                         {"series-high", {Method::series, Quality::high}}};
   for (const Variant& v : variants)
     for (const int n : {100, 500, 5000}) {
       const std::string name = "kernel/" + v.name + "/quad/n=" + std::to_string(n);

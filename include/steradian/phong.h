@@ -20,9 +20,6 @@ namespace steradian {
 // O(n): exact, integer n), lorentzian, pearson, ellipsoid (the published peak fits, errors of 1e-2, for comparison), series
 // (the matched ellipsoid's cosine series, O(1): 1e-3 of the full lobe at worst, 2e-4 on the average).
 // quality: of series.
-using PhongMethod = Method;
-using PhongQuality = Quality;
-
 struct PhongOptions {
   Method method = Method::series;
   Quality quality = Quality::normal;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "steradian/area_light.h"
 #include "steradian/material.h"
 #include "steradian/method.h"
 #include "steradian/polygon_light.h"
@@ -42,6 +43,10 @@ struct RadianceResult {
 RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe,
                         const RadianceOptions& options = {});
 RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe,
+                        const RadianceOptions& options = {});
+// Polygons, disks, spheres and capsules; of a textured light, under its mean radiance. Round lights are exact for Lambert by
+// `exact`; of other methods they are polygons, and the bound of reference holds the difference (docs/eval.md).
+RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Material& lobe,
                         const RadianceOptions& options = {});
 
 }  // namespace steradian

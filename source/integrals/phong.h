@@ -35,7 +35,7 @@ struct PhongLobe {
   }
 
   // One edge's share of (n + 1) times the moment; r the lobe's unit axis.
-  template <PhongMethod method, PhongQuality quality>
+  template <Method method, Quality quality>
   STERADIAN_INLINE Real<S> share(typename K::vec3 a, typename K::vec3 b, typename K::vec3 r) const {
     K k;
     const auto edge = k.moment_edge(a, b, r);
@@ -43,22 +43,22 @@ struct PhongLobe {
   }
 
   // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of an edge, m = n + 1.
-  template <PhongMethod method, PhongQuality quality>
+  template <Method method, Quality quality>
   STERADIAN_INLINE Real<S> front(const typename K::MomentEdge& edge) const {
     K k;
-    if constexpr (method == PhongMethod::exact) {
+    if constexpr (method == Method::exact) {
       return k.moment_quadrature_front(edge, n).moment;
-    } else if constexpr (method == PhongMethod::arvo) {
+    } else if constexpr (method == Method::arvo) {
       // The sum of no power at all: 1/(1 + x) is what is left.
       if (integer_n == 0) return k.moment_solid_angle_front(edge);
       return k.moment_arvo_front(edge, integer_n, can_stop, relative_precision);
-    } else if constexpr (method == PhongMethod::lorentzian) {
+    } else if constexpr (method == Method::lorentzian) {
       return k.moment_lorentzian_front(edge, n, even_n);
-    } else if constexpr (method == PhongMethod::pearson) {
+    } else if constexpr (method == Method::pearson) {
       return k.moment_pearson_front(edge, n, even_n);
-    } else if constexpr (method == PhongMethod::ellipsoid) {
+    } else if constexpr (method == Method::ellipsoid) {
       return k.moment_ellipsoid_front(edge, n, even_n);
-    } else if constexpr (quality == PhongQuality::high) {
+    } else if constexpr (quality == Quality::high) {
       return below_1 ? k.moment_series_high_low_front(edge, series_high, n)
                      : k.moment_series_high_front(edge, series_high);
     } else {
@@ -94,19 +94,19 @@ class Phong {
 // Calls use(share) with the share of the method: a type for each, so that a walk holds one method.
 template <class S, class Use>
 STERADIAN_INLINE auto with_phong_share(const PhongLobe<S>& lobe, const PhongOptions& options, Use use) {
-  const auto by = [&]<PhongMethod method, PhongQuality quality = PhongQuality::normal>() {
+  const auto by = [&]<Method method, Quality quality = Quality::normal>() {
     return use([&lobe](const auto& a, const auto& b, const auto& axis) { return lobe.template share<method, quality>(a, b, axis); });
   };
   switch (options.method) {
-    case PhongMethod::exact: return by.template operator()<PhongMethod::exact>();
-    case PhongMethod::arvo: return by.template operator()<PhongMethod::arvo>();
-    case PhongMethod::lorentzian: return by.template operator()<PhongMethod::lorentzian>();
-    case PhongMethod::pearson: return by.template operator()<PhongMethod::pearson>();
-    case PhongMethod::ellipsoid: return by.template operator()<PhongMethod::ellipsoid>();
+    case Method::exact: return by.template operator()<Method::exact>();
+    case Method::arvo: return by.template operator()<Method::arvo>();
+    case Method::lorentzian: return by.template operator()<Method::lorentzian>();
+    case Method::pearson: return by.template operator()<Method::pearson>();
+    case Method::ellipsoid: return by.template operator()<Method::ellipsoid>();
     default: break;  // series
   }
-  if (options.quality == PhongQuality::high) return by.template operator()<PhongMethod::series, PhongQuality::high>();
-  return by.template operator()<PhongMethod::series>();
+  if (options.quality == Quality::high) return by.template operator()<Method::series, Quality::high>();
+  return by.template operator()<Method::series>();
 }
 
 }  // namespace integrals

@@ -82,8 +82,8 @@ TEST(ProductOfLobes, QuadratureKeepsItsBoundAndSamplingItsError) {
   EXPECT_LE(beyond, 2) << "of " << lit;
 }
 
-// The one lobe in place of the product, as a share of what the whole lobe sends: docs/moments.md has 1 % at most, on quads all in
-// front of both axes and up to 80 degrees between them; here lights of every kind, up to 75 degrees.
+// The one lobe in place of the product, as a share of the product's height. The table of docs/moments.md has 2.9 % at most for
+// the whole lobe, which a large light sees, and 1 % for parts of it: 4 % together. Here up to 75 degrees between the axes.
 TEST(ProductOfLobes, TheMatchedLobeIsNear) {
   Random random(64);
   double worst = 0, squares = 0;
@@ -95,9 +95,10 @@ TEST(ProductOfLobes, TheMatchedLobeIsNear) {
                                reference::random_view(random, c.at.normal));
     const Vec3d mirror = mirrored(c.at);
     if (dot(mirror, m.axis) < 0.25) continue;
-    const ReferenceResult truth = reference_radiance(light, c.at, m, {1e-7, 1e-10, 400'000});
     const Vec3d peak = lobe_axis(m, c.at).axis;
     const double height = std::pow(dot(peak, mirror), m.exponent) * std::pow(dot(peak, m.axis), m.axis_exponent);
+    if (height < 1e-4) continue;  // sharp lobes far apart leave nothing, and the quadrature stops at absolute errors
+    const ReferenceResult truth = reference_radiance(light, c.at, m, {1e-7, 1e-10, 400'000});
     for (const Precision precision : {Precision::double_, Precision::float_}) {
       RadianceOptions options;
       options.method = Method::matched_lobe;

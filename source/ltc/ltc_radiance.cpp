@@ -20,7 +20,7 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
   auto view = transform_transposed(frame, integrals::to_kernel<S>(v));
   view.y = 0.0;
   const auto shading = integrals::shading_from<S>(cosine > 0 ? shapes::lit_side(light, at.position) : 0, view);
-  const double alpha = std::max(material.alpha_x, 1e-4);
+  const double alpha = std::max(material.alpha_x, kSmallestAlpha);
   const auto by = [&](auto integral, Vec3d f0, Vec3d f90) {
     return integrals::radiance_of<S>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral), f0, f90, light.radiance);
   };

@@ -22,7 +22,7 @@ Real<S> rounded(Real<T> x) {
     return Real<S>(static_cast<double>(x.v));
 }
 
-//   alpha    at least 1e-4
+//   alpha    at least kSmallestAlpha
 //   cosine   of the view, which is (s, 0, c) in the shading frame
 template <class S>
 integrals::LtcLobe<S> classic_lobe(const ClassicTable& table, double alpha, Real<TableNumber<S>> cosine) {

@@ -69,7 +69,7 @@ Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
   const auto frame = k.frame_from_normal_and_view(integrals::to_kernel<double>(at.normal), integrals::to_kernel<double>(at.view));
   auto view = transform_transposed(frame, integrals::to_kernel<double>(at.view));
   view.y = 0.0;
-  const auto lobe = compact_lobe<double>(ggx_compact_table(), std::max(alpha, 1e-4), cosine, view);
+  const auto lobe = compact_lobe<double>(ggx_compact_table(), std::max(alpha, kSmallestAlpha), cosine, view);
   return look_up(polygon_, texture_, at, frame, lobe.matrix);
 }
 

@@ -152,7 +152,7 @@ TEST(DoubleAxis, KernelsInConstantTimeAreClose) {
                              const auto cosines = k.moment_cosine_front(edge, n, low);
                              const double half_circle = integrate_front(edge, n - 1).power.v;
                              worst_cosines = std::max(worst_cosines, std::fabs(cosines.v - half_circle) * std::sqrt(n));
-                             const auto share = lobe.share<PhongMethod::series, PhongQuality::normal>(a, b, r);
+                             const auto share = lobe.share<Method::series, Quality::normal>(a, b, r);
                              return k.moment_double_axis_share(a, b, r, up, share, cosines);
                            }).v;
     if (light.side_of(c.at.position) == 0) continue;

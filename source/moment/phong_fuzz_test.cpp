@@ -36,14 +36,14 @@ typename Kernels<S>::vec3 odd_direction(Random& random) {
 }
 
 // Walks odd outlines through the kernels themselves: nothing there has checked that a light is flat.
-template <class S, PhongMethod method, PhongQuality quality = PhongQuality::normal>
+template <class S, Method method, Quality quality = Quality::normal>
 void walk_odd_outlines(int count) {
   Kernels<S> k;
   Random random(20);
   const FlushDenormals flush;
   for (int i = 0; i < count; ++i) {
     static constexpr double kExponents[] = {0, 1, 2, 3, 7, 8, 64, 100, 1001, 10000};
-    const double n = method == PhongMethod::arvo || i % 2 ? kExponents[random.bits() % 10] : random.uniform(0, 50);
+    const double n = method == Method::arvo || i % 2 ? kExponents[random.bits() % 10] : random.uniform(0, 50);
     const integrals::PhongLobe<S> lobe(n, i % 3 == 0 ? 1e-4 : 0);
     auto r = odd_direction<S>(random);
     r.z = abs(r.z);
@@ -71,13 +71,13 @@ void walk_odd_outlines(int count) {
 
 template <class S>
 void walk_by_every_method() {
-  walk_odd_outlines<S, PhongMethod::exact>(20000);
-  walk_odd_outlines<S, PhongMethod::arvo>(2000);
-  walk_odd_outlines<S, PhongMethod::lorentzian>(40000);
-  walk_odd_outlines<S, PhongMethod::pearson>(40000);
-  walk_odd_outlines<S, PhongMethod::ellipsoid>(40000);
-  walk_odd_outlines<S, PhongMethod::series>(40000);
-  walk_odd_outlines<S, PhongMethod::series, PhongQuality::high>(40000);
+  walk_odd_outlines<S, Method::exact>(20000);
+  walk_odd_outlines<S, Method::arvo>(2000);
+  walk_odd_outlines<S, Method::lorentzian>(40000);
+  walk_odd_outlines<S, Method::pearson>(40000);
+  walk_odd_outlines<S, Method::ellipsoid>(40000);
+  walk_odd_outlines<S, Method::series>(40000);
+  walk_odd_outlines<S, Method::series, Quality::high>(40000);
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ TEST(PhongPacks, AgreeWithScalarFloatForEveryMethodAndInstructionSet) {
     const auto arrays = [&](int first) { return VectorArrays{a[first].data(), a[first + 1].data(), a[first + 2].data()}; };
     const Points points{16, arrays(0), arrays(3), arrays(6)};
     for (const auto& method : moment::compared_methods()) {
-      if (method.options.method == PhongMethod::arvo && n != std::floor(n)) continue;
+      if (method.options.method == Method::arvo && n != std::floor(n)) continue;
       for (const Simd simd : available_simd()) {
         phong_table_for(simd).radiance(prepare_light(light), points, n, method.options, result.data());
         for (std::size_t j = 0; j < 16; ++j) {

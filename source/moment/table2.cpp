@@ -29,7 +29,7 @@ std::vector<double> exact_picture(const PhongPlane& plane, const PreparedPolygon
   std::vector<double> picture(plane.count);
   const Material material = phong(n);
   for (std::size_t i = 0; i < plane.count; ++i)
-    picture[i] = phong_radiance(light, plane.at(i), material, {PhongMethod::exact}).x;
+    picture[i] = phong_radiance(light, plane.at(i), material, {Method::exact}).x;
   return picture;
 }
 
@@ -97,14 +97,14 @@ constexpr Published kPublished[] = {
 
 const std::vector<ComparedMethod>& compared_methods() {
   static const std::vector<ComparedMethod> methods = {
-      {"arvo", {PhongMethod::arvo}},
-      {"arvo to 1e-4", {PhongMethod::arvo, PhongQuality::normal, 1e-4}},
-      {"lorentzian", {PhongMethod::lorentzian}},
-      {"pearson", {PhongMethod::pearson}},
-      {"ellipsoid", {PhongMethod::ellipsoid}},
-      {"series", {PhongMethod::series}},
-      {"series high", {PhongMethod::series, PhongQuality::high}},
-      {"quadrature", {PhongMethod::exact}},
+      {"arvo", {Method::arvo}},
+      {"arvo to 1e-4", {Method::arvo, Quality::normal, 1e-4}},
+      {"lorentzian", {Method::lorentzian}},
+      {"pearson", {Method::pearson}},
+      {"ellipsoid", {Method::ellipsoid}},
+      {"series", {Method::series}},
+      {"series high", {Method::series, Quality::high}},
+      {"quadrature", {Method::exact}},
   };
   return methods;
 }

@@ -117,7 +117,7 @@ LinePlot fits_plot() {
 Picture error_picture(Simd simd, int n, double enlarged) {
   constexpr int kWidth = 240, kHeight = 135;
   const PhongPlane plane = make_phong_plane(kWidth, kHeight);
-  const std::vector<PhongMethod> methods = {PhongMethod::lorentzian, PhongMethod::pearson, PhongMethod::ellipsoid, PhongMethod::series};
+  const std::vector<Method> methods = {Method::lorentzian, Method::pearson, Method::ellipsoid, Method::series};
   const std::vector<NamedLight> lights = comparison_lights();
   Picture picture(kWidth * static_cast<int>(methods.size() + 1), kHeight * static_cast<int>(lights.size()));
   Material material;
@@ -126,7 +126,7 @@ Picture error_picture(Simd simd, int n, double enlarged) {
   for (std::size_t l = 0; l < lights.size(); ++l) {
     std::vector<double> exact(plane.count);
     for (std::size_t i = 0; i < plane.count; ++i)
-      exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {PhongMethod::exact}).x;
+      exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {Method::exact}).x;
     const double brightest = *std::max_element(exact.begin(), exact.end());
     const auto put = [&](std::size_t column, std::size_t i, double value) {
       const float v = static_cast<float>(value);

@@ -261,7 +261,7 @@ RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLigh
   const int side = shapes::lit_side(light, at.position);
   if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
   const Vec3d view = normalized(at.view);
-  const double alpha = std::max(m.alpha_x, 1e-4);
+  const double alpha = std::max(m.alpha_x, kSmallestAlpha);
   // The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
   const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
     integrals::Ltc<S> ltc(method == LtcMethod::classic ? classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z)
