@@ -255,6 +255,9 @@ TEST(DecodeExr, SurvivesDamageAndRefusesSizes) {
     for (int k = static_cast<int>(random() % 3); k >= 0; --k) file[random() % file.size()] = static_cast<char>(random());
     read(file, 50'000'000);
   }
+  std::string claims = whole;
+  claims.replace(claims.find("channels") + 9 + 7, 4, "\xFF\xFF\xFF\x7F");
+  EXPECT_NE(read(claims, 1'000'000'000).find("header is cut off or damaged"), std::string::npos) << read(claims, 1'000'000'000);
   std::string huge = whole;
   const std::size_t window = huge.find("dataWindow") + 11 + 6 + 4 + 8;  // name, type "box2i", size, and its lower corner
   for (std::size_t i = 0; i < 8; i += 4) huge.replace(window + i, 4, std::string("\xFF\x7F\0\0", 4));

@@ -67,12 +67,35 @@ std::pair<std::string, int> layer_and_suffix(const std::string& name) {
   return {dot == std::string::npos ? "" : name.substr(0, dot), c};
 }
 
+// Every attribute's claimed size is covered by the bytes that follow: OpenEXR makes room for it before it reads them.
+// Attributes: name and type, each ended by 0, four bytes of size, the value; an empty name ends them.
+void check_attributes(std::span<const std::uint8_t> bytes, const std::string& place) {
+  if (bytes.size() < 8 || std::memcmp(bytes.data(), "\x76\x2F\x31\x01", 4) != 0)
+    throw Error(place, "not an EXR picture: its first bytes are another format's", "name the file by its format");
+  std::size_t at = 8;  // magic number and version
+  const auto skip_text = [&] {
+    const std::size_t begin = at;
+    while (at < bytes.size() && bytes[at] != 0) ++at;
+    return at++ - begin;
+  };
+  const auto damaged = [&] { throw Error(place, "the EXR picture's header is cut off or damaged", "save it again"); };
+  while (skip_text() > 0) {
+    skip_text();
+    if (at + 4 > bytes.size()) damaged();
+    const std::uint64_t size = bytes[at] | std::uint64_t{bytes[at + 1]} << 8 | std::uint64_t{bytes[at + 2]} << 16 |
+                               std::uint64_t{bytes[at + 3]} << 24;
+    at += 4;
+    if (size > bytes.size() - at) damaged();
+    at += static_cast<std::size_t>(size);
+  }
+  if (at > bytes.size()) damaged();
+}
+
 // The header alone, before OpenEXR makes room for what it claims.
 Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budget& budget) {
   int magic = 0, version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, magic);
   Imf::Xdr::read<Imf::StreamIO>(stream, version);
-  if (magic != Imf::MAGIC) throw Error(place, "not an EXR picture: its first bytes are another format's");
   if (Imf::isMultiPart(version) || Imf::isNonImage(version))
     throw Error(place, "the EXR picture has several parts or deep pixels", "save it as one flat part");
   Imf::Header header;
@@ -148,6 +171,7 @@ std::string encode_exr(const Picture& picture) {
 Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget) {
   try {
     MemoryStream stream(bytes, place);
+    check_attributes(bytes, place);
     const Imf::Header header = checked_header(stream, place, budget);
     stream.seekg(0);
     return read_pixels(stream, header.dataWindow());
