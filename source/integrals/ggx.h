@@ -31,7 +31,7 @@ class GgxArcs {
 
  protected:
   // Turns the edges into arcs; the sum of their vectors.
-  vec3 prepare() {
+  STERADIAN_INLINE vec3 prepare() {
     vec3 e(0.0, 0.0, 0.0);
     arcs_.clear();
     for (const Edge& edge : edges_) {
@@ -60,7 +60,7 @@ class Ggx : public GgxArcs<S> {
   Real<S> smith{1.0};  // 1 with shadowing, 0 without
   Quality quality = Quality::normal;
 
-  Part<S> finish(Mask<S> reversed) {
+  STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
     const auto e = this->prepare();
     const Real<S> facing = this->facing(reversed);
     if (quality == Quality::draft) return K().ggx_draft(this->view_, e, smith, facing);
@@ -75,7 +75,7 @@ class Ggx : public GgxArcs<S> {
 template <class S>
 class UnshadowedGgx : public GgxArcs<S> {
  public:
-  Part<S> finish(Mask<S> reversed) {
+  STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
     const auto e = this->prepare();
     return {Kernels<S>().ggx_unshadowed(this->view_, e * this->facing(reversed)), Real<S>(0.0)};
   }

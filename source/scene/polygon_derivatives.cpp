@@ -231,13 +231,15 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   }
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
-    const PhongOptions series = {Method::series, quality};
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
       const integrals::PhongLobe<S> lobe(m.exponent, 0.0);
-      return integrals::with_phong_share<S>(lobe, series, [&](auto share) {
-        integrals::Phong<S, decltype(share)> phong(share);
-        return integrate(outline, shading, phong);
-      });
+      // Of the series alone: the other methods in dual numbers would take the compiler's budget for inlining.
+      const auto share = [&](const auto& a, const auto& b, const auto& axis) {
+        return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
+                                        : lobe.template share<Method::series, Quality::normal>(a, b, axis);
+      };
+      integrals::Phong<S, decltype(share)> phong(share);
+      return integrate(outline, shading, phong);
     };
     return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
                        light.radiance * m.albedo, {});

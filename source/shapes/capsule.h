@@ -34,7 +34,8 @@ struct AboutLobe {
   Real<S> width;
   int corners;  // 12, or 16 for high quality (docs/ggx.md)
 };
-inline constexpr std::size_t kMostCorners = 16;
+template <class S>
+using Corners = std::array<typename Kernels<S>::vec3, 16>;
 
 // From the point p in the shading frame, in units of its distance.
 template <class S>
@@ -46,7 +47,7 @@ STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Ke
   return Kernels<S>().capsule_prepare(a * unit, b * unit, radius * unit);
 }
 
-// Functions of their own: inlined, they would take registers from the walks of polygons.
+// A function of its own: inlined, it would take registers from the walks of polygons.
 template <class S>
 __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
   using vec3 = typename Kernels<S>::vec3;
@@ -57,27 +58,17 @@ __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, con
 }
 
 template <class S>
-__attribute__((flatten, noinline)) typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light, const Seen<S>&,
-                                                                               const typename Kernels<S>::mat3& frame,
-                                                                               const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light, const typename Kernels<S>::mat3& frame,
+                                                             const typename Kernels<S>::vec3& p) {
   return Kernels<S>().capsule_irradiance_vector(capsule_in<S>(light, frame, p));
 }
 
 template <class S>
-__attribute__((flatten, noinline)) void fill_corners(const packed::Capsule& light, const AboutLobe<S>& lobe,
-                                                     const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p,
-                                                     std::array<typename Kernels<S>::vec3, kMostCorners>& corners) {
+STERADIAN_INLINE void fill_corners(const packed::Capsule& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
+                                   const typename Kernels<S>::vec3& p, Corners<S>& corners) {
   Kernels<S> k;
   const auto fan = k.capsule_fan(capsule_in<S>(light, frame, p), lobe.axis, lobe.width, lobe.corners);
   for (int i = 0; i < lobe.corners; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.capsule_fan_corner(fan, i));
-}
-
-template <class S, class Use>
-STERADIAN_INLINE void with_corners(const packed::Capsule& light, const Seen<S>&, const AboutLobe<S>& lobe,
-                                   const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p, Use use) {
-  std::array<typename Kernels<S>::vec3, kMostCorners> corners;
-  fill_corners<S>(light, lobe, frame, p, corners);
-  use([&](int i) { return corners[static_cast<std::size_t>(i)]; });
 }
 
 }  // namespace shapes

@@ -67,31 +67,34 @@ namespace shapes {
 
 template <class S>
 STERADIAN_INLINE Seen<S> see(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
-  Seen<S> seen = see_plane<S>(light, p);
-  seen.outline.center = to_kernel<S>(light.point) - p;
-  seen.outline.axis_a = to_kernel<S>(light.x);
-  seen.outline.axis_b = to_kernel<S>(light.y);
-  seen.reversed = Kernels<S>().mask_none();  // its outline is walked as it is seen
-  return seen;
+  return {see_plane<S>(light, p).lit, Kernels<S>().mask_none()};  // its outline is walked as it is seen
+}
+
+// The outline from the point p.
+template <class S>
+STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+  return {to_kernel<S>(light.point) - p, to_kernel<S>(light.x), to_kernel<S>(light.y), Kernels<S>().mask_all()};
 }
 
 template <class S>
-STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
   const auto column = [](float x, float y, float z) { return to_kernel<S>(Vec3f{x, y, z}); };
   const typename Kernels<S>::mat3 axes(to_kernel<S>(light.x), to_kernel<S>(light.y), to_kernel<S>(light.z));
   const typename Kernels<S>::mat3 inverse(column(light.inverse_x.x, light.inverse_y.x, light.inverse_z.x),
                                           column(light.inverse_x.y, light.inverse_y.y, light.inverse_z.y),
                                           column(light.inverse_x.z, light.inverse_y.z, light.inverse_z.z));
-  Seen<S> seen;
-  seen.outline = Kernels<S>().ellipsoid_outline(to_kernel<S>(light.center) - p, axes, inverse);
-  seen.lit = seen.outline.outside;
-  seen.reversed = Kernels<S>().mask_none();
-  return seen;
+  return Kernels<S>().ellipsoid_outline(to_kernel<S>(light.center) - p, axes, inverse);
 }
 
-// The outline in the shading frame, in units of its distance: squares of squares stay in the range of float.
 template <class S>
-STERADIAN_INLINE auto ellipse_in(const typename Kernels<S>::EllipsoidOutline& outline, const typename Kernels<S>::mat3& frame) {
+STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+  return {outline_from<S>(light, p).outside, Kernels<S>().mask_none()};
+}
+
+// The same in the shading frame, in units of its distance: squares of squares stay in the range of float.
+template <class S, class Round>
+STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
+  const auto outline = outline_from<S>(light, p);
   const Real<S> size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
   const Real<S> unit = inversesqrt(max(size2, Real<S>(1.0e-30)));
   return Kernels<S>().ellipse_prepare(transform_transposed(frame, outline.center) * unit, transform_transposed(frame, outline.axis_a) * unit,
@@ -100,24 +103,24 @@ STERADIAN_INLINE auto ellipse_in(const typename Kernels<S>::EllipsoidOutline& ou
 
 // Exact, for radiance 1; z is the irradiance.
 template <class S>
-STERADIAN_INLINE auto irradiance_vector(const packed::Disk&, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
-                                        const typename Kernels<S>::vec3&) {
-  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(seen.outline, frame));
+STERADIAN_INLINE auto irradiance_vector(const packed::Disk& light, const typename Kernels<S>::mat3& frame,
+                                        const typename Kernels<S>::vec3& p) {
+  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
 }
 template <class S>
-STERADIAN_INLINE auto irradiance_vector(const packed::Ellipsoid& light, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
+STERADIAN_INLINE auto irradiance_vector(const packed::Ellipsoid& light, const typename Kernels<S>::mat3& frame,
                                         const typename Kernels<S>::vec3& p) {
-  if (light.ball.radius > 0) return irradiance_vector<S>(light.ball, seen, frame, p);
-  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(seen.outline, frame));
+  if (light.ball.radius > 0) return irradiance_vector<S>(light.ball, frame, p);
+  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
 }
 
-// Calls use(corner) with the function of the corners that stand for the outline about a lobe.
-template <class S, class Round, class Use>
-STERADIAN_INLINE void with_corners(const Round&, const Seen<S>& seen, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
-                                   const typename Kernels<S>::vec3&, Use use) {
+// The corners that stand for the outline about a lobe, in walk order.
+template <class S, class Round>
+STERADIAN_INLINE void fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
+                                   const typename Kernels<S>::vec3& p, Corners<S>& corners) {
   Kernels<S> k;
-  const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(seen.outline, frame), lobe.axis, lobe.width);
-  use([&](int i) { return k.polygon_direction(k.ellipse_fan_corner(fan, i, lobe.corners)); });
+  const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
+  for (int i = 0; i < lobe.corners; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.ellipse_fan_corner(fan, i, lobe.corners));
 }
 
 }  // namespace shapes

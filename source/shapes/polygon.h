@@ -47,11 +47,10 @@ inline int lit_side(const PreparedPolygon& light, Vec3d position) {
   return side < 0 && !light.two_sided ? 0 : side;
 }
 
-// How points see a light. outline: of disks and ellipsoids, relative to the point.
+// How points see a light.
 template <class S>
 struct Seen {
   Mask<S> lit, reversed;
-  typename Kernels<S>::EllipsoidOutline outline;
 };
 
 // Of a flat light: polygon or disk.

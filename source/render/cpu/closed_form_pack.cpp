@@ -14,7 +14,7 @@ __attribute__((flatten)) void ggx(const PackLight& light, const Points& points, 
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
     const SeenLight seen(light, p);
-    if (!any_lane(seen.seen.lit && dot(n, v) > PackReal(0.0))) {
+    if (!any_lane(seen.lit && dot(n, v) > PackReal(0.0))) {
       store(plain + i, PackReal(0.0));
       store(fresnel + i, PackReal(0.0));
       continue;

@@ -9,14 +9,17 @@ __attribute__((flatten)) void irradiance(const PackLight& light, const Points& p
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i);
     const SeenLight seen(light, p);
-    if (!any_lane(seen.seen.lit)) {
+    if (!any_lane(seen.lit)) {
       store(result + i, PackReal(0.0));
       continue;
     }
     const auto frame = k.frame_from_normal(load(points.normal, i));
-    const PackVec3 e = irradiance_vector(seen, frame, p);
-    const bool below = points.fresnel_loss != nullptr;
-    store(result + i, below ? irradiance_below(e, transform_transposed(frame, load(points.view, i)), fresnel_loss(points, i)) : e.z);
+    if (points.fresnel_loss == nullptr) {
+      store(result + i, irradiance_of(seen, frame, p));
+      continue;
+    }
+    const PackVec3 e = irradiance_vector(seen, frame, p), view = transform_transposed(frame, load(points.view, i));
+    store(result + i, irradiance_below(e, view, fresnel_loss(points, i)));
   }
 }
 

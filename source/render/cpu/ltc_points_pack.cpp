@@ -56,7 +56,7 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
 
     const SeenLight seen(light, p);
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
-    if (any_lane(seen.seen.lit)) {
+    if (any_lane(seen.lit)) {
       const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
       both = light.is_round() ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
                               : integrate_polygon<with_diffuse>(seen, frame, p, view, lobe);

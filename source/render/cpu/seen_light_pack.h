@@ -14,19 +14,31 @@ using AboutLobe = shapes::AboutLobe<Pack>;
 
 struct SeenLight {
   const PackLight& light;
-  shapes::Seen<Pack> seen;
+  PackKernels::mask lit, reversed;
 
   STERADIAN_INLINE SeenLight(const PackLight& l, const PackVec3& p) : light(l) {
     if (const auto* polygon = std::get_if<packed::Polygon>(&l.shape))
-      seen = shapes::see<Pack>(*polygon, p);
+      take(shapes::see<Pack>(*polygon, p));
     else
-      l.with_round([&](const auto& shape) { seen = shapes::see<Pack>(shape, p); });
+      l.with_round([&](const auto& shape) { take(shapes::see<Pack>(shape, p)); });
   }
-  STERADIAN_INLINE integrals::Shading<Pack> shading(const PackVec3& view) const { return {view, seen.lit, seen.reversed}; }
+  STERADIAN_INLINE integrals::Shading<Pack> shading(const PackVec3& view) const { return {view, lit, reversed}; }
+
+ private:
+  STERADIAN_INLINE void take(const shapes::Seen<Pack>& seen) {
+    lit = seen.lit;
+    reversed = seen.reversed;
+  }
 };
 
 STERADIAN_INLINE auto contours_in(const PackLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
   return shapes::contours_in<Pack>(*std::get_if<packed::Polygon>(&light.shape), frame, p);
+}
+
+// A function of its own: inlined, it would take registers from the walks.
+__attribute__((flatten, noinline)) inline void fill_round_corners(const PackLight& light, const AboutLobe& lobe, const PackKernels::mat3& frame,
+                                                                  const PackVec3& p, shapes::Corners<Pack>& corners) {
+  light.with_round([&](const auto& shape) { shapes::fill_corners<Pack>(shape, lobe, frame, p, corners); });
 }
 
 // The polygon that stands in for a round light under the lobe: of its outline's area, its corners gathered where the lobe is
@@ -39,15 +51,10 @@ struct RoundOutline {
 
   template <class End, class Add>
   STERADIAN_INLINE void walk(End end, Add add) const {
-    const auto walk_corners = [&](auto corner) {
-      auto previous = end(corner(lobe.corners - 1));
-      for (int i = 0; i < lobe.corners; ++i) {
-        const auto next = end(corner(i));
-        add(previous, next);
-        previous = next;
-      }
-    };
-    seen.light.with_round([&](const auto& shape) { shapes::with_corners<Pack>(shape, seen.seen, lobe, frame, p, walk_corners); });
+    shapes::Corners<Pack> corners;
+    fill_round_corners(seen.light, lobe, frame, p, corners);
+    const std::size_t contour[] = {0, static_cast<std::size_t>(lobe.corners)};
+    integrals::walk_contours(corners.data(), contour, 1, end, add);
   }
 };
 
@@ -64,19 +71,34 @@ struct AnyOutline {
   }
 };
 
-// Of a round light, exact. Functions of their own: g++ flattens nothing that reaches it through a caller that is itself
-// always inlined.
-__attribute__((flatten, noinline)) inline PackVec3 round_irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame,
-                                                                           const PackVec3& p) {
-  PackVec3 e(0.0, 0.0, 0.0);
-  light.light.with_round([&](const auto& shape) { e = select(light.seen.lit, shapes::irradiance_vector<Pack>(shape, light.seen, frame, p), e); });
-  return e;
+// Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z it is. Functions of their own: g++
+// flattens nothing that reaches it through a caller that is itself always inlined, and one for all shapes would hold too many
+// registers. The irradiance alone is an eighth quicker.
+template <class Round>
+__attribute__((flatten, noinline)) PackReal round_irradiance(const Round& shape, const PackKernels::mat3& frame, const PackVec3& p) {
+  return shapes::irradiance_vector<Pack>(shape, frame, p).z;
+}
+template <class Round>
+__attribute__((flatten, noinline)) PackVec3 round_irradiance_vector(const Round& shape, const PackKernels::mat3& frame, const PackVec3& p) {
+  return shapes::irradiance_vector<Pack>(shape, frame, p);
 }
 
-// Irradiance vector of radiance 1 in the frame; its z is the irradiance, in [0, pi].
-__attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame,
-                                                                     const PackVec3& p) {
-  if (light.light.is_round()) return round_irradiance_vector(light, frame, p);
+__attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
+  if (light.light.is_round()) {
+    PackReal e(0.0);
+    light.light.with_round([&](const auto& shape) { e = select(light.lit, round_irradiance(shape, frame, p), e); });
+    return e;
+  }
+  integrals::Irradiance<Pack> integral;
+  return integrate(contours_in(light.light, frame, p), light.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
+}
+
+__attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
+  if (light.light.is_round()) {
+    PackVec3 e(0.0, 0.0, 0.0);
+    light.light.with_round([&](const auto& shape) { e = select(light.lit, round_irradiance_vector(shape, frame, p), e); });
+    return e;
+  }
   integrals::Irradiance<Pack> integral;
   return integrate(contours_in(light.light, frame, p), light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
 }
