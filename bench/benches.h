@@ -1,7 +1,7 @@
 // Every bench of `steradian bench`: one file a topic, one line here.
 #pragma once
 
-#include "core/bench.h"
+#include "bench/run.h"
 
 namespace steradian::bench {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bench.h"
+#include "bench/run.h"
 #include "core/simd.h"
 #include "steradian/render.h"
 

@@ -9,7 +9,7 @@
 #include "benches.h"
 #include "frame.h"
 #include "indirect/pairs.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 

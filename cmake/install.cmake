@@ -1,8 +1,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS steradian_kernels steradian EXPORT steradian-targets
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/steradian)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/steradian DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernels/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/steradian/kernels
         PATTERN *_cases.glsl EXCLUDE)
@@ -11,14 +10,18 @@ if(STERADIAN_APPS)
   install(TARGETS steradian_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-# A static library passes on what it is made of: whoever links ours needs these, under the same names.
-set(STERADIAN_DEPENDENCIES "")
-foreach(package OpenEXR fmt simdjson PNG JPEG TBB "embree 3" NLopt pugixml)
-  string(APPEND STERADIAN_DEPENDENCIES "find_dependency(${package})\n")
+# One file of targets a layer, so that a program asks for what it uses. A static library passes on what it is made of: whoever
+# links one of ours needs its packages, under the same names.
+install(TARGETS steradian_kernels EXPORT steradian-kernels)
+install(EXPORT steradian-kernels NAMESPACE steradian:: DESTINATION ${config_dir} FILE steradian-kernels.cmake)
+set(STERADIAN_TABLE "set(steradian_layers ${STERADIAN_BUILT})\n")
+foreach(name ${STERADIAN_BUILT})
+  install(TARGETS steradian_${name} EXPORT steradian-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT steradian-${name} NAMESPACE steradian:: DESTINATION ${config_dir} FILE steradian-${name}.cmake)
+  string(APPEND STERADIAN_TABLE "set(steradian_${name}_needs ${STERADIAN_${name}_needs})\n"
+                                "set(steradian_${name}_packages \"${STERADIAN_${name}_packages}\")\n")
 endforeach()
 
-set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/steradian)
-install(EXPORT steradian-targets NAMESPACE steradian:: DESTINATION ${config_dir})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/steradian-config.cmake.in
   ${PROJECT_BINARY_DIR}/steradian-config.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/steradian-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -17,9 +17,15 @@ add_test(NAME Parity.EveryKernelFunctionIsReached
 # Unoptimised and sanitised units keep out-of-line copies; only the release is shipped, and only it is checked.
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   foreach(isa ${STERADIAN_INSTRUCTION_SETS})
+    set(objects "")
+    foreach(name ${STERADIAN_BUILT})
+      if(TARGET steradian_${name}_pack_${isa})
+        list(APPEND objects $<TARGET_OBJECTS:steradian_${name}_pack_${isa}>)
+      endif()
+    endforeach()
     add_test(NAME Packs.SymbolsNameTheirInstructionSet_${isa}
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/pack_symbols.py ${CMAKE_NM} ${isa}
-              $<TARGET_OBJECTS:steradian_pack_${isa}>
+              ${objects}
       COMMAND_EXPAND_LISTS)
   endforeach()
   add_library(steradian_leaking_unit OBJECT leaking_unit.cpp)
@@ -43,6 +49,15 @@ add_test(NAME Packaging.HeadersCompileAlone
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/headers_test.py ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/kernels
           ${CMAKE_CXX_COMPILER} clang++)
 
-add_test(NAME Packaging.ExampleBuildsAgainstTheInstalledTree
-  COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR} -DCOMPILER=${CMAKE_CXX_COMPILER}
-          -DSCRATCH=${PROJECT_BINARY_DIR}/installed_tree -P ${CMAKE_CURRENT_LIST_DIR}/installed_tree.cmake)
+# A program of somebody else's, with both compilers: from the installed tree, and with this project as a subdirectory.
+set(consume ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR} -DSCRATCH=${PROJECT_BINARY_DIR}/consumer
+    -DLAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -P ${CMAKE_CURRENT_LIST_DIR}/consumer/consume.cmake)
+add_test(NAME Packaging.Installs COMMAND ${consume} install)
+set_tests_properties(Packaging.Installs PROPERTIES FIXTURES_SETUP installed_tree)
+add_test(NAME Packaging.InstalledTreeServesEverything COMMAND ${consume} everything ${CMAKE_CXX_COMPILER})
+set_tests_properties(Packaging.InstalledTreeServesEverything PROPERTIES FIXTURES_REQUIRED installed_tree)
+foreach(compiler g++ clang++)
+  add_test(NAME Packaging.InstalledTreeServesIntegralsAlone_${compiler} COMMAND ${consume} installed ${compiler})
+  set_tests_properties(Packaging.InstalledTreeServesIntegralsAlone_${compiler} PROPERTIES FIXTURES_REQUIRED installed_tree)
+  add_test(NAME Packaging.SubdirectoryServesIntegralsAlone_${compiler} COMMAND ${consume} subdirectory ${compiler})
+endforeach()

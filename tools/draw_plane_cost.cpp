@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "moment/line_plot.h"
 #include "plane/frame/light_field.h"
+#include "studies/line_plot.h"
 #include "steradian/plane.h"
 
 using namespace steradian;

@@ -1,5 +1,5 @@
 // steradian bench: how long the integrals take on this machine.
-#include "core/bench.h"
+#include "bench/run.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "../../bench/benches.h"
 #include "core/progress.h"
 #include "ltc/textured_error.h"
-#include "moment/table2.h"
+#include "studies/table2.h"
 #include "steradian/error.h"
 #include "verbs.h"
 

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/kernels.h"
 
 namespace steradian {

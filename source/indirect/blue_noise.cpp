@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/random.h"
+#include "core/random.h"
 
 namespace steradian::indirect {
 namespace {

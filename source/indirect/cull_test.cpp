@@ -6,7 +6,7 @@
 
 #include "indirect/cull.h"
 #include "indirect/virtual_lights.h"
-#include "reference/random.h"
+#include "core/random.h"
 
 namespace steradian::indirect {
 namespace {

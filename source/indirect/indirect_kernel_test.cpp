@@ -10,7 +10,7 @@
 #include "ltc/lobe.h"
 #include "ltc/ltc_shape.h"
 #include "lobes/lobe.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/kernels.h"
 
 namespace steradian::indirect {

@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "core/float_mode.h"
-#include "reference/random.h"
+#include "core/random.h"
 
 namespace steradian::indirect {
 namespace {

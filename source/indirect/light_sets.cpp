@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "indirect/blue_noise.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/kernels.h"
 
 namespace steradian::indirect {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "indirect/virtual_lights.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "render/cpu/monte_carlo.h"
 #include "render/cpu/surface.h"
 

@@ -140,8 +140,6 @@ LtcCell dark_cell(const LtcShape& shape, LobeFrame frame, double alpha, Vec3d vi
 
 }  // namespace
 
-double ltc_roughness_at(int i, int n) { return static_cast<double>(i) / (n - 1); }
-
 double ltc_cosine_at(int j, int n) {
   const double t = static_cast<double>(j) / (n - 1);
   return std::max(1 - t * t, kSmallestCosine);

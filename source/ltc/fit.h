@@ -40,7 +40,7 @@ struct FitOptions {
 // Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit: the last node stands
 // at the smallest, about where it makes interpolation of 1 / cosine best in the last row of 64.
 inline constexpr double kSmallestCosine = 0.01;
-double ltc_roughness_at(int i, int n);
+inline double ltc_roughness_at(int i, int n) { return static_cast<double>(i) / (n - 1); }
 double ltc_cosine_at(int j, int n);
 
 // The fit of one view, from a starting shape. Deterministic: same input, same bits.

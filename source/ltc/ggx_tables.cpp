@@ -3,12 +3,12 @@
 #include "ltc/half.h"
 #include "steradian/ltc.h"
 
-// steradian fit --lobe ggx --layout classic -o source/ltc/ggx_classic.h
-// steradian fit --lobe ggx --layout compact -o source/ltc/ggx_compact.h
-// steradian fit --lobe charlie --layout compact -o source/ltc/charlie_compact.h
-#include "ltc/ggx_classic.h"
-#include "ltc/charlie_compact.h"
-#include "ltc/ggx_compact.h"
+// steradian fit --lobe ggx --layout classic -o tables/ggx_classic.h
+// steradian fit --lobe ggx --layout compact -o tables/ggx_compact.h
+// steradian fit --lobe charlie --layout compact -o tables/charlie_compact.h
+#include "tables/ggx_classic.h"
+#include "tables/charlie_compact.h"
+#include "tables/ggx_compact.h"
 
 namespace steradian {
 namespace {

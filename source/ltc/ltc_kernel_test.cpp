@@ -9,7 +9,7 @@
 
 #include "ltc/clipped_sphere.h"
 #include "ltc/ltc_shape.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "reference/random_configurations.h"
 #include "reference/spherical_region.h"
 #include "steradian/kernels.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/random.h"
+#include "core/random.h"
 #include "reference/random_configurations.h"
 #include "render/cpu/ltc_points.h"
 #include "steradian/error.h"

@@ -52,7 +52,7 @@ TEST(LtcFiles, ShippedHeadersAreWhatTheWriterWrites) {
   const auto again = classic_files(ggx_classic_table(), "ggx", "x.h");
   const auto compact = compact_files(ggx_compact_table(), "ggx", "x.h");
   for (const auto& [name, text] : {std::pair{"ggx_classic.h", again[0].bytes}, {"ggx_compact.h", compact[0].bytes}}) {
-    const std::string path = test::kSourceDir + "/source/ltc/" + name;
+    const std::string path = test::kSourceDir + "/tables/" + name;
     std::FILE* file = std::fopen(path.c_str(), "rb");
     ASSERT_NE(file, nullptr) << path;
     std::string found(text.size() + 1, '\0');

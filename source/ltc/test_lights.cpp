@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "lobes/cosine_sampler.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/kernels.h"
 
 namespace steradian {

@@ -7,7 +7,7 @@
 
 #include "ltc/textured_light.h"
 #include "lobes/lobe.h"
-#include "reference/random.h"
+#include "core/random.h"
 
 namespace steradian {
 namespace {

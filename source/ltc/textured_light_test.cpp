@@ -6,7 +6,7 @@
 
 #include "ltc/ggx_tables.h"
 #include "ltc/textured_error.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/kernels.h"
 
 namespace steradian {

@@ -6,7 +6,7 @@
 #include "core/float_mode.h"
 #include "moment/adversarial_quads.h"
 #include "integrals/phong.h"
-#include "moment/table2.h"
+#include "studies/table2.h"
 #include "render/cpu/phong.h"
 #include "steradian/phong.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "reference/random.h"
+#include "core/random.h"
 
 namespace steradian::reference {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "lobes/cosine_sampler.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/reference.h"
 
 namespace steradian::reference {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "reference/random.h"
+#include "core/random.h"
 #include "steradian/polygon_light.h"
 #include "steradian/reference.h"
 

@@ -4,7 +4,7 @@
 
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
-#include "reference/random.h"
+#include "core/random.h"
 #include "reference/sampled.h"
 #include "reference/spherical_region.h"
 #include "steradian/reference.h"

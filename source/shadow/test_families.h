@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/random.h"
+#include "core/random.h"
 #include "shadow/edges.h"
 #include "shadow/segments.h"
 #include "steradian/polygon_light.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "reference/random.h"
+#include "core/random.h"
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/surface.h"
 

@@ -1,12 +1,12 @@
-#include "moment/table2.h"
+#include "studies/table2.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "core/bench.h"
+#include "bench/run.h"
 #include "core/float_mode.h"
-#include "moment/phong_plane.h"
+#include "studies/phong_plane.h"
 
 namespace steradian::moment {
 namespace {

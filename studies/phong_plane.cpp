@@ -1,4 +1,4 @@
-#include "moment/phong_plane.h"
+#include "studies/phong_plane.h"
 
 #include <cmath>
 #include <numbers>

@@ -5,10 +5,10 @@
 
 #include "core/atomic_file.h"
 #include "core/float_mode.h"
-#include "moment/line_plot.h"
 #include "integrals/phong.h"
-#include "moment/phong_plane.h"
-#include "moment/table2.h"
+#include "studies/line_plot.h"
+#include "studies/phong_plane.h"
+#include "studies/table2.h"
 #include "steradian/picture.h"
 
 namespace steradian::moment {

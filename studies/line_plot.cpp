@@ -1,4 +1,4 @@
-#include "moment/line_plot.h"
+#include "studies/line_plot.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "core/bench.h"
+#include "bench/run.h"
 
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -1,4 +1,4 @@
-#include "core/bench.h"
+#include "bench/run.h"
 
 #include <sched.h>
 #include <tbb/info.h>
