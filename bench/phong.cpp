@@ -4,7 +4,7 @@
 
 #include "benches.h"
 #include "core/float_mode.h"
-#include "studies/phong_plane.h"
+#include "bench/phong_plane.h"
 
 namespace steradian::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bench/run.h"
 #include "core/float_mode.h"
-#include "studies/phong_plane.h"
+#include "bench/phong_plane.h"
 
 namespace steradian::moment {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/float_mode.h"
 #include "integrals/phong.h"
 #include "studies/line_plot.h"
-#include "studies/phong_plane.h"
+#include "bench/phong_plane.h"
 #include "studies/table2.h"
 #include "steradian/picture.h"
 

@@ -44,6 +44,12 @@ foreach(language glsl es hlsl wgsl)
   set_tests_properties(Dist.Compiles_${language} PROPERTIES SKIP_RETURN_CODE 77 RESOURCE_LOCK npm)
 endforeach()
 
+# No inclusion runs upward through the layers, and the picture of the dependencies is the one that is drawn from them.
+set(layers Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/layers.py)
+add_test(NAME Layers.NoInclusionRunsUpward COMMAND ${layers})
+add_test(NAME Layers.AnInclusionUpwardIsFound COMMAND ${layers} --test)
+add_test(NAME Layers.ThePictureIsCurrent COMMAND ${layers} --check ${PROJECT_SOURCE_DIR}/docs/images/layers.svg)
+
 # The public headers: each alone, by this compiler and by clang where there is one; and steradian.h is all of them.
 add_test(NAME Packaging.HeadersCompileAlone
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/headers_test.py ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/kernels

@@ -11,7 +11,7 @@
 // Each stands in a file of its own beside this one. Memory that it keeps from light to light is its own matter.
 #pragma once
 
-#include "integrals/outline.h"
+#include "shapes/outline.h"
 
 STERADIAN_BEGIN_ISA
 namespace integrals {

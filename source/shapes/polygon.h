@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "integrals/outline.h"
+#include "shapes/outline.h"
 #include "steradian/polygon_light.h"
 
 namespace steradian::packed {

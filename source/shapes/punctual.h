@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrals/outline.h"
+#include "shapes/outline.h"
 #include "steradian/scene.h"
 
 namespace steradian::packed {

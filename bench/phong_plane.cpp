@@ -1,4 +1,4 @@
-#include "studies/phong_plane.h"
+#include "bench/phong_plane.h"
 
 #include <cmath>
 #include <numbers>
