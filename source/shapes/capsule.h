@@ -47,7 +47,7 @@ STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Ke
   return Kernels<S>().capsule_prepare(a * unit, b * unit, radius * unit);
 }
 
-// A function of its own: inlined, it would take registers from the walks of polygons.
+// Functions of their own: inlined, they would take registers from the walks of polygons.
 template <class S>
 __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
   using vec3 = typename Kernels<S>::vec3;
@@ -58,8 +58,9 @@ __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, con
 }
 
 template <class S>
-STERADIAN_INLINE typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light, const typename Kernels<S>::mat3& frame,
-                                                             const typename Kernels<S>::vec3& p) {
+__attribute__((flatten, noinline)) typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light,
+                                                                               const typename Kernels<S>::mat3& frame,
+                                                                               const typename Kernels<S>::vec3& p) {
   return Kernels<S>().capsule_irradiance_vector(capsule_in<S>(light, frame, p));
 }
 

@@ -103,13 +103,13 @@ STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::
 
 // Exact, for radiance 1; z is the irradiance.
 template <class S>
-STERADIAN_INLINE auto irradiance_vector(const packed::Disk& light, const typename Kernels<S>::mat3& frame,
-                                        const typename Kernels<S>::vec3& p) {
+__attribute__((flatten, noinline)) auto irradiance_vector(const packed::Disk& light, const typename Kernels<S>::mat3& frame,
+                                                          const typename Kernels<S>::vec3& p) {
   return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
 }
 template <class S>
-STERADIAN_INLINE auto irradiance_vector(const packed::Ellipsoid& light, const typename Kernels<S>::mat3& frame,
-                                        const typename Kernels<S>::vec3& p) {
+__attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoid& light, const typename Kernels<S>::mat3& frame,
+                                                          const typename Kernels<S>::vec3& p) {
   if (light.ball.radius > 0) return irradiance_vector<S>(light.ball, frame, p);
   return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
 }

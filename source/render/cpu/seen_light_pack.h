@@ -72,21 +72,12 @@ struct AnyOutline {
 };
 
 // Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z it is. Functions of their own: g++
-// flattens nothing that reaches it through a caller that is itself always inlined, and one for all shapes would hold too many
-// registers. The irradiance alone is an eighth quicker.
-template <class Round>
-__attribute__((flatten, noinline)) PackReal round_irradiance(const Round& shape, const PackKernels::mat3& frame, const PackVec3& p) {
-  return shapes::irradiance_vector<Pack>(shape, frame, p).z;
-}
-template <class Round>
-__attribute__((flatten, noinline)) PackVec3 round_irradiance_vector(const Round& shape, const PackKernels::mat3& frame, const PackVec3& p) {
-  return shapes::irradiance_vector<Pack>(shape, frame, p);
-}
-
+// flattens nothing that reaches it through a caller that is itself always inlined. The irradiance alone is an eighth
+// quicker than the vector.
 __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
   if (light.light.is_round()) {
     PackReal e(0.0);
-    light.light.with_round([&](const auto& shape) { e = select(light.lit, round_irradiance(shape, frame, p), e); });
+    light.light.with_round([&](const auto& shape) { e = select(light.lit, shapes::irradiance_vector<Pack>(shape, frame, p).z, e); });
     return e;
   }
   integrals::Irradiance<Pack> integral;
@@ -96,7 +87,7 @@ __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight
 __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
   if (light.light.is_round()) {
     PackVec3 e(0.0, 0.0, 0.0);
-    light.light.with_round([&](const auto& shape) { e = select(light.lit, round_irradiance_vector(shape, frame, p), e); });
+    light.light.with_round([&](const auto& shape) { e = select(light.lit, shapes::irradiance_vector<Pack>(shape, frame, p), e); });
     return e;
   }
   integrals::Irradiance<Pack> integral;
