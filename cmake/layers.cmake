@@ -5,9 +5,9 @@
 #   sources    its files, as a pattern of paths under source/
 set(STERADIAN_LAYERS integrals shadow image scene reference fit plane render)
 
-# No package at all. The reference methods are part of it: `radiance` answers by them too.
+# No package at all. The reference methods are part of it: `radiance` answers by them too, and its curved lights stand in eval/ yet.
 set(STERADIAN_integrals_sources
-    "^((core|shapes|lobes|reference|integrals|ltc|moment|ggx|ellipse|capsule)/|scene/(polygon_light|area_light|texture|polygon_derivatives)\\.cpp)")
+    "^((core|shapes|lobes|reference|integrals|ltc|moment|ggx|ellipse|capsule)/|scene/(polygon_light|area_light|texture|polygon_derivatives)\\.cpp|eval/(radiance|curved_light|point_light)\\.cpp)")
 
 set(STERADIAN_shadow_sources "^shadow/")
 set(STERADIAN_shadow_needs integrals)

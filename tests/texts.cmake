@@ -44,6 +44,14 @@ foreach(language glsl es hlsl wgsl)
   set_tests_properties(Dist.Compiles_${language} PROPERTIES SKIP_RETURN_CODE 77 RESOURCE_LOCK npm)
 endforeach()
 
+# No name has two definitions that the linker would merge, and all headers can stand in one unit.
+set(one_definition Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/one_definition.py)
+set(has -DSTERADIAN_HAS_SSE2=1 -DSTERADIAN_HAS_AVX2=1 -DSTERADIAN_HAS_AVX512=1)
+add_test(NAME OneDefinition.NoNameHasTwo
+  COMMAND ${one_definition} ${CMAKE_CXX_COMPILER} ${has} -I${PROJECT_SOURCE_DIR} -I${PROJECT_SOURCE_DIR}/source -I${PROJECT_SOURCE_DIR}/include
+          -I${PROJECT_SOURCE_DIR}/kernels)
+add_test(NAME OneDefinition.ASecondOneIsFound COMMAND ${one_definition} --test)
+
 # No inclusion runs upward through the layers, and the picture of the dependencies is the one that is drawn from them.
 set(layers Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/layers.py)
 add_test(NAME Layers.NoInclusionRunsUpward COMMAND ${layers})

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/merge_polygons.h"
+#include "shapes/shape.h"
 #include "steradian/area_light.h"
 
 namespace steradian {
@@ -15,11 +16,7 @@ namespace steradian {
 inline constexpr double kOnShape = 1e-4;
 inline constexpr double kNearestFace = 0.98;
 
-struct Ellipsoid {
-  Vec3d center, x, y, z;  // half axes at right angles
-};
-
-// The ellipsoid of the area of a closed mesh that stands for one. None for any other mesh.
+// The ellipsoid, its half axes at right angles, of the area of a closed mesh that stands for one. None for any other mesh.
 std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part);
 
 // The ellipse of the area of a flat outline that stands for one; x cross y points to where it runs counter-clockwise.
