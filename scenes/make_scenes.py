@@ -14,6 +14,7 @@ import zlib
 COPYRIGHT = "CC0-1.0: the Steradian authors waive all rights to this scene"
 HALF = math.sqrt(0.5)
 DOWN = [-HALF, 0.0, 0.0, HALF]        # rotations that turn a light's -Z: down,
+TO_MINUS_X = [0.0, HALF, 0.0, HALF]   # to -x,
 TO_PLUS_X = [0.0, -HALF, 0.0, HALF]   # to +x,
 TO_PLUS_Z = [0.0, 1.0, 0.0, 0.0]      # to +z
 
@@ -478,7 +479,88 @@ def arcade():
     return g
 
 
-SCENES = {"gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
+def table(g, material, x, z, width, depth, height):
+    """A table top on four legs."""
+    leg, thick = 0.06, 0.04
+    g.node("table top", mesh=g.mesh("table top", box(x - width / 2, height - thick, z - depth / 2, x + width / 2, height, z + depth / 2), material))
+    for i, (sx, sz) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1))):
+        cx, cz = x + sx * (width / 2 - leg), z + sz * (depth / 2 - leg)
+        g.node("leg %d" % i, mesh=g.mesh("leg %d" % i, box(cx - leg / 2, 0.0, cz - leg / 2, cx + leg / 2, height - thick, cz + leg / 2), material))
+
+
+def room():
+    """A room with furniture; the light comes through a window with bars."""
+    g = Gltf()
+    wall, wood = g.diffuse("wall", (0.75, 0.72, 0.68)), g.material("wood", (0.5, 0.3, 0.16), 0.0, 0.35)
+    w, d, h, t = 2.2, 2.2, 2.5, 0.15  # half width, half depth, height, thickness
+    g.node("floor", mesh=g.mesh("floor", plate((-w, 0, d), (w, 0, d), (w, 0, -d), (-w, 0, -d)), g.material("floor", (0.42, 0.34, 0.27), 0.0, 0.3)))
+    g.node("ceiling", mesh=g.mesh("ceiling", box(-w - t, h, -d - t, w + t, h + t, d + t), wall))
+    g.node("back", mesh=g.mesh("back", box(-w - t, 0.0, -d - t, w + t, h, -d), wall))
+    g.node("left", mesh=g.mesh("left", box(-w - t, 0.0, -d, -w, h, d), wall))
+    y0, y1, z0, z1 = 0.8, 2.0, -1.2, 0.6  # the window, in the wall at the right
+    for name, corners in (("below", (0.0, -d, y0, d)), ("above", (y1, -d, h, d)), ("behind", (y0, -d, y1, z0)), ("before", (y0, z1, y1, d))):
+        a, b, c, e = corners
+        g.node("right " + name, mesh=g.mesh("right " + name, box(w, a, b, w + t, c, e), wall))
+    bar, middle = 0.025, (z0 + z1) / 2
+    g.node("bar", mesh=g.mesh("bar", box(w + 0.05, y0, middle - bar, w + 0.05 + 2 * bar, y1, middle + bar), wood))
+    g.node("cross bar", mesh=g.mesh("cross bar", box(w + 0.05, 1.4 - bar, z0, w + 0.05 + 2 * bar, 1.4 + bar, z1), wood))
+    table(g, wood, 0.5, -0.6, 1.4, 0.8, 0.75)
+    ball = g.mesh("ball", sphere(64, 32), g.material("glaze", (0.15, 0.4, 0.42), 0.0, 0.2))
+    g.node("ball", mesh=ball, translation=[0.75, 0.93, -0.6], scale=[0.18, 0.18, 0.18])
+    g.node("book", mesh=g.mesh("book", box(0.0, 0.75, -0.85, 0.3, 0.81, -0.45), g.diffuse("cover", (0.6, 0.12, 0.1))))
+    seat = g.diffuse("seat", (0.3, 0.35, 0.5))
+    g.node("seat", mesh=g.mesh("seat", box(-0.95, 0.42, -0.85, -0.5, 0.47, -0.4), seat))
+    g.node("chair back", mesh=g.mesh("chair back", box(-0.95, 0.47, -0.85, -0.91, 0.95, -0.4), seat))
+    for i, (x, z) in enumerate(((-0.93, -0.83), (-0.52, -0.83), (-0.52, -0.42), (-0.93, -0.42))):
+        g.node("chair leg %d" % i, mesh=g.mesh("chair leg %d" % i, box(x - 0.02, 0.0, z - 0.02, x + 0.02, 0.42, z + 0.02), seat))
+    g.area_light("sky", {"type": "rect", "color": [0.85, 0.93, 1.0], "intensity": 110.0, "size": 2.2, "rect": {"aspect": 1.6}},
+                 translation=[3.6, 2.1, -0.3], rotation=TO_MINUS_X)
+    g.camera("main", [-0.9, 1.5, 3.9], [0.15, 0.75, -0.6], 0.75)
+    return g
+
+
+def lamp_shade():
+    """A bulb in a cone that is open at both ends, on a table's edge of things to cast shadows."""
+    g = Gltf()
+    g.node("floor", mesh=g.mesh("floor", plate((-3, 0, 3), (3, 0, 3), (3, 0, -1.2), (-3, 0, -1.2)), g.diffuse("floor", (0.6, 0.55, 0.5))))
+    g.node("wall", mesh=g.mesh("wall", plate((-3, 0, -1.2), (3, 0, -1.2), (3, 3, -1.2), (-3, 3, -1.2)), g.diffuse("wall", (0.7, 0.7, 0.72))))
+
+    def shade(v):
+        return 0.34 - 0.16 * v, 1.0 + 0.36 * v
+    outside, inside = lathe(shade, 64, 1), Shape()
+    inside.grid(64, 1, lambda u, v: (lambda r, y: ((0.985 * r * math.cos(2 * math.pi * u), y, 0.985 * r * math.sin(2 * math.pi * u)),
+                                                  (-math.cos(2 * math.pi * u), -0.44, -math.sin(2 * math.pi * u))))(*shade(v)))
+    cloth = g.diffuse("cloth", (0.8, 0.72, 0.55))
+    g.node("shade", mesh=g.mesh("shade", outside, cloth))
+    g.node("lining", mesh=g.mesh("lining", inside, cloth))
+    metal = g.material("brass", (0.85, 0.65, 0.35), 1.0, 0.25)
+    g.node("stand", mesh=g.mesh("stand", lathe(lambda v: (0.015, 0.02 + 1.05 * v), 24, 1), metal))
+    g.node("foot", mesh=g.mesh("foot", lathe(lambda v: (0.16 * (1 - v) + 0.015 * v, 0.02 * v), 48, 1), metal))
+    g.area_light("bulb", {"type": "sphere", "color": [1.0, 0.86, 0.66], "intensity": 400.0, "size": 0.14}, translation=[0.0, 1.16, 0.0])
+    g.area_light("window", {"type": "rect", "color": [0.7, 0.8, 1.0], "intensity": 1.2, "size": 1.5}, matrix=looking([-2.4, 2.2, 1.8], [0.0, 0.8, 0.0]))
+    g.node("ball", mesh=g.mesh("ball", sphere(64, 32), g.material("ball", (0.2, 0.3, 0.5), 0.0, 0.25)), translation=[0.5, 0.16, 0.3], scale=[0.16, 0.16, 0.16])
+    g.node("box", mesh=g.mesh("box", box(-0.75, 0.0, 0.05, -0.45, 0.35, 0.35), g.diffuse("box", (0.55, 0.2, 0.15))))
+    g.camera("main", [0.3, 1.25, 3.2], [0.0, 0.75, -0.1], 0.75)
+    return g
+
+
+def grille():
+    """Thin bars before a light, and what they draw on a floor and a ball."""
+    g = Gltf()
+    g.node("floor", mesh=g.mesh("floor", plate((-3, 0, 2.5), (3, 0, 2.5), (3, 0, -2.5), (-3, 0, -2.5)), g.material("floor", (0.6, 0.6, 0.6), 0.0, 0.4)))
+    iron = g.diffuse("iron", (0.1, 0.1, 0.1))
+    for i in range(9):
+        x = -0.8 + 0.2 * i
+        g.node("bar %d" % i, mesh=g.mesh("bar %d" % i, box(x - 0.008, 1.3, -0.8, x + 0.008, 1.316, 0.8), iron))
+        g.node("cross %d" % i, mesh=g.mesh("cross %d" % i, box(-0.8, 1.316, x - 0.008, 0.8, 1.332, x + 0.008), iron))
+    g.node("ball", mesh=g.mesh("ball", sphere(96, 48), g.diffuse("ball", (0.8, 0.75, 0.7))), translation=[0.2, 0.35, 0.0], scale=[0.35, 0.35, 0.35])
+    g.node("card", mesh=g.mesh("card", plate((-0.9, 0.0, -0.2), (-0.4, 0.0, -0.5), (-0.4, 0.6, -0.5), (-0.9, 0.6, -0.2)), g.diffuse("card", (0.7, 0.3, 0.2))))
+    g.area_light("panel", {"type": "rect", "color": [1.0, 1.0, 1.0], "intensity": 60.0, "size": 0.5}, translation=[0.2, 2.6, 0.2], rotation=DOWN)
+    g.camera("main", [0.0, 1.9, 3.4], [0.0, 0.35, 0.0], 0.7)
+    return g
+
+
+SCENES = {"room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
           "ring": ring, "arcade": arcade}
 
 

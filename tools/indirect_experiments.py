@@ -30,7 +30,8 @@ class Bench(ltc_experiments.Bench):
         self.made += 1
         path, times = os.path.join(self.folder, "%d%s" % (self.made, suffix)), {}
         for _ in range(runs):
-            subprocess.run([self.program, "render", scene, "-o", path, "--size", size, "--stats", path + ".json", *more], check=True)
+            subprocess.run([self.program, "render", scene, "-o", path, "--size", size, "--shadows", "off", "--stats", path + ".json", *more],
+                           check=True)
             with open(path + ".json") as f:
                 for p in json.load(f)["passes"]:
                     times.setdefault(p["name"], []).append(p["ms"])

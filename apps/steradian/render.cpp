@@ -81,6 +81,7 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
           {"triangles", stats.triangles},
           {"method", stats.method},
           {"passes", passes},
+          {"shadow_fallback", stats.shadow_fallback},
           {"total_ms", stats.total_ms}};
 }
 
@@ -124,7 +125,7 @@ void write_text(const std::string& path, const std::string& text) {
 void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
   const RenderOptions& r = options.render;
   const bool path = options.indirect == "path", points = options.indirect == "ltc" || options.indirect == "ggx";
-  const bool samples = r.method == "sampled" || path || (r.method == "auto" && options.shadows == "on");
+  const bool samples = r.method == "sampled" || path;
   const char* bounce = "--indirect ltc or ggx";
   refuse_without_effect(verb, {{"--spp", samples, "--method sampled or --indirect path"},
                                {"--target-error", r.method == "reference", "--method reference"},
@@ -187,7 +188,7 @@ void run(const CLI::App& verb, Options& options) {
   if (render_options.method == "par" || render_options.method == "marched")
     throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
-  render_options.shadows = options.shadows == "on";
+  render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
   render_options.quality = options.quality == "draft"  ? Quality::draft
                            : options.quality == "high" ? Quality::high
                                                        : Quality::normal;
@@ -246,8 +247,8 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--quality", options->quality, "of closed-form, half-vector and series; of auto: draft takes ltc-compact for GGX")
       ->check(CLI::IsMember({"draft", "normal", "high"}))
       ->group("Light");
-  verb->add_option("--shadows", options->shadows, "cast shadows (reference methods only)")
-      ->check(CLI::IsMember({"off", "on"}))
+  verb->add_option("--shadows", options->shadows, "of direct light; on: by rays where a point sees over 512 edges, exact: never by rays")
+      ->check(CLI::IsMember({"off", "on", "exact"}))
       ->group("Light");
   verb->add_flag("--multiple-scattering", options->multiple_scattering, "GGX gives back what one bounce loses between the facets")
       ->group("Light");

@@ -19,7 +19,7 @@ struct PolygonLight {
 // A light ready to be walked: every contour in walk order (the reverse of the stored order, see kernels/outline/polygon.glsl).
 struct PreparedPolygon {
   std::vector<Vec3d> vertices;        // of all contours, one after the other
-  std::vector<std::size_t> contours;  // where each contour begins, and the number of vertices at the end
+  std::vector<std::size_t> contours;  // where each begins, and the number of vertices; of two vertices: one edge, no way back
   Vec3d normal;                       // unit, to the lit side; zero for a light without area
   Vec3d centroid;                     // mean of the outline's vertices
   double area = 0;                    // of the outline without the holes [m2]

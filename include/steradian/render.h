@@ -13,13 +13,17 @@
 
 namespace steradian {
 
+// Of direct light. on: exact from flat lights, from round ones by polygons of 24 corners, and by rays where a point sees more than
+// 512 edges before a light (RenderStats::shadow_fallback says how often). exact: never by rays.
+enum class Shadows { off, on, exact };
+
 struct RenderOptions {
   int width = 1280;
   int height = 720;
   std::string camera;          // name; empty: the first
   std::string method = "auto"; // of the specular lobe: a name of `render --help`
   Quality quality = Quality::normal;  // see method.h
-  bool shadows = false;        // reference methods only
+  Shadows shadows = Shadows::off;
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
   double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
@@ -41,6 +45,7 @@ struct RenderStats {
   std::string method;  // what `auto` became
   std::size_t lights = 0;
   std::size_t triangles = 0;
+  double shadow_fallback = 0;  // share of pairs of a surface and a light whose shadows rays have estimated
   std::vector<std::string> warnings;  // what the method leaves out, a sentence each
 };
 

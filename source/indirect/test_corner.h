@@ -57,6 +57,7 @@ inline RenderOptions options(IndirectMode mode, int lights) {
   o.width = 48;
   o.height = 36;
   o.method = "closed-form";
+  o.shadows = Shadows::off;
   o.indirect.mode = mode;
   o.indirect.virtual_lights = lights;
   return o;

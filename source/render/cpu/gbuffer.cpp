@@ -18,6 +18,7 @@ bool weighs(Vec3f a) { return a.x > 0 || a.y > 0 || a.z > 0; }
 void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view) {
   put(tile.position, i, s.position);
   put(tile.normal, i, s.normal);
+  put(tile.geometric_normal, i, s.geometric_normal);
   put(tile.view, i, view);
   put(tile.albedo, i, s.albedo);
   tile.fresnel_loss[i] = s.fresnel_loss;
@@ -41,9 +42,12 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   tile.any_override |= !s.material->specular_override.empty();
 }
 
-// What packs read where there is no surface: finite, and weighing nothing.
+Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+}  // namespace
+
 void put_nothing(SurfaceTile& tile, std::size_t i) {
-  for (TileVector* v : {&tile.position, &tile.normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent, &tile.sheen,
+  for (TileVector* v : {&tile.position, &tile.normal, &tile.geometric_normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent, &tile.sheen,
                         &tile.coat_normal, &tile.radiance})
     put(*v, i, {});
   tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
@@ -51,14 +55,11 @@ void put_nothing(SurfaceTile& tile, std::size_t i) {
   tile.material[i] = nullptr;
 }
 
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
-
-}  // namespace
-
 Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   Surface s;
   s.position = get(tile.position, i);
   s.normal = get(tile.normal, i);
+  s.geometric_normal = get(tile.geometric_normal, i);
   s.albedo = get(tile.albedo, i);
   s.fresnel_loss = tile.fresnel_loss[i];
   s.f0 = get(tile.f0, i);

@@ -25,6 +25,9 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
 // The surfaces that were hit. tile.radiance becomes the emission.
 void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile);
 
+// Empties a slot: what packs read there is finite and weighs nothing.
+void put_nothing(SurfaceTile& tile, std::size_t slot);
+
 // The surface in a slot that has one, put together again.
 Surface surface_in(const SurfaceTile& tile, std::size_t slot);
 

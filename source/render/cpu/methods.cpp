@@ -115,18 +115,16 @@ std::vector<std::string> lobes_under_means(const Scene& scene, const DirectMetho
 DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
   const std::vector<SpecularLobe> lobes = specular_lobes_in(scene);
   DirectMethod method;
-  if (options.method == "sampled" || options.method == "reference" || (options.method == "auto" && options.shadows)) {
-    method.name = options.method == "auto" ? "sampled" : options.method;
+  if (options.method == "sampled" || options.method == "reference") {
+    method.name = options.method;
     method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
     const bool textured = std::any_of(scene.area_lights.begin(), scene.area_lights.end(),
                                       [](const AreaLight& light) { return light.texture.has_value(); });
     // Under a textured light, no closed form is exact.
-    method.exact_diffuse = method.kind == MethodKind::sampled && !options.shadows && !textured;
+    method.exact_diffuse = method.kind == MethodKind::sampled && options.shadows == Shadows::off && !textured;
     method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
   } else {
     method = chosen(lobes, options.method, options.quality);
-    if (options.shadows)
-      throw UsageError("--shadows on", "'" + options.method + "' casts no shadows", "use --method sampled or reference");
   }
   method.quality = options.quality;
   return method;

@@ -29,8 +29,7 @@ struct DirectMethod {
   const methods::Row& row_for(const Material& lobe) const;
 };
 
-// Throws UsageError with lobe and material when the method does not serve a lobe of the scene, and for shadows with a
-// method that has none.
+// Throws UsageError with lobe and material when the method does not serve a lobe of the scene.
 DirectMethod choose_method(const Scene& scene, const RenderOptions& options);
 
 // What the method leaves out of textured lights: a sentence for each lobe and light. Lobes other than GGX and the diffuse

@@ -7,6 +7,8 @@
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
 #include "reference/spherical_region.h"
+#include "shadow/light_frame.h"
+#include "shadow/segments.h"
 #include "shapes/polygon.h"
 #include "shapes/punctual.h"
 #include "steradian/capsule_light.h"
@@ -68,25 +70,31 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
       return true;
     });
     if (scratch_->lobes.empty()) continue;
-    const Estimate part = estimate_in(frame, surface.position, spp, random);
+    const Estimate part = estimate_in(frame, surface, spp, random);
     sum.mean += part.mean;
     sum.variance += part.variance;
   }
   return sum;
 }
 
-Estimate DirectSampler::estimate_in(const Frame& frame, Vec3f position, int spp, reference::Random& random) {
+Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random) {
   Scratch& scratch = *scratch_;
   const std::vector<Lobe>& lobes = scratch.lobes;
-  const auto p = static_cast<Vec3d>(position);
+  // With shadows from where closed forms look from (shadow::Viewpoint): off the triangle, and never below it.
+  const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
+  auto p = static_cast<Vec3d>(surface.position);
+  if (shadows_ != nullptr) p += geometric * shadow::offset_from_surface(p);
   Estimate result;
 
   for (const PunctualLight& light : scene_.punctual_lights) {
     const auto incident = shapes::incident<double>(packed::prepare(light), shapes::to_kernel<double>(p));
     const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v}, l = frame.to_local(to);
     if (l.z <= 0) continue;
-    const Vec3d origin = light.kind == PunctualKind::directional ? p + to * 1e6 : light.position;
-    if (shadows_ != nullptr && shadows_->occluded(position, static_cast<Vec3f>(origin))) continue;
+    if (shadows_ != nullptr) {
+      if (!(dot(to, geometric) > 0)) continue;
+      if (light.kind == PunctualKind::directional ? shadows_->blocked_towards(p, to) : shadows_->between(p, light.position, Casters::all))
+        continue;
+    }
     result.mean += light.intensity * incident.irradiance.v * evaluate(lobes, l);
   }
 
@@ -104,7 +112,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, Vec3f position, int spp,
     sampler.prepare(scratch.region, reference::SphericalMeasure::solid_angle);
     if (!(sampler.measure() > 0)) continue;
 
-    const double plane_height = dot(polygon.centroid - p, polygon.normal);
+    const double plane_height = dot(polygon.centroid - p, polygon.normal), eta = shadow::margin_of_plane(polygon);
     const LightTexture* texture = light.area->texture ? &*light.area->texture : nullptr;
     // What arrives from the light's point in direction l.
     const auto incident = [&](Vec3d l) -> Vec3d {
@@ -114,7 +122,11 @@ Estimate DirectSampler::estimate_in(const Frame& frame, Vec3f position, int spp,
       const double distance = light.area->shape == LightShape::capsule ? distance_along(capsule_of(*light.area), p, direction)
                                                                        : plane_height / dot(direction, polygon.normal);
       const Vec3d there = p + direction * distance;
-      if (shadows_ != nullptr && shadows_->occluded(position, static_cast<Vec3f>(there))) return {};
+      if (shadows_ != nullptr) {
+        if (!(dot(direction, geometric) > 0)) return {};
+        const double height = std::fabs(light.area->shape == LightShape::capsule ? distance : plane_height);
+        if (shadows_->between(p, p + (there - p) * std::max(1 - eta / height, 0.0), Casters::all)) return {};
+      }
       return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
     };
     const auto contribution = [&](Vec3d l, double light_pdf) -> Vec3d {

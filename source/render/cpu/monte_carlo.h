@@ -35,7 +35,7 @@ class DirectSampler {
   struct Light;
   struct Scratch;
   // Of scratch_->lobes, which share the frame's normal.
-  Estimate estimate_in(const Frame& frame, Vec3f position, int spp, reference::Random& random);
+  Estimate estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random);
   const Scene& scene_;
   const RayScene* shadows_;
   std::vector<Light> lights_;

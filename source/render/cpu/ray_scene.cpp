@@ -12,6 +12,8 @@ namespace {
 
 constexpr unsigned kSeenByCamera = 1;
 constexpr unsigned kCastsShadow = 2;
+constexpr unsigned kHasEdges = 4;
+constexpr unsigned kCutOut = 8;
 
 template <class T>
 void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, const T* data,
@@ -52,8 +54,11 @@ RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")), rtc_(nullptr
                 mesh.positions.size());
     copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(),
                 mesh.triangle_count());
-    rtcSetGeometryMask(geometry, mesh.is_light_shape || !mesh.casts_shadow ? kSeenByCamera : kSeenByCamera | kCastsShadow);
-    if (scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask) {
+    const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
+    rtcSetGeometryMask(geometry, mesh.is_light_shape || !mesh.casts_shadow ? kSeenByCamera
+                                 : cut_out                                 ? kSeenByCamera | kCastsShadow | kCutOut
+                                                                           : kSeenByCamera | kCastsShadow | kHasEdges);
+    if (cut_out) {
       alpha_tests_.push_back(std::make_unique<AlphaTest>(AlphaTest{scene, mesh}));
       rtcSetGeometryUserData(geometry, alpha_tests_.back().get());
       rtcSetGeometryIntersectFilterFunction(geometry, AlphaTest::filter);
@@ -91,10 +96,10 @@ bool RayScene::intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const {
 
 namespace {
 
-bool blocked(RTCScene rtc, Vec3f from, Vec3f direction, float near, float far) {
+bool blocked(RTCScene rtc, Vec3f from, Vec3f direction, float near, float far, unsigned mask = kCastsShadow) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay ray = {from.x, from.y, from.z, near, direction.x, direction.y, direction.z, 0.0f, far, kCastsShadow, 0, 0};
+  RTCRay ray = {from.x, from.y, from.z, near, direction.x, direction.y, direction.z, 0.0f, far, mask, 0, 0};
   rtcOccluded1(rtc, &context, &ray);
   return ray.tfar < 0;  // Embree's sign of a hit
 }
@@ -114,8 +119,15 @@ bool RayScene::occluded(Vec3f from, Vec3f to) const {
   return blocked(rtc_, from, d / distance, near, far);
 }
 
-bool RayScene::occluded_towards(Vec3f from, Vec3f direction) const {
-  return blocked(rtc_, from, direction, offset_of(from) + 1e-4f, std::numeric_limits<float>::infinity());
+bool RayScene::between(Vec3d from, Vec3d to, Casters casters) const {
+  return blocked(rtc_, static_cast<Vec3f>(from), static_cast<Vec3f>(to - from), 0, 1,
+                 casters == Casters::all          ? kCastsShadow
+                 : casters == Casters::with_edges ? kHasEdges
+                                                  : kCutOut);
+}
+
+bool RayScene::blocked_towards(Vec3d from, Vec3d direction) const {
+  return blocked(rtc_, static_cast<Vec3f>(from), static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity());
 }
 
 }  // namespace steradian

@@ -11,6 +11,9 @@
 
 namespace steradian {
 
+// What may block a ray, the shapes of lights never: every mesh; those whose edges cast exact shadows; cut-outs, which have none.
+enum class Casters { all, with_edges, cut_outs };
+
 // The camera sees every mesh. Shadow rays pass the shapes that only stand for rect, disk and sphere lights.
 class RayScene {
  public:
@@ -25,10 +28,14 @@ class RayScene {
   // One ray from anywhere. Returns false when nothing is hit.
   bool intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const;
 
-  // True when something stands between two points. Both ends are moved in by a share of the distance, so that the
-  // surfaces on which they lie do not count.
+  // Whether something stands between two points, near the ends included: a point on a surface is moved off it first
+  // (shadow::offset_from_surface).
+  bool between(Vec3d from, Vec3d to, Casters casters = Casters::with_edges) const;
+  bool blocked_towards(Vec3d from, Vec3d direction) const;  // by any
+
+  // The same from surface to surface, for rays that need not agree with the shadows of direct light: both ends are moved in
+  // by a share of the distance.
   bool occluded(Vec3f from, Vec3f to) const;
-  bool occluded_towards(Vec3f from, Vec3f direction) const;
 
  private:
   struct AlphaTest;

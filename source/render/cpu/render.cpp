@@ -18,6 +18,7 @@
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
+#include "render/cpu/shadow_pass.h"
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
 #include "steradian/error.h"
@@ -72,8 +73,9 @@ class Renderer {
         specular_(method_),
         tiles_x_((options.width + kTileSide - 1) / kTileSide),
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
-        samplers_([this] { return std::make_unique<DirectSampler>(scene_, options_.shadows ? &rays_ : nullptr); }),
+        samplers_([this] { return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &rays_ : nullptr); }),
         arena_(threads_) {
+    if (options.shadows != Shadows::off && !method_.estimates()) shadows_.emplace(scene_, lights_, rays_, options.shadows);
     if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, rays_, options_, threads_);
     build_ms_ = ms_since(start_);
   }
@@ -93,6 +95,15 @@ class Renderer {
     stats.passes = {{"build", build_ms_}, rays_clock_.time(threads_), gbuffer_clock_.time(threads_), direct_clock_.time(threads_),
                     specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
+    if (shadows_) {
+      stats.passes.push_back(shadow_clock_.time(threads_));
+      ShadowCounts counts;
+      for (const auto& work : shadow_work_) {
+        counts.points += work->counts.points;
+        counts.fallback += work->counts.fallback;
+      }
+      if (counts.points > 0) stats.shadow_fallback = static_cast<double>(counts.fallback) / static_cast<double>(counts.points);
+    }
     if (indirect_) {
       stats.passes.push_back(capture_clock_.time(threads_));
       for (const PassTime& pass : indirect_->passes()) stats.passes.push_back({"indirect: " + pass.name, pass.ms});
@@ -184,6 +195,71 @@ class Renderer {
     return pairs;
   }
 
+  // What the lights send without sampling, nothing between.
+  void add_light(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+    if (method_.exact_diffuse && tile.any_diffuse)
+      direct_clock_.run([&] {
+        std::vector<const PackLight*> plain = without_textured(lights);
+        if (!method_.estimates())
+          std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
+        if (!plain.empty()) direct_.add_diffuse(tile, plain.data(), plain.size());
+        if (plain.size() < lights.size()) add_diffuse_from_textured(tile, lights);
+      });
+    if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });
+  }
+
+  // The light of one light past what blocks it: on packs where all of it arrives, or a share; piece by piece where a part does.
+  void add_shadowed(SurfaceTile& tile, const PackLight& light) {
+    ShadowWork& work = *shadow_work_.local();
+    TileShadow& shadow = work.shadow;
+    shadow_clock_.run([&] { shadows_->find(tile, light, shadow, work.counts); });
+    using Seen = TileShadow::Seen;
+    const auto add_to = [&](std::size_t i, Vec3d r) {
+      tile.radiance.x[i] += static_cast<float>(r.x);
+      tile.radiance.y[i] += static_cast<float>(r.y);
+      tile.radiance.z[i] += static_cast<float>(r.z);
+    };
+    const auto at = [&](const TileShadow::Part& part) -> ShadingPoint {
+      const auto get = [&](const TileVector& v) { return normalized(static_cast<Vec3d>(Vec3f{v.x[part.slot], v.y[part.slot], v.z[part.slot]})); };
+      return {part.position, get(tile.normal), get(tile.view)};
+    };
+
+    bool any_whole = false;
+    std::array<bool, kTilePixels> lit;
+    for (std::size_t i = 0; i < kTilePixels; ++i) any_whole |= lit[i] = shadow.seen[i] == Seen::whole || shadow.seen[i] == Seen::share;
+    for (const TileShadow::Part& part : shadow.parts)
+      if (!part.all.vertices.empty()) any_whole |= lit[part.slot] = true;
+    if (any_whole) {
+      SurfaceTile& masked = work.masked;
+      masked = tile;
+      for (TilePlane* plane : {&masked.radiance.x, &masked.radiance.y, &masked.radiance.z}) plane->fill(0);
+      for (std::size_t i = 0; i < kTilePixels; ++i)
+        if (!lit[i]) put_nothing(masked, i);
+      add_light(masked, {&light});
+      for (std::size_t i = 0; i < kTilePixels; ++i) {
+        const Vec3d whole{masked.radiance.x[i], masked.radiance.y[i], masked.radiance.z[i]};
+        if (shadow.seen[i] == Seen::whole) add_to(i, whole);
+        if (shadow.seen[i] == Seen::share) add_to(i, whole * static_cast<double>(shadow.share[i]));
+      }
+    }
+    specular_clock_.run([&] {
+      for (const TileShadow::Part& part : shadow.parts) {
+        const Surface surface = surface_in(tile, part.slot);
+        const Vec3d seen = specular_.at_point(surface, at(part), part.visible) * static_cast<double>(part.passes);
+        if (part.all.vertices.empty()) {
+          add_to(part.slot, seen);
+          continue;
+        }
+        // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
+        const Vec3d all = specular_.at_point(surface, at(part), part.all);
+        const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
+        const std::size_t i = part.slot;
+        add_to(i, Vec3d{work.masked.radiance.x[i], work.masked.radiance.y[i], work.masked.radiance.z[i]} *
+                      Vec3d{share(seen.x, all.x), share(seen.y, all.y), share(seen.z, all.z)});
+      }
+    });
+  }
+
   void render_tile(int index, int pairs, Picture& picture) {
     SurfaceTile* tile = workspace();
     const TileArea a = area(index);
@@ -192,15 +268,11 @@ class Renderer {
       fill(index, s, *tile);
       if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
       const auto reaching = lights_reaching(lights_, *tile);
-      if (method_.exact_diffuse && tile->any_diffuse)
-        direct_clock_.run([&] {
-          std::vector<const PackLight*> plain = without_textured(reaching);
-          if (!method_.estimates())
-            std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(*tile, *light); });
-          if (!plain.empty()) direct_.add_diffuse(*tile, plain.data(), plain.size());
-          if (plain.size() < reaching.size()) add_diffuse_from_textured(*tile, reaching);
-        });
-      if (!method_.estimates()) specular_clock_.run([&] { specular_.add(*tile, reaching); });
+      if (shadows_) {
+        for (const PackLight* light : reaching) add_shadowed(*tile, *light);
+      } else {
+        add_light(*tile, reaching);
+      }
       if (method_.estimates())
         sampling_clock_.run([&] {
           std::vector<Vec3f>& variance = picture.layers.at("variance");
@@ -237,9 +309,16 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
+  struct ShadowWork {
+    TileShadow shadow;
+    SurfaceTile masked;
+    ShadowCounts counts;
+  };
+  std::optional<ShadowPass> shadows_;
+  tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"},
-      capture_clock_{"indirect: surfaces"};
+      capture_clock_{"indirect: surfaces"}, shadow_clock_{"shadows"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

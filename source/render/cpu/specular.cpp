@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "integrals/irradiance.h"
 #include "ltc/textured_light.h"
 #include "lobes/lobe.h"
 #include "render/cpu/closed_form.h"
@@ -120,6 +121,29 @@ SpecularPass::SpecularPass(const DirectMethod& method)
       tables_(method.ggx == Method::ltc           ? ltc_classic_pack_tables()
               : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
                                                       : LtcPackTables{}) {}
+
+Vec3d SpecularPass::at_point(const Surface& surface, const ShadingPoint& at, const PreparedPolygon& light) const {
+  Vec3d sum{};
+  for (const SurfaceLobe& lobe : lobes_of(surface)) {
+    if (lobe.material.brdf == Brdf::lambert) {
+      const Frame frame = Frame::from_normal(at.normal);
+      const auto view = integrals::to_kernel<float>(frame.to_local(at.view));
+      const int seen_from = light.side_of(at.position), side = seen_from < 0 && !light.two_sided ? 0 : seen_from;
+      integrals::Irradiance<float> integral;
+      const auto e = integrate(integrals::contours_in<float>(light, frame, at.position),
+                               integrals::shading_from<float>(side, view), integral);
+      const float below = Kernels<float>().lambert_irradiance_below(e, view, lobe.material.fresnel_loss).v;
+      sum += lobe.material.albedo * light.radiance * (static_cast<double>(below) * std::numbers::inv_pi);
+      continue;
+    }
+    // The light's part lies above the surface's horizon; a coat is seen about the surface's normal, too.
+    Material m = lobe.material;
+    if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(surface.tangent);
+    const methods::Row& row = method_.row_for(m);
+    if (!light.vertices.empty()) sum += row.polygon(light, at, m, {row.method, method_.quality, Precision::float_}).radiance;
+  }
+  return sum;
+}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;

@@ -6,7 +6,9 @@
 #include "render/cpu/light_list.h"
 #include "render/cpu/ltc_points.h"
 #include "render/cpu/methods.h"
+#include "render/cpu/surface.h"
 #include "render/cpu/tile.h"
+#include "steradian/reference.h"
 
 namespace steradian {
 
@@ -21,6 +23,9 @@ class SpecularPass {
 
   // Adds the specular light of the lights to tile.radiance, and the diffuse light that it brings.
   void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+
+  // All lobes of one surface, diffuse too, under a flat light of its mean radiance, by the library's float functions.
+  Vec3d at_point(const Surface& surface, const ShadingPoint& at, const PreparedPolygon& light) const;
 
  private:
   struct Lobe;

@@ -156,6 +156,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   Vec3f n = unit(at(mesh.normals));
   if (!(dot(n, n) > 0.5f)) n = unit(geometric);
   const float side = front ? 1.0f : -1.0f;
+  s.geometric_normal = (dot(unit(geometric), unit(geometric)) > 0.5f ? unit(geometric) : n) * side;
 
   const Vec4f base = base_color(scene, mesh, at, m);
   const Vec3f color{base.x, base.y, base.z};

@@ -14,6 +14,7 @@ namespace steradian {
 struct Surface {
   Vec3f position;
   Vec3f normal;      // shading normal, unit; the view is above its horizon, as it is above the triangle
+  Vec3f geometric_normal;  // of the triangle, unit, turned to the viewer; the normal where it has no area
   Vec3f tangent;     // unit, perpendicular to the normal: direction of alpha_x
   Vec3f coat_normal; // of the clear coat, which lies smooth over what bends the base
   Vec3f emission;    // radiance towards the viewer

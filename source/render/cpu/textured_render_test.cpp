@@ -65,6 +65,7 @@ RenderOptions small(const std::string& method) {
   RenderOptions options;
   options.width = 48;
   options.height = 27;
+  options.shadows = Shadows::off;
   options.method = method;
   return options;
 }

@@ -29,6 +29,7 @@ struct TileVector {
 // Slots without a surface hold a normal of zero; every light sends them nothing.
 struct SurfaceTile {
   TileVector position, normal, view;
+  TileVector geometric_normal;  // of the triangle, unit, turned to the viewer
   TileVector albedo;          // diffuse
   alignas(64) TilePlane fresnel_loss;
   TileVector f0, f90;         // specular GGX, zero where there is none
