@@ -85,10 +85,15 @@ class Preparation {
   // Lights that only the general method serves are asked of every pixel on its own. What counts is the scene, not the picture:
   // as if it were small.
   void check_general() {
-    const std::uint64_t lights = static_cast<std::uint64_t>(std::count(frame_.general.begin(), frame_.general.end(), 1));
     constexpr std::uint64_t kPixels = 64 * 48;
-    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are ellipses, strokes, spots or shaded by profile", lights),
-                      lights * kPixels * (1000 + 4 * world_.curves.size()));
+    std::uint64_t lights = 0, steps = 0;
+    for (std::size_t i = 0; i < frame_.general.size(); ++i) {
+      if (frame_.general[i] == 0) continue;
+      const auto& gradient = body(i).light->gradient;
+      ++lights;
+      steps += kPixels * (1000 + 4 * world_.curves.size() + 80 * (gradient ? gradient->stops.size() : 0));
+    }
+    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are ellipses, strokes, spots or shaded by profile", lights), steps);
   }
 
   // Steps that are known only as they are made.

@@ -343,7 +343,7 @@ class Reader {
       }
       return add(n, std::move(body), style, filled);
     }
-    Pen pen(style.transform, flatness(), [&](std::size_t points) { spend(n, 20 * points, 40 * points); });
+    Pen pen(style.transform, flatness(), [&](std::size_t points) { spend(n, 400 * points, 40 * points); });
     draw(n, name, pen);
     Contours contours = pen.finish();
     if (filled) {
