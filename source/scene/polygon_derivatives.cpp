@@ -235,7 +235,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
       const integrals::PhongLobe<S> lobe(m.exponent, 0.0);
       return integrals::with_phong_share<S>(lobe, series, [&](auto share) {
-        integrals::Phong<S, decltype(share)> phong(share);
+        integrals::Phong<S, decltype(share)> phong(share, m.exponent, series);
         return integrate(outline, shading, phong);
       });
     };

@@ -53,7 +53,37 @@ __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, con
   Seen<S> seen;
   seen.lit = capsule_in<S>(light, typename Kernels<S>::mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)), p).outside;
   seen.reversed = Kernels<S>().mask_none();
+  const auto to = (to_kernel<S>(light.end_a) + to_kernel<S>(light.end_b)) * Real<S>(0.5) - p;
+  seen.distance2 = dot(to, to);
   return seen;
+}
+
+// An upper bound of its mean square extent.
+template <class S>
+Real<S> deviation2(const packed::Capsule& light) {
+  const Vec3f axis = light.end_b - light.end_a;
+  return static_cast<double>(dot(axis, axis) / 4 + light.radius * light.radius);
+}
+
+// The strip of its cylinder, which is as wide from everywhere across, and the half balls at its ends, each with its second moment along
+// the axis.
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Capsule& light, const Seen<S>&, const typename Kernels<S>::vec3& p) {
+  using R = Real<S>;
+  const R least(1.0e-36), r(static_cast<double>(light.radius)), r2 = r * r;
+  const auto a = to_kernel<S>(light.end_a) - p, b = to_kernel<S>(light.end_b) - p;
+  const auto axis = b - a, center = (a + b) * R(0.5);
+  const R length2 = dot(axis, axis), span = sqrt(length2);
+  const auto along = axis * inversesqrt(max(length2, least)), sight = center * inversesqrt(max(dot(center, center), least));
+  const auto across = sight - along * dot(along, sight), aside = cross(along, sight);
+  const R strip = R(2.0) * r * span, balls = R(3.14159265358979324) * r2;
+  const R share = R(2.0) / max(strip + balls, least);
+  typename Kernels<S>::LightElements e;
+  e.center = center;
+  e.area = -(across * (inversesqrt(max(dot(across, across), R(1.0e-12))) * strip) + sight * balls);
+  e.reach_a = along * sqrt(share * (strip * length2 * R(1.0 / 12) + balls * (length2 + r2) * R(0.25)));
+  e.reach_b = aside * (inversesqrt(max(dot(aside, aside), R(1.0e-12))) * sqrt(share * r2 * (strip * R(1.0 / 3) + balls * R(0.25))));
+  return e;
 }
 
 template <class S>
@@ -77,7 +107,7 @@ STERADIAN_INLINE void with_corners(const packed::Capsule& light, const Seen<S>&,
                                    const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p, Use use) {
   std::array<typename Kernels<S>::vec3, kMostCorners> corners;
   fill_corners<S>(light, lobe, frame, p, corners);
-  use([&](int i) { return corners[static_cast<std::size_t>(i)]; });
+  use([&](int i) { return corners[static_cast<std::size_t>(i)]; }, lobe.corners);
 }
 
 }  // namespace shapes

@@ -1,8 +1,10 @@
 // Disks, ellipses, spheres and ellipsoids as lights: what a point sees of each is one ellipse.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include "integrals/small_light.h"
 #include "shapes/capsule.h"
 #include "shapes/polygon.h"
 #include "steradian/area_light.h"
@@ -83,7 +85,9 @@ STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kern
                                           column(light.inverse_x.y, light.inverse_y.y, light.inverse_z.y),
                                           column(light.inverse_x.z, light.inverse_y.z, light.inverse_z.z));
   Seen<S> seen;
-  seen.outline = Kernels<S>().ellipsoid_outline(to_kernel<S>(light.center) - p, axes, inverse);
+  const auto to = to_kernel<S>(light.center) - p;
+  seen.outline = Kernels<S>().ellipsoid_outline(to, axes, inverse);
+  seen.distance2 = dot(to, to);
   seen.lit = seen.outline.outside;
   seen.reversed = Kernels<S>().mask_none();
   return seen;
@@ -98,26 +102,64 @@ STERADIAN_INLINE auto ellipse_in(const typename Kernels<S>::EllipsoidOutline& ou
                                       transform_transposed(frame, outline.axis_b) * unit);
 }
 
+// Mean squares of their extents; an ellipsoid's is an upper bound.
+template <class S>
+STERADIAN_INLINE Real<S> deviation2(const packed::Disk& light) {
+  return static_cast<double>((dot(light.x, light.x) + dot(light.y, light.y)) / 4);
+}
+template <class S>
+STERADIAN_INLINE Real<S> deviation2(const packed::Ellipsoid& light) {
+  return static_cast<double>(dot(light.x, light.x) + dot(light.y, light.y) + dot(light.z, light.z));
+}
+
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Disk&, const Seen<S>& seen, const typename Kernels<S>::vec3&) {
+  Kernels<S> k;
+  return k.ellipse_elements(k.ellipse_prepare(seen.outline.center, seen.outline.axis_a, seen.outline.axis_b));
+}
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Ellipsoid&, const Seen<S>& seen, const typename Kernels<S>::vec3& p) {
+  return elements<S>(packed::Disk{}, seen, p);
+}
+
+// By the elements where they serve.
+template <class S, class Round>
+STERADIAN_INLINE auto ellipse_irradiance_vector(const Round& light, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
+                                                const typename Kernels<S>::vec3& p) {
+  Kernels<S> k;
+  auto e = k.ellipse_irradiance_vector(ellipse_in<S>(seen.outline, frame));
+  if (any_lane(seen.lit && seen.distance2 > deviation2<S>(light) * Real<S>(integrals::kAlongArcs.least_distance2))) {
+    const auto elements = elements_in<S>(light, seen, frame, p);
+    const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings});
+    e = select(serve, k.light_elements_irradiance_vector(elements), e);
+  }
+  return e;
+}
+
 // Exact, for radiance 1; z is the irradiance.
 template <class S>
-STERADIAN_INLINE auto irradiance_vector(const packed::Disk&, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
-                                        const typename Kernels<S>::vec3&) {
-  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(seen.outline, frame));
+STERADIAN_INLINE auto irradiance_vector(const packed::Disk& light, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
+                                        const typename Kernels<S>::vec3& p) {
+  return ellipse_irradiance_vector<S>(light, seen, frame, p);
 }
 template <class S>
 STERADIAN_INLINE auto irradiance_vector(const packed::Ellipsoid& light, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
                                         const typename Kernels<S>::vec3& p) {
   if (light.ball.radius > 0) return irradiance_vector<S>(light.ball, seen, frame, p);
-  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(seen.outline, frame));
+  return ellipse_irradiance_vector<S>(light, seen, frame, p);
 }
 
-// Calls use(corner) with the function of the corners that stand for the outline about a lobe.
+// Of a polygon where the rim is near: kernels/outline/ellipse.glsl, ellipse_fan_near.
+inline constexpr int kCornersNearRim = 24;
+
+// Calls use(corner, count) with the function of the corners that stand for the outline about a lobe, and their number.
 template <class S, class Round, class Use>
 STERADIAN_INLINE void with_corners(const Round&, const Seen<S>& seen, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
                                    const typename Kernels<S>::vec3&, Use use) {
   Kernels<S> k;
   const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(seen.outline, frame), lobe.axis, lobe.width);
-  use([&](int i) { return k.polygon_direction(k.ellipse_fan_corner(fan, i, lobe.corners)); });
+  const int count = any_lane(fan.near) ? std::max(lobe.corners, kCornersNearRim) : lobe.corners;
+  use([&](int i) { return k.polygon_direction(k.ellipse_fan_corner(fan, i, count)); }, count);
 }
 
 }  // namespace shapes

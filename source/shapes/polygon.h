@@ -16,6 +16,8 @@ struct Polygon {
   std::vector<std::size_t> contours;  // as of PreparedPolygon
   Vec3f normal{}, point{};            // of its plane; the normal to the lit side
   bool two_sided = false;
+  Vec3f middle{}, reach_a{}, reach_b{}, area{};  // its LightQuarters; area is the normal times the area
+  float deviation2 = 0;                          // mean square of its extent about its middle [m2]
 
   // Whether `use(point, radius)` holds for one of the balls in whose hull the light lies.
   template <class Use>
@@ -31,6 +33,12 @@ inline Polygon prepare(const PreparedPolygon& light) {
   result.normal = static_cast<Vec3f>(light.normal);
   result.point = static_cast<Vec3f>(light.centroid);
   result.two_sided = light.two_sided;
+  const LightQuarters& q = light.quarters;
+  result.middle = static_cast<Vec3f>(q.center);
+  result.reach_a = static_cast<Vec3f>(q.reach_a);
+  result.reach_b = static_cast<Vec3f>(q.reach_b);
+  result.area = static_cast<Vec3f>(light.normal * light.area);
+  result.deviation2 = static_cast<float>((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / 2);
   return result;
 }
 
@@ -47,10 +55,11 @@ inline int lit_side(const PreparedPolygon& light, Vec3d position) {
   return side < 0 && !light.two_sided ? 0 : side;
 }
 
-// How points see a light. outline: of disks and ellipsoids, relative to the point.
+// How points see a light. distance2: of its middle. outline: of disks and ellipsoids, relative to the point.
 template <class S>
 struct Seen {
   Mask<S> lit, reversed;
+  Real<S> distance2;
   typename Kernels<S>::EllipsoidOutline outline;
 };
 
@@ -58,7 +67,9 @@ struct Seen {
 template <class S, class Flat>
 STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {
   Seen<S> seen;
-  const Real<S> height = dot(p - to_kernel<S>(light.point), to_kernel<S>(light.normal)), zero(0.0);
+  const auto from = p - to_kernel<S>(light.point);
+  const Real<S> height = dot(from, to_kernel<S>(light.normal)), zero(0.0);
+  seen.distance2 = dot(from, from);
   seen.reversed = height < zero;
   seen.lit = light.two_sided ? seen.reversed || height > zero : height > zero;
   return seen;
@@ -67,6 +78,25 @@ STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>:
 template <class S>
 STERADIAN_INLINE Seen<S> see(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
   return see_plane<S>(light, p);
+}
+
+// The elements of a light in the world's frame, about the point: integrals/small_light.h.
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Polygon& light, const Seen<S>&, const typename Kernels<S>::vec3& p) {
+  return {to_kernel<S>(light.middle) - p, to_kernel<S>(light.reach_a), to_kernel<S>(light.reach_b), to_kernel<S>(light.area)};
+}
+
+template <class S, class Shape>
+typename Kernels<S>::LightElements elements_in(const Shape& light, const Seen<S>& seen, const typename Kernels<S>::mat3& frame,
+                                               const typename Kernels<S>::vec3& p) {
+  const auto e = elements<S>(light, seen, p);
+  return {transform_transposed(frame, e.center), transform_transposed(frame, e.reach_a), transform_transposed(frame, e.reach_b),
+          transform_transposed(frame, e.area)};
+}
+
+template <class S>
+STERADIAN_INLINE Real<S> deviation2(const packed::Polygon& light) {
+  return static_cast<double>(light.deviation2);
 }
 
 template <class S>

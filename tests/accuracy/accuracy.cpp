@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   write_phong(page);
   write_ggx(page);
   write_half_vector(page);
+  write_lights(page);
   std::ofstream file(argv[1], std::ios::binary);
   file << page.str();
   file.close();
