@@ -402,11 +402,12 @@ vec3 steradian_polygon_direction(vec3 v) {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge".
+// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
 vec3 steradian_polygon_edge(vec3 a, vec3 b) {
-    vec3 n = cross(a, b);
+    vec3 n = cross(a, b - a);
     float f = steradian_trig_angle_over_sine(dot(a, b), dot(n, n));
     return n * (0.5 * f);
 }
@@ -499,7 +500,7 @@ SteradianSolidAngleWalk steradian_solid_angle_begin(vec3 first) {
 SteradianSolidAngleWalk steradian_solid_angle_add_edge(SteradianSolidAngleWalk walk, vec3 a, vec3 b) {
     SteradianSolidAngleWalk next = walk;
     float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
-    float im = dot(walk.first, cross(a, b));
+    float im = dot(walk.first, cross(a - walk.first, b - a));  // the determinant, from differences: it is small where they are
     float scale = inversesqrt(max(re * re + im * im, steradian_smallest_square()));
     re = re * scale;
     im = im * scale;
@@ -1048,6 +1049,111 @@ float steradian_blinn_phong_distribution(vec3 h, float n) {
 
 // ======== round: disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights ========
 
+// ==== light_elements ====
+
+// Lights that are small against their distance and against the lobe: four elements in the place of the outline.
+//
+// Integrals along an outline cancel where the light is small: of the rounding of a unit direction, what is left is the
+// (distance / size)^2-fold. A surface element has no such trouble. Four of them, each a quarter of the area, at
+// center +- reach_a and center +- reach_b, have the light's area, centroid and second moments if the reaches are its
+// principal deviations times the square root of 2, whatever its outline; so they integrate what is quadratic over the
+// light exactly, and what is cubic too where the light is its own mirror image about its centroid.
+//
+// How far a lobe is from quadratic over a light, one number tells: t = deviation / distance * sharpness. The error, as a
+// share of what the light would send from where the lobe is highest, is at most t^3 / 8: measured, over Lambert, Phong, GGX,
+// Blinn-Phong and Beckmann lobes, parallelograms and triangles, at t up to 0.7 (test SteradianLightElements.ErrorIsBelowItsBound).
+// Frame: any. Vectors are relative to the shading point.
+
+// A light as four elements.
+//   center            centroid of its area
+//   reach_a, reach_b  conjugate half axes of the ellipse on which the elements lie
+//   area              unit normal towards the side that shines here, times the area [m^2]
+struct SteradianLightElements {
+    vec3 center;
+    vec3 reach_a;
+    vec3 reach_b;
+    vec3 area;
+};
+
+// One element as the point sees it.
+//   direction    unit
+//   solid_angle  not negative [sr]
+struct SteradianLightElement {
+    vec3 direction;
+    float solid_angle;
+};
+
+// Element i of 0 to 3.
+//
+// Degenerate: an element at the point is a zero direction and finite.
+SteradianLightElement steradian_light_element_at(SteradianLightElements e, int i) {
+    float side = float(1 - 2 * (i / 2));
+    vec3 r = e.center + e.reach_a * side;
+    if (i == 1 || i == 3) {
+        r = e.center + e.reach_b * side;
+    }
+    float inverse = inversesqrt(max(dot(r, r), steradian_smallest_square()));
+    SteradianLightElement element;
+    element.direction = r * inverse;
+    // The area first: squares of distances may leave the range of float.
+    float quarter = max(-0.25 * dot(e.area, element.direction), 0.0);
+    element.solid_angle = (quarter * inverse) * inverse;
+    return element;
+}
+
+// Sharpness of a diffuse surface; others add their own to it.
+//
+// For the cosine and the elements' own foreshortening and distance.
+float steradian_light_elements_diffuse_sharpness() { return 2.5; }
+
+// Sharpness of a lobe that is about a mirrored direction as wide as a Gaussian of this standard deviation [rad].
+float steradian_light_elements_sharpness(float deviation) {
+    return steradian_light_elements_diffuse_sharpness() + 1.0 / max(deviation, 1.0e-12);
+}
+
+// Sharpness of a lobe of half vectors.
+//
+//   deviation  of the distribution, of slopes: alpha / 2 of GGX, alpha / sqrt(2) of Beckmann, 1 / sqrt(n) of Blinn-Phong
+//   view_z     cosine of the view: half vectors turn the light by twice their angle along the view, by 2 v.h across it
+float steradian_light_elements_half_vector_sharpness(float deviation, float view_z) {
+    return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
+}
+
+// Whether the elements are better than an integral along the outline.
+//
+//   normal     the surface's, unit
+//   sharpness  of the lobe
+//   roundings  how many roundings of a unit direction the other integral makes, relative to the light's solid angle
+//              times its distance over its size
+//   bias       error of the other integral that is none of rounding, as the share that t^3 / 8 bounds
+//
+// A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
+bool steradian_light_elements_serve(SteradianLightElements e, vec3 normal, float sharpness, float roundings, float bias) {
+    float unit = 6.0e-8;
+    float inverse = inversesqrt(max(dot(e.center, e.center), steradian_smallest_square()));
+    vec3 a = e.reach_a * inverse;
+    vec3 b = e.reach_b * inverse;
+    float deviation2 = 0.5 * (dot(a, a) + dot(b, b));
+    float deviation = sqrt(deviation2);
+    float t = min(deviation * sharpness, 1.0e6);
+    float bound = 0.125 * t * t * t;
+    bool better = bound < bias || bound * deviation < roundings * unit;
+    // The outline of most lights ends within twice the reach.
+    bool whole = dot(e.center, normal) * inverse > 2.0 * (abs(dot(a, normal)) + abs(dot(b, normal)));
+    return better && (whole || deviation2 < 8.0 * unit);
+}
+
+// Irradiance vector of radiance 1, of the elements above the horizon z = 0.
+vec3 steradian_light_elements_irradiance_vector(SteradianLightElements e) {
+    vec3 nowhere = vec3(0.0, 0.0, 0.0);
+    vec3 sum = nowhere;
+    for (int i = 0; i < 4; i++) {
+        SteradianLightElement element = steradian_light_element_at(e, i);
+        sum = sum + steradian_select(element.direction.z > 0.0, element.direction * element.solid_angle, nowhere);
+    }
+    return sum;
+}
+
 // ==== conic ====
 
 // Arcs of conics in space: the boundary integral of irradiance along them, in closed form.
@@ -1286,6 +1392,18 @@ SteradianEllipse steradian_ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b
     return e;
 }
 
+// The ellipse's area as four elements, for where it is small (light_elements.glsl).
+//
+//   e        of steradian_ellipse_prepare
+SteradianLightElements steradian_ellipse_elements(SteradianEllipse e) {
+    SteradianLightElements elements;
+    elements.center = e.center;
+    elements.reach_a = e.axis_a * 0.707106781186547524;
+    elements.reach_b = e.axis_b * 0.707106781186547524;
+    elements.area = cross(e.axis_b, e.axis_a) * steradian_pi();
+    return elements;
+}
+
 // An arc of the ellipse about t = 0 (begin and end are tan(t/2)).
 SteradianConicArc steradian_ellipse_arc(SteradianEllipse e, float begin, float end) {
     return steradian_conic_prepare(e.center + e.axis_a, e.axis_b * 2.0, e.center - e.axis_a, begin, end);
@@ -1348,10 +1466,12 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
 //   ellipse  prepared
 //   turn     (cos, sin) of the t of the corner nearest to the lobe
 //   beta     1: corners at equal steps of t; below, they gather about that corner
+//   near     whether the point is near the rim: then in steps that grow with the distance from there, from beta up
 struct SteradianEllipseFan {
     SteradianEllipse ellipse;
     vec2 turn;
     float beta;
+    bool near;
 };
 
 // The polygon whose corners stand at equal steps of t.
@@ -1360,6 +1480,60 @@ SteradianEllipseFan steradian_ellipse_fan(SteradianEllipse e) {
     fan.ellipse = e;
     fan.turn = vec2(1.0, 0.0);
     fan.beta = 1.0;
+    fan.near = steradian_mask_none();
+    return fan;
+}
+
+// A vector from the shading point to the rim.
+vec3 steradian_ellipse_rim(SteradianEllipse e, vec2 turn) { return e.center + e.axis_a * turn.x + e.axis_b * turn.y; }
+
+// (cos t, sin t) of the rim's place nearest to the shading point.
+//
+// The nearest of eight places, and four of Newton's steps of at most 0.4 from there, or down the slope where the distance curves
+// the other way. A place that is a little off costs nothing.
+vec2 steradian_ellipse_nearest(SteradianEllipse e) {
+    vec2 nearest = vec2(1.0, 0.0);
+    vec3 rim = steradian_ellipse_rim(e, nearest);
+    float least = dot(rim, rim);
+    for (int k = 1; k < 8; k++) {
+        vec2 turn = steradian_complex_unit(0.25 * steradian_pi() * float(k - 8 * (k / 5)));
+        rim = steradian_ellipse_rim(e, turn);
+        float distance2 = dot(rim, rim);
+        nearest = steradian_select(distance2 < least, turn, nearest);
+        least = min(distance2, least);
+    }
+    for (int i = 0; i < 4; i++) {
+        rim = steradian_ellipse_rim(e, nearest);
+        vec3 tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
+        float slope = dot(rim, tangent);
+        float curvature = dot(tangent, tangent) - dot(rim, rim - e.center);
+        float step = -slope / max(abs(curvature), 1.0e-3 * dot(tangent, tangent) + steradian_smallest_divisor());
+        nearest = steradian_complex_product(nearest, steradian_complex_unit(clamp(step, -0.4, 0.4)));
+    }
+    return nearest;
+}
+
+// Gathers the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a fixed
+// share of the radius stands out, or leaves out, would else be the half of what is seen.
+//
+// From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
+// are alike. Of 24 corners, errors: docs/ggx.md, section 6.
+SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
+    SteradianEllipse e = usual.ellipse;
+    SteradianEllipseFan fan = usual;
+    // From further than one and a half of its reach, no end of the rim is five times as far as another.
+    bool may_be = dot(e.center, e.center) < 2.25 * (dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b));
+    if (may_be) {
+        vec2 nearest = steradian_ellipse_nearest(e);
+        vec3 rim = steradian_ellipse_rim(e, nearest);
+        vec3 opposite = steradian_ellipse_rim(e, -nearest);
+        vec3 tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
+        float distance2 = dot(rim, rim);
+        fan.near = may_be && distance2 < 0.04 * dot(opposite, opposite);
+        fan.turn = steradian_select(fan.near, nearest, usual.turn);
+        float beta = 0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor()));
+        fan.beta = steradian_select(fan.near, clamp(beta, 1.0e-6, 1.0), usual.beta);
+    }
     return fan;
 }
 
@@ -1381,8 +1555,7 @@ SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, vec3 
     vec2 place = vec2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     float size2 = dot(place, place);
     bool off_centre = size2 > 1.0e-20;
-    SteradianEllipseFan fan;
-    fan.ellipse = e;
+    SteradianEllipseFan fan = steradian_ellipse_fan(e);
     fan.turn = steradian_select(off_centre, place * inversesqrt(max(size2, 1.0e-20)), vec2(1.0, 0.0));
     vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
     vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
@@ -1390,7 +1563,7 @@ SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, vec3 
     float blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), steradian_smallest_divisor()));
     float beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
     fan.beta = steradian_select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
-    return fan;
+    return steradian_ellipse_fan_near(fan);
 }
 
 // (cos t, sin t) of corner k of count, counted from the middle one.
@@ -1398,6 +1571,13 @@ vec2 steradian_ellipse_corner(SteradianEllipseFan fan, int k, int count) {
     float half_angle = steradian_pi() * (float(k) / float(count) - 0.5);
     vec2 u = steradian_complex_unit(half_angle);
     vec2 w = steradian_complex_sign(vec2(u.x, fan.beta * u.y));
+    if (fan.near) {
+        // tan(t/2) = beta sinh(x), x in equal steps between those of the tangents -4 and 4.
+        float far_side = 4.0 / fan.beta;
+        float x = log(far_side + sqrt(far_side * far_side + 1.0)) * (float(2 * k + 1) / float(count) - 1.0);
+        float power = exp(x);
+        w = steradian_select(fan.near, steradian_complex_sign(vec2(1.0, 0.5 * fan.beta * (power - 1.0 / power))), w);
+    }
     return steradian_complex_product(steradian_complex_product(w, w), fan.turn);
 }
 
@@ -1996,7 +2176,7 @@ float steradian_moment_minus_log_cosine2(float s2, float c2) {
 // the edge's plane sees the whole edge near its equator, where the integrand is 1: all of it counts as swept.
 SteradianMomentEdge steradian_moment_edge(vec3 a, vec3 b, vec3 r) {
     float pole2 = 1.0e-6;
-    vec3 n = cross(a, b);
+    vec3 n = cross(a, b - a);  // of a short edge, too, with all its digits
     float n2 = dot(n, n);
     bool has_length = n2 > steradian_smallest_divisor();
     n = n * inversesqrt(max(n2, steradian_smallest_divisor()));
@@ -2528,6 +2708,13 @@ float steradian_ltc_lobe(SteradianLtcMatrix m, vec3 l) {
     float d2 = max(dot(w, w), steradian_smallest_length());
     float determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
     return determinant * max(w.z, 0.0) * steradian_inverse_pi() / (d2 * d2);
+}
+
+// How fast the lobe changes about the direction l: the inverse of the angle over which M^-1 l may change by its own length.
+float steradian_ltc_sharpness(SteradianLtcMatrix m, vec3 l) {
+    vec3 w = steradian_ltc_transform(m, l);
+    float size2 = m.xx * m.xx + m.xz * m.xz + m.yy * m.yy + m.zx * m.zx + m.zz * m.zz;
+    return sqrt(size2 * dot(l, l) / max(dot(w, w), steradian_smallest_square()));
 }
 
 // The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
@@ -3320,6 +3507,17 @@ float steradian_ggx_unshadowed(SteradianGgxView view, vec3 e) {
     return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
 }
 
+// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for steradian_ggx_radiance.
+//
+//   l        unit direction of the light; below the surface 0
+//   smith    1 with shadowing, 0 without
+vec2 steradian_ggx_lobe_and_fresnel(SteradianGgxView view, vec3 l, float smith) {
+    vec3 h = steradian_microfacet_half_vector(l, view.v);
+    float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+    float plain = steradian_microfacet_lobe_unshadowed(steradian_ggx_distribution(h, view.ax, view.ay) * g, l, view.v);
+    return vec2(plain, plain * steradian_fresnel_schlick(0.0, 1.0, dot(view.v, h)));
+}
+
 // ==== ggx_cubature ====
 
 // Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
@@ -3554,14 +3752,16 @@ float steradian_half_vector_split_uniform(SteradianConicArc edge, float share) {
 // The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
 // the edge passes the lobe, and some for the rest.
 //
-// Newton's steps where they halve what is left, else the middle of a bracket: 4 or 5 as a rule, 24 at most. A split that is
-// a little off costs nothing.
+// Newton's steps where they halve what is left, else the middle of a bracket: 5 or 6 as a rule, 24 at most; to the last
+// digits, since a light that is thin, or seen edge-on, is what two edges leave of each other's errors: both must be split
+// at the same places.
 // Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
 float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float share) {
     float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
     float weight = 0.3 / max(last - first, 1.0e-12);
     float total = edge.sweep.x + edge.sweep.y + 0.3;
+    float tolerance = 2.0e-6;
     SteradianConicNode node = steradian_conic_node(edge, share);
     float tau = node.tau;
     float low = edge.begin;
@@ -3581,7 +3781,7 @@ float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float shar
             high = steradian_select(value < 0.0, high, tau);
             float next = tau - value / slope;
             bool fast = next > low && next < high && abs(value) < 0.5 * left;
-            off = off && abs(value) > 1.0e-4 * total;
+            off = off && abs(value) > tolerance * total;
             left = abs(value);
             tau = steradian_select(off, steradian_select(fast, next, 0.5 * (low + high)), tau);
         }

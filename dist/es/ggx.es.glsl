@@ -208,6 +208,17 @@ float steradian_ggx_unshadowed(SteradianGgxView view, vec3 e) {
     return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
 }
 
+// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for steradian_ggx_radiance.
+//
+//   l        unit direction of the light; below the surface 0
+//   smith    1 with shadowing, 0 without
+vec2 steradian_ggx_lobe_and_fresnel(SteradianGgxView view, vec3 l, float smith) {
+    vec3 h = steradian_microfacet_half_vector(l, view.v);
+    float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+    float plain = steradian_microfacet_lobe_unshadowed(steradian_ggx_distribution(h, view.ax, view.ay) * g, l, view.v);
+    return vec2(plain, plain * steradian_fresnel_schlick(0.0, 1.0, dot(view.v, h)));
+}
+
 // ==== ggx_cubature ====
 
 // Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
@@ -442,14 +453,16 @@ float steradian_half_vector_split_uniform(SteradianConicArc edge, float share) {
 // The place at a share of the angle C under which the poles see the edge, plus 0.3 for the edge's own length: arcs where
 // the edge passes the lobe, and some for the rest.
 //
-// Newton's steps where they halve what is left, else the middle of a bracket: 4 or 5 as a rule, 24 at most. A split that is
-// a little off costs nothing.
+// Newton's steps where they halve what is left, else the middle of a bracket: 5 or 6 as a rule, 24 at most; to the last
+// digits, since a light that is thin, or seen edge-on, is what two edges leave of each other's errors: both must be split
+// at the same places.
 // Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
 float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float share) {
     float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
     float weight = 0.3 / max(last - first, 1.0e-12);
     float total = edge.sweep.x + edge.sweep.y + 0.3;
+    float tolerance = 2.0e-6;
     SteradianConicNode node = steradian_conic_node(edge, share);
     float tau = node.tau;
     float low = edge.begin;
@@ -469,7 +482,7 @@ float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float shar
             high = steradian_select(value < 0.0, high, tau);
             float next = tau - value / slope;
             bool fast = next > low && next < high && abs(value) < 0.5 * left;
-            off = off && abs(value) > 1.0e-4 * total;
+            off = off && abs(value) > tolerance * total;
             left = abs(value);
             tau = steradian_select(off, steradian_select(fast, next, 0.5 * (low + high)), tau);
         }

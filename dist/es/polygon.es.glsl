@@ -60,11 +60,12 @@ vec3 steradian_polygon_direction(vec3 v) {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge".
+// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
 vec3 steradian_polygon_edge(vec3 a, vec3 b) {
-    vec3 n = cross(a, b);
+    vec3 n = cross(a, b - a);
     float f = steradian_trig_angle_over_sine(dot(a, b), dot(n, n));
     return n * (0.5 * f);
 }
@@ -157,7 +158,7 @@ SteradianSolidAngleWalk steradian_solid_angle_begin(vec3 first) {
 SteradianSolidAngleWalk steradian_solid_angle_add_edge(SteradianSolidAngleWalk walk, vec3 a, vec3 b) {
     SteradianSolidAngleWalk next = walk;
     float re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
-    float im = dot(walk.first, cross(a, b));
+    float im = dot(walk.first, cross(a - walk.first, b - a));  // the determinant, from differences: it is small where they are
     float scale = inversesqrt(max(re * re + im * im, steradian_smallest_square()));
     re = re * scale;
     im = im * scale;

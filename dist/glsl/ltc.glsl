@@ -100,6 +100,13 @@ float steradian_ltc_lobe(SteradianLtcMatrix m, vec3 l) {
     return determinant * max(w.z, 0.0) * steradian_inverse_pi() / (d2 * d2);
 }
 
+// How fast the lobe changes about the direction l: the inverse of the angle over which M^-1 l may change by its own length.
+float steradian_ltc_sharpness(SteradianLtcMatrix m, vec3 l) {
+    vec3 w = steradian_ltc_transform(m, l);
+    float size2 = m.xx * m.xx + m.xz * m.xz + m.yy * m.yy + m.zx * m.zx + m.zz * m.zz;
+    return sqrt(size2 * dot(l, l) / max(dot(w, w), steradian_smallest_square()));
+}
+
 // The lobe's share above the real horizon, in [0, 1]; tables hold magnitudes divided by it.
 //
 // Under M^-1 the sky becomes a half space, which shares a lune with the cosine's: (1 + cosine of their angle) / 2.

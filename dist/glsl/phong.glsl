@@ -114,7 +114,7 @@ float steradian_moment_minus_log_cosine2(float s2, float c2) {
 // the edge's plane sees the whole edge near its equator, where the integrand is 1: all of it counts as swept.
 SteradianMomentEdge steradian_moment_edge(vec3 a, vec3 b, vec3 r) {
     float pole2 = 1.0e-6;
-    vec3 n = cross(a, b);
+    vec3 n = cross(a, b - a);  // of a short edge, too, with all its digits
     float n2 = dot(n, n);
     bool has_length = n2 > steradian_smallest_divisor();
     n = n * inversesqrt(max(n2, steradian_smallest_divisor()));

@@ -114,7 +114,7 @@ fn steradian_moment_minus_log_cosine2(s2: f32, c2: f32) -> f32 {
 // the edge's plane sees the whole edge near its equator, where the integrand is 1: all of it counts as swept.
 fn steradian_moment_edge(a: vec3f, b: vec3f, r: vec3f) -> SteradianMomentEdge {
     let pole2 = 1.0e-6;
-    var n = cross(a, b);
+    var n = cross(a, b - a);  // of a short edge, too, with all its digits
     let n2 = dot(n, n);
     let has_length = n2 > steradian_smallest_divisor();
     n = n * inverseSqrt(max(n2, steradian_smallest_divisor()));

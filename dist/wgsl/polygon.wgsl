@@ -60,11 +60,12 @@ fn steradian_polygon_direction(v: vec3f) -> vec3f {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge".
+// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
 fn steradian_polygon_edge(a: vec3f, b: vec3f) -> vec3f {
-    let n = cross(a, b);
+    let n = cross(a, b - a);
     let f = steradian_trig_angle_over_sine(dot(a, b), dot(n, n));
     return n * (0.5 * f);
 }
@@ -157,7 +158,7 @@ fn steradian_solid_angle_begin(first: vec3f) -> SteradianSolidAngleWalk {
 fn steradian_solid_angle_add_edge(walk: SteradianSolidAngleWalk, a: vec3f, b: vec3f) -> SteradianSolidAngleWalk {
     var next = walk;
     var re = 1.0 + dot(walk.first, a) + dot(a, b) + dot(b, walk.first);
-    var im = dot(walk.first, cross(a, b));
+    var im = dot(walk.first, cross(a - walk.first, b - a));  // the determinant, from differences: it is small where they are
     let scale = inverseSqrt(max(re * re + im * im, steradian_smallest_square()));
     re = re * scale;
     im = im * scale;

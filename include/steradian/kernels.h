@@ -36,6 +36,7 @@ struct Kernels {
 #include "math/quartic.glsl"
 
 #include "outline/polygon.glsl"
+#include "outline/light_elements.glsl"
 #include "outline/conic.glsl"
 #include "outline/ellipse.glsl"
 #include "outline/capsule.glsl"

@@ -27,8 +27,7 @@ struct LoadedScene {
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file
-// without lights, or with no other light than emissive textures that send less than a thirtieth of what the default light
-// does, gets a default area light, one without cameras a camera that frames the scene; both are said
+// without lights, or with no other light than weak emissive textures on most of its surface (docs/scenes.md), gets a default area light, one without cameras a camera that frames the scene; both are said
 // in a warning. Throws Error with file, place in the file and what to do for everything that is broken or
 // required but unsupported.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "steradian/vector.h"
@@ -16,6 +17,15 @@ struct PolygonLight {
   bool two_sided = false;
 };
 
+// Four points that stand for a flat light where it is small: center +- reach_a and center +- reach_b, a quarter of the area
+// each. They have its area's centroid and second moments (kernels/outline/light_elements.glsl).
+// Infinitely far apart where nobody has set them, so that no light counts as small by mistake: of the part of a light that
+// occluders leave, for one.
+struct LightQuarters {
+  Vec3d center;
+  Vec3d reach_a{std::numeric_limits<double>::infinity(), 0, 0}, reach_b;
+};
+
 // A light ready to be walked: every contour in walk order (the reverse of the stored order, see kernels/outline/polygon.glsl).
 struct PreparedPolygon {
   std::vector<Vec3d> vertices;        // of all contours, one after the other
@@ -23,6 +33,7 @@ struct PreparedPolygon {
   Vec3d normal;                       // unit, to the lit side; zero for a light without area
   Vec3d centroid;                     // mean of the outline's vertices
   double area = 0;                    // of the outline without the holes [m2]
+  LightQuarters quarters;
   Vec3d radiance{1, 1, 1};
   bool two_sided = false;
 

@@ -11,7 +11,7 @@
 //
 // docs/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
-// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
+// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl
 // Topics: ggx
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -82,4 +82,15 @@ ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
 //   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
 real ggx_unshadowed(GgxView view, vec3 e) {
     return max(dot(view.w, e), 0.0) * inverse_pi() / view.v.z;
+}
+
+// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for ggx_radiance.
+//
+//   l        unit direction of the light; below the surface 0
+//   smith    1 with shadowing, 0 without
+vec2 ggx_lobe_and_fresnel(GgxView view, vec3 l, real smith) {
+    vec3 h = microfacet_half_vector(l, view.v);
+    real g = 1.0 + smith * (ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+    real plain = microfacet_lobe_unshadowed(ggx_distribution(h, view.ax, view.ay) * g, l, view.v);
+    return vec2(plain, plain * fresnel_schlick(0.0, 1.0, dot(view.v, h)));
 }

@@ -65,3 +65,13 @@ vec4 case_ltc_compact(CaseInput i) {
     LtcMatrix m = ltc_from_compact(i.d, i.a.w, view);
     return case_of_real(ltc_integral(case_ltc_walk(i, m), case_walk_reversed(i)));
 }
+
+// LTC, how fast the lobe of the classic table changes
+//   a.xyz  direction
+//   d.x    range(0.2, 1.5)
+//   d.y    range(-1, 1)
+//   d.z    range(-1, 1)
+//   d.w    range(1.2, 3)
+vec4 case_ltc_sharpness(CaseInput i) {
+    return case_of_real(ltc_sharpness(ltc_from_classic(i.d), case_xyz(i.a)));
+}

@@ -99,7 +99,7 @@ MomentEdge moment_edge(vec3 a, vec3 b, vec3 r) {
     if (real_digits() > 24) {
         pole2 = 1.0e-14;
     }
-    vec3 n = cross(a, b);
+    vec3 n = cross(a, b - a);  // of a short edge, too, with all its digits
     real n2 = dot(n, n);
     mask has_length = n2 > smallest_divisor();
     n = n * inversesqrt(max(n2, smallest_divisor()));

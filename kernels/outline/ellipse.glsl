@@ -4,7 +4,7 @@
 // is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
 // lobe is sharp.
 // Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
-// Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
+// Needs: constants.glsl inverse_trig.glsl light_elements.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // An ellipse, seen from the shading point.
@@ -24,6 +24,18 @@ Ellipse ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b) {
     mask reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
     e.axis_b = select(reversed, -axis_b, axis_b);
     return e;
+}
+
+// The ellipse's area as four elements, for where it is small (light_elements.glsl).
+//
+//   e        of ellipse_prepare
+LightElements ellipse_elements(Ellipse e) {
+    LightElements elements;
+    elements.center = e.center;
+    elements.reach_a = e.axis_a * 0.707106781186547524;
+    elements.reach_b = e.axis_b * 0.707106781186547524;
+    elements.area = cross(e.axis_b, e.axis_a) * pi();
+    return elements;
 }
 
 // An arc of the ellipse about t = 0 (begin and end are tan(t/2)).
@@ -91,10 +103,12 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
 //   ellipse  prepared
 //   turn     (cos, sin) of the t of the corner nearest to the lobe
 //   beta     1: corners at equal steps of t; below, they gather about that corner
+//   near     whether the point is near the rim: then in steps that grow with the distance from there, from beta up
 struct EllipseFan {
     Ellipse ellipse;
     vec2 turn;
     real beta;
+    mask near;
 };
 
 // The polygon whose corners stand at equal steps of t.
@@ -103,6 +117,60 @@ EllipseFan ellipse_fan(Ellipse e) {
     fan.ellipse = e;
     fan.turn = vec2(1.0, 0.0);
     fan.beta = 1.0;
+    fan.near = mask_none();
+    return fan;
+}
+
+// A vector from the shading point to the rim.
+vec3 ellipse_rim(Ellipse e, vec2 turn) { return e.center + e.axis_a * turn.x + e.axis_b * turn.y; }
+
+// (cos t, sin t) of the rim's place nearest to the shading point.
+//
+// The nearest of eight places, and four of Newton's steps of at most 0.4 from there, or down the slope where the distance curves
+// the other way. A place that is a little off costs nothing.
+vec2 ellipse_nearest(Ellipse e) {
+    vec2 nearest = vec2(1.0, 0.0);
+    vec3 rim = ellipse_rim(e, nearest);
+    real least = dot(rim, rim);
+    for (int k = 1; k < 8; k++) {
+        vec2 turn = complex_unit(0.25 * pi() * real(k - 8 * (k / 5)));
+        rim = ellipse_rim(e, turn);
+        real distance2 = dot(rim, rim);
+        nearest = select(distance2 < least, turn, nearest);
+        least = min(distance2, least);
+    }
+    for (int i = 0; i < 4; i++) {
+        rim = ellipse_rim(e, nearest);
+        vec3 tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
+        real slope = dot(rim, tangent);
+        real curvature = dot(tangent, tangent) - dot(rim, rim - e.center);
+        real step = -slope / max(abs(curvature), 1.0e-3 * dot(tangent, tangent) + smallest_divisor());
+        nearest = complex_product(nearest, complex_unit(clamp(step, -0.4, 0.4)));
+    }
+    return nearest;
+}
+
+// Gathers the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a fixed
+// share of the radius stands out, or leaves out, would else be the half of what is seen.
+//
+// From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
+// are alike. Of 24 corners, errors: docs/ggx.md, section 6.
+EllipseFan ellipse_fan_near(EllipseFan usual) {
+    Ellipse e = usual.ellipse;
+    EllipseFan fan = usual;
+    // From further than one and a half of its reach, no end of the rim is five times as far as another.
+    mask may_be = dot(e.center, e.center) < 2.25 * (dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b));
+    if (any_lane(may_be)) {
+        vec2 nearest = ellipse_nearest(e);
+        vec3 rim = ellipse_rim(e, nearest);
+        vec3 opposite = ellipse_rim(e, -nearest);
+        vec3 tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
+        real distance2 = dot(rim, rim);
+        fan.near = may_be && distance2 < 0.04 * dot(opposite, opposite);
+        fan.turn = select(fan.near, nearest, usual.turn);
+        real beta = 0.5 * sqrt(distance2 / max(dot(tangent, tangent), smallest_divisor()));
+        fan.beta = select(fan.near, clamp(beta, 1.0e-6, 1.0), usual.beta);
+    }
     return fan;
 }
 
@@ -124,8 +192,7 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     vec2 place = vec2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     real size2 = dot(place, place);
     mask off_centre = size2 > 1.0e-20;
-    EllipseFan fan;
-    fan.ellipse = e;
+    EllipseFan fan = ellipse_fan(e);
     fan.turn = select(off_centre, place * inversesqrt(max(size2, 1.0e-20)), vec2(1.0, 0.0));
     vec3 rim = e.center + e.axis_a * fan.turn.x + e.axis_b * fan.turn.y;
     vec3 tangent = e.axis_b * fan.turn.x - e.axis_a * fan.turn.y;
@@ -133,7 +200,7 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     real blur = 1.6 * width * sqrt(dot(rim, rim) / max(dot(tangent, tangent), smallest_divisor()));
     real beta = sqrt(0.5 * (1.0 - reach) * (1.0 - reach) + min(blur * blur, 1.0e6));
     fan.beta = select(along > 0.0, clamp(beta, 0.05, 1.0), 1.0);
-    return fan;
+    return ellipse_fan_near(fan);
 }
 
 // (cos t, sin t) of corner k of count, counted from the middle one.
@@ -141,6 +208,13 @@ vec2 ellipse_corner(EllipseFan fan, int k, int count) {
     real half_angle = pi() * (real(k) / real(count) - 0.5);
     vec2 u = complex_unit(half_angle);
     vec2 w = complex_sign(vec2(u.x, fan.beta * u.y));
+    if (any_lane(fan.near)) {
+        // tan(t/2) = beta sinh(x), x in equal steps between those of the tangents -4 and 4.
+        real far_side = 4.0 / fan.beta;
+        real x = log(far_side + sqrt(far_side * far_side + 1.0)) * (real(2 * k + 1) / real(count) - 1.0);
+        real power = exp(x);
+        w = select(fan.near, complex_sign(vec2(1.0, 0.5 * fan.beta * (power - 1.0 / power))), w);
+    }
     return complex_product(complex_product(w, w), fan.turn);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrals/small_light.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 
@@ -26,7 +27,13 @@ S irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
   const Vec3d to_center = ellipse.center - position;
   const double unit = 1 / (length(to_center) + length(ellipse.x) + length(ellipse.y));
   const Ellipse scaled{position + to_center * unit, ellipse.x * unit, ellipse.y * unit};
-  return Kernels<S>().ellipse_irradiance_vector(seen_from<S>(scaled, position, Frame::from_normal(normal))).z.v;
+  Kernels<S> k;
+  const auto seen = seen_from<S>(scaled, position, Frame::from_normal(normal));
+  const auto elements = k.ellipse_elements(seen);
+  const integrals::SmallLight<S> small = {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings};
+  if (any_lane(integrals::elements_serve<S>(elements, small)))
+    return k.light_elements_irradiance_vector(elements).z.v;
+  return k.ellipse_irradiance_vector(seen).z.v;
 }
 
 PolygonLight polygon_of(const Kernels<double>::EllipseFan& fan, Vec3d position, int vertices) {
@@ -40,6 +47,9 @@ PolygonLight polygon_of(const Kernels<double>::EllipseFan& fan, Vec3d position, 
   }
   return light;
 }
+
+// Twice those of kernels/ellipse.glsl: a quarter of the error, where time does not count.
+constexpr int kVerticesNearRim = 48;
 
 const Frame kWorld{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
@@ -60,7 +70,8 @@ double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d posit
 PolygonLight polygon_for_lobe(const Ellipse& ellipse, Vec3d position, const LobeAxis& lobe, int vertices) {
   Kernels<double> k;
   const auto local = seen_from<double>(ellipse, position, kWorld);
-  return polygon_of(k.ellipse_fan_concentrated(local, {lobe.axis.x, lobe.axis.y, lobe.axis.z}, lobe.width), position, vertices);
+  const auto fan = k.ellipse_fan_concentrated(local, {lobe.axis.x, lobe.axis.y, lobe.axis.z}, lobe.width);
+  return polygon_of(fan, position, any_lane(fan.near) ? std::max(vertices, kVerticesNearRim) : vertices);
 }
 
 PolygonLight polygon_of_equal_steps(const Ellipse& ellipse, Vec3d position, int vertices) {

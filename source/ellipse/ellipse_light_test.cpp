@@ -146,6 +146,51 @@ TEST(EllipsePolygons, GgxHoldsItsErrorWithTwelveVertices) {
   std::printf("K = 12: largest error %.5f, rms %.5f\n", worst, std::sqrt(sum / count));
 }
 
+// Beside the rim, inside and outside of it, as close as a thousandth of the radius: against a polygon whose steps are a hundredth of the
+// distance from the point.
+TEST(EllipsePolygons, HoldTheirErrorNearTheRim) {
+  const auto fine = [](Vec3d p) {
+    const double beta = std::hypot(std::hypot(p.x, p.y) - 1, p.z) / 3, around = std::atan2(p.y, p.x);
+    PolygonLight light;
+    for (int k = 0; k < 2400; ++k) {
+      const double t = around + 2 * std::atan(beta * std::sinh(std::asinh(100 / beta) * ((k + 0.5) / 1200 - 1)));
+      light.vertices.push_back({std::cos(t), std::sin(t), 0});
+    }
+    return light;
+  };
+  const Ellipse disk{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  double worst_sharp = 0, worst = 0, largest = 0;
+  Random random(9);
+  for (const double gap : {0.3, 0.1, 0.02, 0.005, 0.001})
+    for (const double side : {1.0, -1.0})
+      for (const double alpha : {0.04, 0.1, 0.25, 0.7})
+        for (int i = 0; i < 8; ++i) {
+          const double around = random.uniform(-kPi, kPi), radius = 1 + side * gap;
+          const Vec3d p{radius * std::cos(around), radius * std::sin(around), gap * std::pow(10, random.uniform(-1.5, 0.5))};
+          ShadingPoint at;
+          at.position = p;
+          at.normal = random_direction(random);
+          if (at.normal.z > 0.8) continue;
+          const double t = around + random.uniform(-1, 1), r = random.uniform(0.7, 1.1);
+          const Vec3d mirror = normalized(Vec3d{r * std::cos(t), r * std::sin(t), 0} - p);
+          if (dot(mirror, at.normal) < 0.1) continue;
+          at.view = at.normal * (2 * dot(mirror, at.normal)) - mirror;
+          Material m;
+          m.brdf = Brdf::ggx;
+          m.alpha_x = m.alpha_y = alpha;
+          m.shadowing = false;
+          const double truth = exact_ggx_radiance(prepare_polygon(fine(p)), at, m).x;
+          const double value = exact_ggx_radiance(prepare_polygon(polygon_for_lobe(disk, p, lobe_axis(m, at), 12)), at, m).x;
+          double& of_kind = alpha < 0.1 ? worst_sharp : worst;
+          of_kind = std::max(of_kind, std::fabs(value - truth));
+          largest = std::max(largest, truth);
+        }
+  EXPECT_LE(worst, 0.0014);
+  EXPECT_LE(worst_sharp, 0.006);
+  EXPECT_GT(largest, 0.9);
+  std::printf("largest error of the full lobe %.5f, of alpha 0.04 %.5f\n", worst, worst_sharp);
+}
+
 TEST(EllipsePolygons, RefuseOddNumbersOfVertices) {
   const Ellipse e{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
   EXPECT_THROW(polygon_of_equal_steps(e, {}, 7), Error);

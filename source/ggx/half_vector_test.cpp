@@ -87,6 +87,48 @@ TEST_P(HalfVector, ManyArcsConvergeToTheReference) {
   }
 }
 
+// With shadowing and Fresnel by the closed form's cubature, only the measure is the arcs': relative RMSE as without.
+TEST(HalfVectorGgx, ShadowingAndFresnelAreAveraged) {
+  for (const double f0 : {1.0, 0.04})
+    for (const double view : {5.0, 45.0, 75.0}) {
+      Random random(static_cast<std::uint64_t>(view));
+      double error = 0, signal = 0;
+      for (const double alpha : {0.05, 0.1, 0.2, 0.4, 0.8})
+        for (int i = 0; i < 12; ++i) {
+          auto s = random_rectangle(random, std::sqrt(alpha), view);
+          s.material.f0 = {f0, f0, f0};
+          const PreparedPolygon light = prepare_polygon(s.light);
+          const double truth = reference_radiance(light, s.at, s.material, {1e-6, 1e-8, 100'000}).radiance.x;
+          const double d = half_vector_radiance(light, s.at, s.material, {}).x - truth;
+          error += d * d;
+          signal += truth * truth;
+        }
+      const double relative = std::sqrt(error / signal);
+      EXPECT_LT(relative, 0.015) << "f0 " << f0 << " view " << view;
+      std::printf("f0 %.2f view %2.0f: relative RMSE %.4f\n", f0, view, relative);
+    }
+}
+
+// A needle in the lobe: what one edge's chords leave out, the other's must.
+TEST(HalfVectorGgx, AThinLightIsWhatItsTwoEdgesLeave) {
+  for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong, Brdf::beckmann})
+    for (const double width : {1e-2, 1e-3, 1e-4}) {
+      PolygonLight strip;  // across the mirror direction, seen from the front
+      const Vec3d center{-0.7, 0.1, 0.7}, along = normalized(Vec3d{0.3, 1, 0.2}), normal = normalized(Vec3d{0.7, -0.1, -0.6});
+      const Vec3d x = normalized(along - normal * dot(along, normal)), y = cross(normal, x) * width;
+      strip.vertices = {center - x - y, center + x - y, center + x + y, center - x + y};
+      const PreparedPolygon light = prepare_polygon(strip);
+      const ShadingPoint at = {{}, {0, 0, 1}, normalized(Vec3d{0.7, 0, 0.7})};
+      Material m;
+      m.brdf = brdf;
+      m.exponent = 200;
+      m.alpha_x = m.alpha_y = 0.1;
+      const double truth = reference_radiance(light, at, m).radiance.x;
+      EXPECT_NEAR(half_vector_radiance(light, at, m, {}).x / truth, 1, 0.05) << name_of(brdf) << " " << width;
+      EXPECT_NEAR(half_vector_radiance_float(light, at, m, {}).x / truth, 1, 0.05 + 1e-4 / width) << name_of(brdf) << " " << width;
+    }
+}
+
 TEST_P(HalfVector, FloatFollowsDouble) {
   double worst = 0;
   for (double view : {5.0, 45.0, 75.0})

@@ -29,6 +29,12 @@ class GgxArcs {
   STERADIAN_INLINE vec3 end(const vec3& u) const { return select(lit_, u, vec3(0.0, 0.0, 0.0)); }
   STERADIAN_INLINE void add(const vec3& a, const vec3& b) { edges_.push_back({a, b}); }
 
+  STERADIAN_INLINE double least_distance2() const { return kAlongArcs.least_distance2; }
+  SmallLight<S> small_light(const vec3&) const {
+    const Real<S> deviation = Real<S>(0.5) * min(alpha_x, alpha_y);
+    return {K().light_elements_half_vector_sharpness(deviation, view_.v.z), kAlongArcs.roundings};
+  }
+
  protected:
   // Turns the edges into arcs; the sum of their vectors.
   STERADIAN_INLINE vec3 prepare() {
@@ -69,6 +75,7 @@ class Ggx : public GgxArcs<S> {
     for (const auto& arc : this->arcs_) c = K().ggx_cubature_edge(c, arc, extra_nodes);
     return K().ggx_cubature_finish(c);
   }
+  Part<S> at(const typename K::vec3& u) const { return K().ggx_lobe_and_fresnel(this->view_, u, smith); }
 };
 
 // Without shadowing and with F = 1, exactly: x.
@@ -78,6 +85,9 @@ class UnshadowedGgx : public GgxArcs<S> {
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
     const auto e = this->prepare();
     return {Kernels<S>().ggx_unshadowed(this->view_, e * this->facing(reversed)), Real<S>(0.0)};
+  }
+  Part<S> at(const typename Kernels<S>::vec3& u) const {
+    return {Kernels<S>().ggx_lobe_and_fresnel(this->view_, u, 0.0).x, Real<S>(0.0)};
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <type_traits>
+#include <vector>
 
 #include "integrals/integrate.h"
 #include "steradian/half_vector.h"
@@ -9,7 +10,8 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// lobe: alpha_x() and alpha_y(); arc(view, p, q) of an arc of unit half vectors in walk order; finish(view, sum, facing).
+// lobe: alpha_x() and alpha_y(); deviation() of the half vectors' slopes in the narrower direction; arc(view, p, q) of an arc of unit
+// half vectors in walk order; finish(view, edges, sum, facing); bias() and at(view, u) for small lights.
 template <class S, class Lobe>
 class HalfVector {
  public:
@@ -21,6 +23,7 @@ class HalfVector {
   Mask<S> begin(const Shading<S>& shading) {
     view_ = K().ggx_view(shading.view, lobe_.alpha_x(), lobe_.alpha_y());
     sum_ = lobe_.nothing();
+    edges_.clear();
     return shading.lit && shading.view.z > Real<S>(0.0);
   }
   vec3 end(const vec3& u) const { return u; }
@@ -28,6 +31,7 @@ class HalfVector {
     K k;
     const auto edge = k.ggx_edge(view_, a, b);
     if (!any_lane(edge.end > edge.begin)) return;
+    edges_.push_back(edge);
     auto p = k.half_vector_at(view_, edge, edge.begin);
     for (int j = 1; j <= options_.arcs; ++j) {
       const Real<S> share(static_cast<double>(j) / options_.arcs);
@@ -39,12 +43,20 @@ class HalfVector {
       p = q;
     }
   }
-  Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
+  Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, edges_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
+
+  // A bias makes the elements better from far nearer on.
+  double least_distance2() const { return 30; }
+  SmallLight<S> small_light(const vec3&) const {
+    return {K().light_elements_half_vector_sharpness(lobe_.deviation(), view_.v.z), kAlongArcs.roundings, lobe_.bias()};
+  }
+  Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
  private:
   Lobe lobe_;
   HalfVectorOptions options_;
   typename K::GgxView view_;
+  std::vector<typename K::ConicArc> edges_;
   decltype(std::declval<Lobe>().nothing()) sum_;
 };
 
@@ -57,6 +69,14 @@ class BlinnPhongArcs {
 
   Real<S> alpha_x() const { return K().blinn_phong_alpha(n_); }
   Real<S> alpha_y() const { return alpha_x(); }
+  Real<S> deviation() const { return inversesqrt(max(n_, Real<S>(1.0e-12))); }
+  double bias() const { return std::is_same_v<S, double> ? kUnbiased : kSeriesBias; }
+  template <class View, class V>
+  Part<S> at(const View& view, const V& u) const {
+    K k;
+    const auto d = k.blinn_phong_distribution(k.microfacet_half_vector(u, view.v), n_);
+    return {k.microfacet_lobe_unshadowed(d, u, view.v), Real<S>(0.0)};
+  }
   Real<S> nothing() const { return 0.0; }
   template <class View, class V>
   Real<S> arc(const View& view, const V& p, const V& q) const {
@@ -65,8 +85,8 @@ class BlinnPhongArcs {
     else
       return K().blinn_phong_arc_approximate(p, q, view.v, series_, n_, range_);
   }
-  template <class View>
-  Part<S> finish(const View& view, Real<S> sum, Real<S> facing) const {
+  template <class View, class Edges>
+  Part<S> finish(const View& view, const Edges&, Real<S> sum, Real<S> facing) const {
     return {K().half_vector_radiance(view, sum, facing), Real<S>(0.0)};
   }
 
@@ -84,18 +104,26 @@ struct BeckmannArcs {
 
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
+  Real<S> deviation() const { return Real<S>(0.707106781186547524) * min(ax, ay); }
+  double bias() const { return kBeckmannBias; }
+  template <class View, class V>
+  Part<S> at(const View& view, const V& u) const {
+    K k;
+    const auto d = k.beckmann_distribution(k.microfacet_half_vector(u, view.v), ax, ay);
+    return {k.microfacet_lobe_unshadowed(d, u, view.v), Real<S>(0.0)};
+  }
   Real<S> nothing() const { return 0.0; }
   template <class View, class V>
   Real<S> arc(const View& view, const V& p, const V& q) const {
     return K().beckmann_arc(view, p, q, series);
   }
-  template <class View>
-  Part<S> finish(const View& view, Real<S> sum, Real<S> facing) const {
+  template <class View, class Edges>
+  Part<S> finish(const View& view, const Edges&, Real<S> sum, Real<S> facing) const {
     return {K().half_vector_radiance(view, sum, facing), Real<S>(0.0)};
   }
 };
 
-// Shadowing and Fresnel at one direction.
+// The measure of GGX, and the cubature's mean of shadowing and Fresnel.
 template <class S>
 struct GgxHalfVectorArcs {
   using K = Kernels<S>;
@@ -103,14 +131,23 @@ struct GgxHalfVectorArcs {
 
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
+  Real<S> deviation() const { return Real<S>(0.5) * min(ax, ay); }
+  double bias() const { return kUnbiased; }  // chords of short edges are as good as their arcs
+  template <class View, class V>
+  Part<S> at(const View& view, const V& u) const {
+    return K().ggx_lobe_and_fresnel(view, u, smith);
+  }
   typename K::vec3 nothing() const { return {0.0, 0.0, 0.0}; }
   template <class View, class V>
   V arc(const View& view, const V& p, const V& q) const {
     return K().ggx_arc(view, p, q);
   }
-  template <class View, class V>
-  Part<S> finish(const View& view, const V& e, Real<S> facing) const {
-    return K().ggx_draft(view, e, smith, facing);
+  // Shadowing and Fresnel as the closed form takes them: only the measure is the arcs'.
+  template <class View, class Edges, class V>
+  Part<S> finish(const View& view, const Edges& edges, const V& e, Real<S> facing) const {
+    auto c = K().ggx_cubature_begin(view, e, smith, facing);
+    for (const auto& edge : edges) c = K().ggx_cubature_edge(c, edge, 0);
+    return K().ggx_cubature_finish(c);
   }
 };
 

@@ -11,6 +11,9 @@
 // Each stands in a file of its own beside this one. Memory that it keeps from light to light is its own matter.
 #pragma once
 
+#include <algorithm>
+
+#include "integrals/small_light.h"
 #include "shapes/outline.h"
 
 STERADIAN_BEGIN_ISA
@@ -77,6 +80,15 @@ struct Together {
     STERADIAN_INLINE friend Pair select(M m, const Pair& a, const Pair& b) {
       return {select(m, a.first, b.first), select(m, a.second, b.second)};
     }
+    template <class M, class N>
+    STERADIAN_INLINE friend Pair select(const BothSmall<M, N>& m, const Pair& a, const Pair& b) {
+      return {select(m.first, a.first, b.first), select(m.second, a.second, b.second)};
+    }
+    template <class R>
+    STERADIAN_INLINE friend Pair operator*(const Pair& a, R s) {
+      return {a.first * s, a.second * s};
+    }
+    STERADIAN_INLINE friend Pair operator+(const Pair& a, const Pair& b) { return {a.first + b.first, a.second + b.second}; }
   };
 
   template <class S>
@@ -96,15 +108,22 @@ struct Together {
   STERADIAN_INLINE auto finish(M reversed) {
     return Pair<decltype(first.finish(reversed)), decltype(second.finish(reversed))>{first.finish(reversed), second.finish(reversed)};
   }
+  double least_distance2() const { return std::min(first.least_distance2(), second.least_distance2()); }
+  template <class V>
+  auto small_light(const V& center) const {
+    return BothSmall<decltype(first.small_light(center)), decltype(second.small_light(center))>{first.small_light(center),
+                                                                                               second.small_light(center)};
+  }
+  template <class V>
+  auto at(const V& u) const {
+    return Pair<decltype(first.at(u)), decltype(second.at(u))>{first.at(u), second.at(u)};
+  }
 };
 
+// The integral over the outline, after begin.
 template <class S, class Outline, class Integral>
-STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shading, Integral& integral) {
+STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& shading, Integral& integral) {
   Kernels<S> k;
-  decltype(integral.finish(shading.reversed)) nothing;
-  set_to_zero(nothing);
-  const Mask<S> lit = integral.begin(shading);
-  if (!any_lane(lit)) return nothing;
   const auto end = [&](const auto& u) { return integral.end(u); };
   if constexpr (Integral::kClip == Clip::horizon) {
     auto clip = k.horizon_clip_begin();
@@ -118,7 +137,39 @@ STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shadin
   } else {
     outline.walk(end, [&](const auto& a, const auto& b) { integral.add(a, b); });
   }
-  return select(lit, integral.finish(shading.reversed), nothing);
+  return integral.finish(shading.reversed);
+}
+
+// By the light's elements where they serve; the outline is walked where a lane needs it. A function of its own that takes copies,
+// so that it keeps nothing of the usual way in memory.
+template <class S, class Outline, class Integral>
+__attribute__((noinline)) auto integrate_small(Outline outline, Shading<S> shading, Integral integral, Mask<S> lit) {
+  Kernels<S> k;
+  auto elements = outline.elements();
+  elements.area = select(shading.reversed, -elements.area, elements.area);
+  const auto serve = elements_serve<S>(elements, integral.small_light(elements.center));
+  decltype(integral.finish(shading.reversed)) nothing;
+  set_to_zero(nothing);
+  auto sum = nothing;
+  for (int i = 0; i < 4; ++i) {
+    const auto element = k.light_element_at(elements, i);
+    sum = sum + select(element.direction.z > Real<S>(0.0), integral.at(element.direction), nothing) * element.solid_angle;
+  }
+  if (any_lane(lit && !in_every_part(serve))) sum = select(serve, sum, integrate_edges(outline, shading, integral));
+  return select(lit, sum, nothing);
+}
+
+template <class S, class Outline, class Integral>
+STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shading, Integral& integral) {
+  decltype(integral.finish(shading.reversed)) nothing;
+  set_to_zero(nothing);
+  const Mask<S> lit = integral.begin(shading);
+  if (!any_lane(lit)) return nothing;
+  if constexpr (requires { outline.elements(); integral.least_distance2(); }) {
+    const auto beyond = outline.distance2() > outline.deviation2() * Real<S>(integral.least_distance2());
+    if (any_lane(lit && beyond)) return integrate_small(outline, shading, integral, lit);
+  }
+  return select(lit, integrate_edges(outline, shading, integral), nothing);
 }
 
 }  // namespace integrals

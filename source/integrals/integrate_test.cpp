@@ -67,7 +67,7 @@ TEST(Integrate, TakesSingleEdgesInAnyOrder) {
   ggx.quality = Quality::draft;  // the cubature's nodes go by the edges
   expect_the_same_in_any_order(ggx);
   const integrals::PhongLobe<double> lobe(20, 0);
-  integrals::with_phong_share<double>(lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::Phong<double, decltype(share)>(share)); });
+  integrals::with_phong_share<double>(lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::Phong<double, decltype(share)>(share, 20, {})); });
 }
 
 TEST(Integrate, TwoIntegralsTogetherAreThoseOfTwoWalks) {

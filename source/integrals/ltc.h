@@ -14,6 +14,17 @@ struct LtcLobe {
   Real<S> f_a{0.0};  // ... and with F = (1 - v.h)^5
 };
 
+template <class S>
+SmallLight<S> small_light_under(const LtcLobe<S>& lobe, const typename Kernels<S>::vec3& center) {
+  Kernels<S> k;
+  return {k.light_elements_diffuse_sharpness() + k.ltc_sharpness(lobe.matrix, center), kTransformed.roundings};
+}
+
+template <class S>
+STERADIAN_INLINE Part<S> value_of(const LtcLobe<S>& lobe, Real<S> integral) {
+  return {lobe.n_a * integral, lobe.f_a * integral};
+}
+
 // Clips to the horizon by itself: a corner is brought under the matrix once for its two edges.
 template <class S>
 class Ltc {
@@ -34,9 +45,12 @@ class Ltc {
   STERADIAN_INLINE End end(const vec3& u) const { return {u, K().ltc_direction(lobe_.matrix, u)}; }
   STERADIAN_INLINE void add(const End& a, const End& b) { walk_ = K().ltc_add_edge(walk_, lobe_.matrix, a.u, b.u, a.under, b.under); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {
-    const Real<S> integral = select(above_, K().ltc_integral(walk_, reversed), Real<S>(0.0));
-    return {lobe_.n_a * integral, lobe_.f_a * integral};
+    return value_of(lobe_, select(above_, K().ltc_integral(walk_, reversed), Real<S>(0.0)));
   }
+
+  STERADIAN_INLINE double least_distance2() const { return kTransformed.least_distance2; }
+  SmallLight<S> small_light(const vec3& center) const { return small_light_under(lobe_, center); }
+  Part<S> at(const vec3& u) const { return value_of(lobe_, select(above_, K().ltc_lobe(lobe_.matrix, u), Real<S>(0.0))); }
 
  protected:
   LtcLobe<S> lobe_;
@@ -50,6 +64,9 @@ class LtcVector : public Ltc<S> {
  public:
   using Ltc<S>::Ltc;
   typename Kernels<S>::vec3 finish(Mask<S> reversed) { return Kernels<S>().ltc_texture_irradiance_vector(this->walk_, reversed); }
+  typename Kernels<S>::vec3 at(const typename Kernels<S>::vec3& u) const {
+    return Kernels<S>().ltc_direction(this->lobe_.matrix, u) * Kernels<S>().ltc_lobe(this->lobe_.matrix, u);
+  }
 };
 
 // Without clipping: a sphere's form factor in its place.
@@ -68,9 +85,12 @@ class CliplessLtc {
   vec3 end(const vec3& u) const { return K().ltc_direction(lobe_.matrix, u); }
   void add(const vec3& a, const vec3& b) { sum_ = K().ltc_clipless_add_edge(sum_, a, b); }
   Part<S> finish(Mask<S> reversed) {
-    const Real<S> integral = K().ltc_clipless_integral(sum_, reversed);
-    return {lobe_.n_a * integral, lobe_.f_a * integral};
+    return value_of(lobe_, K().ltc_clipless_integral(sum_, reversed));
   }
+
+  double least_distance2() const { return kTransformed.least_distance2; }
+  SmallLight<S> small_light(const vec3& center) const { return small_light_under(lobe_, center); }
+  Part<S> at(const vec3& u) const { return value_of(lobe_, K().ltc_lobe(lobe_.matrix, u)); }
 
  private:
   LtcLobe<S> lobe_;

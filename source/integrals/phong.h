@@ -1,6 +1,7 @@
 // The Phong lobe's integral, by every method that is a sum over edges: the axial moment of the clipped outline.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "integrals/integrate.h"
@@ -67,14 +68,21 @@ struct PhongLobe {
   }
 };
 
-// x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's share of (n + 1) times the moment.
+// Of a method over lights that are small against the lobe.
+inline double bias_of(const PhongOptions& options) {
+  if (options.method != Method::series) return kUnbiased;
+  return options.quality == Quality::high ? kHighSeriesBias : kSeriesBias;
+}
+
+// x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's share of (n + 1) times the moment, by the options' method.
 template <class S, class Share>
 class Phong {
  public:
   static constexpr Clip kClip = Clip::horizon;
   using vec3 = typename Kernels<S>::vec3;
 
-  STERADIAN_INLINE explicit Phong(Share share) : share_(share) {}
+  STERADIAN_INLINE Phong(Share share, double exponent, const PhongOptions& options)
+      : exponent_(exponent), bias_(bias_of(options)), share_(share) {}
   STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
     axis_ = Kernels<S>().phong_mirror(shading.view);
     sum_ = 0.0;
@@ -85,7 +93,21 @@ class Phong {
   void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) { return {Kernels<S>().moment_phong_radiance(sum_, reversed), Real<S>(0.0)}; }
 
+  // t^3 / 8 below the bias, or below what the roundings are.
+  STERADIAN_INLINE double least_distance2() const {
+    return bias_ > 0 ? std::min(kAlongArcs.least_distance2, 4 * sharpness() * sharpness()) : kAlongArcs.least_distance2;
+  }
+  SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness()), kAlongArcs.roundings, bias_}; }
+  Part<S> at(const vec3& u) const {
+    const auto in_front = dot(u, axis_) > Real<S>(0.0);
+    return {select(in_front, Kernels<S>().phong_lobe(u, axis_, Real<S>(exponent_)), Real<S>(0.0)), Real<S>(0.0)};
+  }
+
  private:
+  // As light_elements_sharpness has it, of the deviation 1 / sqrt(n).
+  double sharpness() const { return 2.5 + std::sqrt(exponent_); }
+
+  double exponent_, bias_;
   Share share_;
   vec3 axis_;
   Real<S> sum_{0.0};

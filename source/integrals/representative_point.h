@@ -34,6 +34,13 @@ class RepresentativePoint {
     return {lobe, lobe * K().fresnel_schlick(0.0, 1.0, v_dot_h)};
   }
 
+  // Of a small light every point stands for it.
+  double least_distance2() const { return kTransformed.least_distance2; }
+  SmallLight<S> small_light(const vec3&) const {
+    return {K().light_elements_half_vector_sharpness(Real<S>(0.5) * alpha_, view_.z), kTransformed.roundings};
+  }
+  Part<S> at(const vec3& u) const { return K().ggx_lobe_and_fresnel(K().ggx_view(view_, alpha_, alpha_), u, 1.0); }
+
  private:
   Real<S> alpha_;
   vec3 view_, mirror_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "ltc/texture_tree.h"
 #include "steradian/area_light.h"
 
 namespace steradian {
@@ -41,6 +42,12 @@ class FilteredTexture {
   Vec3f radiance(const Sum& sum) const;
 
   Vec3f mean() const { return mean_; }
+
+  // The texels of the finest level.
+  PlaneTexels finest() const {
+    const Level& l = levels_.front();
+    return {l.left, l.bottom, l.spacing, l.width, l.height, l.texels};
+  }
 
   // Of the light's shape: centroid, and covariance about it (xx, xy, yy).
   const std::array<double, 2>& centroid() const { return centroid_; }

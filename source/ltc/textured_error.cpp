@@ -110,6 +110,8 @@ const std::vector<NamedImage>& test_textures() {
       made("gradient", [](double u, double v) { return 0.7 * u + 0.3 * v; }),
       made("checker", [](double u, double v) { return (static_cast<int>(8 * u) + static_cast<int>(8 * v)) % 2 == 0 ? 1.0 : 0.0; }),
       made("noise", waves),
+      made("corner", [](double u, double v) { return u < 0.25 && v < 0.25 ? 1.0 : 0.0; }),
+      made("half", [](double u, double) { return u < 0.5 ? 1.0 : 0.0; }),
   };
   return textures;
 }

@@ -14,9 +14,14 @@ using K = Kernels<double>;
 constexpr double kWidest = 4;
 constexpr float kLeastCoverage = 1e-6f;
 
-Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const ShadingPoint& at, const K::mat3& frame,
-              const K::LtcMatrix& m) {
+// Where the lobe is wider than the texture's cells, over these; else around where it looks.
+Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at,
+              const K::mat3& frame, const K::LtcMatrix& m, const std::optional<K::GgxView>& ggx = std::nullopt) {
   K k;
+  const auto turned = [&](Vec3d v) { return transform_transposed(frame, integrals::to_kernel<double>(v)); };
+  if (const auto mean = tree.mean_under({m, ggx, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())},
+                                        texture.finest()))
+    return *mean;
   // Any view serves: the lobe is where its matrix says.
   const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
   integrals::LtcVector<double> integral({m});
@@ -59,7 +64,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
 
 Vec3f TexturedLight::seen_by_diffuse(const ShadingPoint& at) const {
   K k;
-  return look_up(polygon_, texture_, at, k.frame_from_normal(integrals::to_kernel<double>(at.normal)), k.ltc_texture_diffuse());
+  return look_up(polygon_, texture_, tree_, at, k.frame_from_normal(integrals::to_kernel<double>(at.normal)), k.ltc_texture_diffuse());
 }
 
 Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
@@ -69,8 +74,9 @@ Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
   const auto frame = k.frame_from_normal_and_view(integrals::to_kernel<double>(at.normal), integrals::to_kernel<double>(at.view));
   auto view = transform_transposed(frame, integrals::to_kernel<double>(at.view));
   view.y = 0.0;
-  const auto lobe = compact_lobe<double>(ggx_compact_table(), std::max(alpha, kSmallestAlpha), cosine, view);
-  return look_up(polygon_, texture_, at, frame, lobe.matrix);
+  const double width = std::max(alpha, kSmallestAlpha);
+  const auto lobe = compact_lobe<double>(ggx_compact_table(), width, cosine, view);
+  return look_up(polygon_, texture_, tree_, at, frame, lobe.matrix, K().ggx_view(view, width, width));
 }
 
 }  // namespace steradian

@@ -1,5 +1,5 @@
-// TexturedLight: the mean radiance of a textured light as a lobe sees it, by one look-up in its blurred copies.
-// Approximate; the error is measured in docs/ltc.md, "Textured lights".
+// TexturedLight: the mean radiance of a textured light as a lobe sees it: over cells of it (texture_tree.h) where the lobe is wider than
+// they are, else by one look-up in its blurred copies. Approximate; the error is measured in docs/ltc.md, "Textured lights".
 #pragma once
 
 #include "ltc/filtered_texture.h"
@@ -22,7 +22,7 @@ class TexturedLight {
  public:
   // The light must have a texture; `polygon` is its prepared outline.
   TexturedLight(const AreaLight& light, const PreparedPolygon& polygon, const std::vector<Image>& images)
-      : polygon_(polygon), texture_(light, polygon, images) {}
+      : polygon_(polygon), texture_(light, polygon, images), tree_(texture_.finest()) {}
 
   // The mean over the light's visible part, weighted with the lobe. Times the lobe's integral over a light of radiance 1, it is
   // the radiance. The light's mean where it sends nothing.
@@ -34,6 +34,7 @@ class TexturedLight {
  private:
   PreparedPolygon polygon_;
   FilteredTexture texture_;
+  TextureTree tree_;
 };
 
 }  // namespace steradian

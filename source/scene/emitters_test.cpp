@@ -162,6 +162,9 @@ TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
   EXPECT_FALSE(wants_light(scene));  // placed by its author, however weak
   for (AreaLight& light : scene.area_lights) light.texture.emplace();
   EXPECT_TRUE(wants_light(scene));
+  scene.meshes.push_back(box({-9, -9, -9}, {9, 9, 9}));  // a room that it would have to light: a lamp, then
+  EXPECT_FALSE(wants_light(scene));
+  scene.meshes.pop_back();
   scene.area_lights[0].power = default_light(scene).power;
   EXPECT_FALSE(wants_light(scene));
   scene.area_lights.clear();

@@ -80,7 +80,17 @@ bool wants_light(const Scene& scene) {
     if (!light.texture) return false;
     power += light.power;
   }
-  return power < default_light(scene).power / 30;
+  double area = 0, emitting = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    double of_mesh = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[i + c]]); };
+      of_mesh += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
+    }
+    area += of_mesh;
+    if (mesh.is_emitter()) emitting += of_mesh;
+  }
+  return scene.area_lights.empty() || (power < default_light(scene).power / 30 && emitting > area / 2);
 }
 
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {

@@ -16,8 +16,8 @@ Camera framing_camera(const Scene& scene);
 AreaLight default_light(const Scene& scene);
 
 // Whether the scene's own lights are too weak for a picture: it has none, or none but emissive textures whose radiance
-// times area is below a thirtieth of the default light's. Such textures are a panel's diodes or a helmet's visor; a light
-// that an author placed, however weak, is meant.
+// times area is below a thirtieth of the default light's, on more than half of all surface. That is an object with a glowing
+// detail: a helmet with its visor. A light that an author placed to shine on other things, however weak, is meant.
 bool wants_light(const Scene& scene);
 
 // Adds what a user asks for; none of these lights is visible itself.

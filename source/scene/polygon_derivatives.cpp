@@ -238,7 +238,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
         return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
                                         : lobe.template share<Method::series, Quality::normal>(a, b, axis);
       };
-      integrals::Phong<S, decltype(share)> phong(share);
+      integrals::Phong<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
       return integrate(outline, shading, phong);
     };
     return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),

@@ -34,8 +34,9 @@ struct AboutLobe {
   Real<S> width;
   int corners;  // 12, or 16 for high quality (docs/ggx.md)
 };
+inline constexpr int kMostCorners = 24;  // beside a rim: ellipse.h
 template <class S>
-using Corners = std::array<typename Kernels<S>::vec3, 16>;
+using Corners = std::array<typename Kernels<S>::vec3, static_cast<std::size_t>(kMostCorners)>;
 
 // From the point p in the shading frame, in units of its distance.
 template <class S>
@@ -58,6 +59,40 @@ __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, con
 }
 
 template <class S>
+STERADIAN_INLINE Real<S> distance2(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
+  const auto to = (to_kernel<S>(light.end_a) + to_kernel<S>(light.end_b)) * Real<S>(0.5) - p;
+  return dot(to, to);
+}
+
+// An upper bound of its mean square extent.
+template <class S>
+Real<S> deviation2(const packed::Capsule& light) {
+  const Vec3f axis = light.end_b - light.end_a;
+  return static_cast<double>(dot(axis, axis) / 4 + light.radius * light.radius);
+}
+
+// The strip of its cylinder, which is as wide from everywhere across, and the half balls at its ends, each with its second moment along
+// the axis.
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
+  using R = Real<S>;
+  const R least(1.0e-36), r(static_cast<double>(light.radius)), r2 = r * r;
+  const auto a = to_kernel<S>(light.end_a) - p, b = to_kernel<S>(light.end_b) - p;
+  const auto axis = b - a, center = (a + b) * R(0.5);
+  const R length2 = dot(axis, axis), span = sqrt(length2);
+  const auto along = axis * inversesqrt(max(length2, least)), sight = center * inversesqrt(max(dot(center, center), least));
+  const auto across = sight - along * dot(along, sight), aside = cross(along, sight);
+  const R strip = R(2.0) * r * span, balls = R(3.14159265358979324) * r2;
+  const R share = R(2.0) / max(strip + balls, least);
+  typename Kernels<S>::LightElements e;
+  e.center = center;
+  e.area = -(across * (inversesqrt(max(dot(across, across), R(1.0e-12))) * strip) + sight * balls);
+  e.reach_a = along * sqrt(share * (strip * length2 * R(1.0 / 12) + balls * (length2 + r2) * R(0.25)));
+  e.reach_b = aside * (inversesqrt(max(dot(aside, aside), R(1.0e-12))) * sqrt(share * r2 * (strip * R(1.0 / 3) + balls * R(0.25))));
+  return e;
+}
+
+template <class S>
 __attribute__((flatten, noinline)) typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light,
                                                                                const typename Kernels<S>::mat3& frame,
                                                                                const typename Kernels<S>::vec3& p) {
@@ -65,11 +100,12 @@ __attribute__((flatten, noinline)) typename Kernels<S>::vec3 irradiance_vector(c
 }
 
 template <class S>
-STERADIAN_INLINE void fill_corners(const packed::Capsule& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
-                                   const typename Kernels<S>::vec3& p, Corners<S>& corners) {
+STERADIAN_INLINE int fill_corners(const packed::Capsule& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
+                                  const typename Kernels<S>::vec3& p, Corners<S>& corners) {
   Kernels<S> k;
   const auto fan = k.capsule_fan(capsule_in<S>(light, frame, p), lobe.axis, lobe.width, lobe.corners);
   for (int i = 0; i < lobe.corners; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.capsule_fan_corner(fan, i));
+  return lobe.corners;
 }
 
 }  // namespace shapes

@@ -1,8 +1,10 @@
 // Disks, ellipses, spheres and ellipsoids as lights: what a point sees of each is one ellipse.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include "integrals/small_light.h"
 #include "shapes/capsule.h"
 #include "shapes/polygon.h"
 #include "steradian/area_light.h"
@@ -101,26 +103,91 @@ STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::
                                       transform_transposed(frame, outline.axis_b) * unit);
 }
 
+// Mean squares of their extents; an ellipsoid's is an upper bound.
+template <class S>
+STERADIAN_INLINE Real<S> deviation2(const packed::Disk& light) {
+  return static_cast<double>((dot(light.x, light.x) + dot(light.y, light.y)) / 4);
+}
+template <class S>
+STERADIAN_INLINE Real<S> deviation2(const packed::Ellipsoid& light) {
+  return static_cast<double>(dot(light.x, light.x) + dot(light.y, light.y) + dot(light.z, light.z));
+}
+
+template <class S>
+STERADIAN_INLINE Real<S> distance2(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+  const auto to = to_kernel<S>(light.point) - p;
+  return dot(to, to);
+}
+template <class S>
+STERADIAN_INLINE Real<S> distance2(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+  const auto to = to_kernel<S>(light.center) - p;
+  return dot(to, to);
+}
+
+template <class S, class Round>
+typename Kernels<S>::LightElements elements_of_outline(const Round& light, const typename Kernels<S>::vec3& p) {
+  Kernels<S> k;
+  const auto outline = outline_from<S>(light, p);
+  return k.ellipse_elements(k.ellipse_prepare(outline.center, outline.axis_a, outline.axis_b));
+}
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+  return elements_of_outline<S>(light, p);
+}
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+  return elements_of_outline<S>(light, p);
+}
+
+// Of any shape, in the shading frame: here, where all of them are known.
+template <class S, class Shape>
+typename Kernels<S>::LightElements elements_in(const Shape& light, const typename Kernels<S>::mat3& frame,
+                                               const typename Kernels<S>::vec3& p) {
+  const auto e = elements<S>(light, p);
+  return {transform_transposed(frame, e.center), transform_transposed(frame, e.reach_a), transform_transposed(frame, e.reach_b),
+          transform_transposed(frame, e.area)};
+}
+
+// By the elements where they serve.
+template <class S, class Round>
+STERADIAN_INLINE auto ellipse_irradiance_vector(const Round& light, const typename Kernels<S>::mat3& frame,
+                                                const typename Kernels<S>::vec3& p) {
+  Kernels<S> k;
+  auto e = k.ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
+  if (any_lane(distance2<S>(light, p) > deviation2<S>(light) * Real<S>(integrals::kAlongArcs.least_distance2))) {
+    const auto elements = elements_in<S>(light, frame, p);
+    const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings});
+    e = select(serve, k.light_elements_irradiance_vector(elements), e);
+  }
+  return e;
+}
+
 // Exact, for radiance 1; z is the irradiance.
 template <class S>
 __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Disk& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
-  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
+  return ellipse_irradiance_vector<S>(light, frame, p);
 }
 template <class S>
 __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoid& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
   if (light.ball.radius > 0) return irradiance_vector<S>(light.ball, frame, p);
-  return Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
+  return ellipse_irradiance_vector<S>(light, frame, p);
 }
 
-// The corners that stand for the outline about a lobe, in walk order.
+// Of a polygon where the rim is near: kernels/outline/ellipse.glsl, ellipse_fan_near.
+inline constexpr int kCornersNearRim = 24;
+static_assert(kCornersNearRim <= kMostCorners);
+
+// The corners that stand for the outline about a lobe, in walk order; how many there are.
 template <class S, class Round>
-STERADIAN_INLINE void fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
-                                   const typename Kernels<S>::vec3& p, Corners<S>& corners) {
+STERADIAN_INLINE int fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
+                                  const typename Kernels<S>::vec3& p, Corners<S>& corners) {
   Kernels<S> k;
   const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
-  for (int i = 0; i < lobe.corners; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.ellipse_fan_corner(fan, i, lobe.corners));
+  const int count = any_lane(fan.near) ? std::max(lobe.corners, kCornersNearRim) : lobe.corners;
+  for (int i = 0; i < count; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.ellipse_fan_corner(fan, i, count));
+  return count;
 }
 
 }  // namespace shapes

@@ -63,18 +63,44 @@ STERADIAN_INLINE typename Kernels<S>::vec3 to_kernel(Vector3<T> v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
+// The contours of one light, with its elements: see small_light.h.
+//
+//   turned(v)  a vector (Vec3d) in the shading frame
+template <class S, class Direction, class Turned>
+struct LightContours : Contours<Vec3d, Direction> {
+  const PreparedPolygon& light;
+  Vec3d position;
+  Turned turned;
+
+  auto elements() const {
+    typename Kernels<S>::LightElements e;
+    e.center = turned(light.quarters.center - position);
+    e.reach_a = turned(light.quarters.reach_a);
+    e.reach_b = turned(light.quarters.reach_b);
+    e.area = turned(light.normal * light.area);
+    return e;
+  }
+  Real<S> deviation2() const {
+    const LightQuarters& q = light.quarters;
+    return (dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / 2;
+  }
+  Real<S> distance2() const { return dot(light.quarters.center - position, light.quarters.center - position); }
+};
+
+template <class S, class Turned>
+auto contours_turned(const PreparedPolygon& light, Vec3d position, Turned turned) {
+  auto direction = [position, turned](const Vec3d& v) { return Kernels<S>().polygon_direction(turned(v - position)); };
+  return LightContours<S, decltype(direction), Turned>{contours_of(light, direction), light, position, turned};
+}
+
 // A light from a point, turned into the shading frame in double, or in S.
 template <class S>
 auto contours_in(const PreparedPolygon& light, const Frame& frame, Vec3d position) {
-  return contours_of(light, [frame, position](const Vec3d& v) {
-    return Kernels<S>().polygon_direction(to_kernel<S>(frame.to_local(v - position)));
-  });
+  return contours_turned<S>(light, position, [frame](const Vec3d& v) { return to_kernel<S>(frame.to_local(v)); });
 }
 template <class S>
 auto contours_in(const PreparedPolygon& light, const Mat3<Real<S>>& frame, Vec3d position) {
-  return contours_of(light, [frame, position](const Vec3d& v) {
-    return Kernels<S>().polygon_direction(transform_transposed(frame, to_kernel<S>(v - position)));
-  });
+  return contours_turned<S>(light, position, [frame](const Vec3d& v) { return transform_transposed(frame, to_kernel<S>(v)); });
 }
 
 }  // namespace integrals

@@ -16,6 +16,8 @@ struct Polygon {
   std::vector<std::size_t> contours;  // as of PreparedPolygon
   Vec3f normal{}, point{};            // of its plane; the normal to the lit side
   bool two_sided = false;
+  Vec3f middle{}, reach_a{}, reach_b{}, area{};  // its LightQuarters; area is the normal times the area
+  float deviation2 = 0;                          // mean square of its extent about its middle [m2]
 
   // Whether `use(point, radius)` holds for one of the balls in whose hull the light lies.
   template <class Use>
@@ -31,6 +33,12 @@ inline Polygon prepare(const PreparedPolygon& light) {
   result.normal = static_cast<Vec3f>(light.normal);
   result.point = static_cast<Vec3f>(light.centroid);
   result.two_sided = light.two_sided;
+  const LightQuarters& q = light.quarters;
+  result.middle = static_cast<Vec3f>(q.center);
+  result.reach_a = static_cast<Vec3f>(q.reach_a);
+  result.reach_b = static_cast<Vec3f>(q.reach_b);
+  result.area = static_cast<Vec3f>(light.normal * light.area);
+  result.deviation2 = static_cast<float>((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / 2);
   return result;
 }
 
@@ -57,7 +65,8 @@ struct Seen {
 template <class S, class Flat>
 STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {
   Seen<S> seen;
-  const Real<S> height = dot(p - to_kernel<S>(light.point), to_kernel<S>(light.normal)), zero(0.0);
+  const auto from = p - to_kernel<S>(light.point);
+  const Real<S> height = dot(from, to_kernel<S>(light.normal)), zero(0.0);
   seen.reversed = height < zero;
   seen.lit = light.two_sided ? seen.reversed || height > zero : height > zero;
   return seen;
@@ -66,6 +75,24 @@ STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>:
 template <class S>
 STERADIAN_INLINE Seen<S> see(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
   return see_plane<S>(light, p);
+}
+
+// The elements of a light in the world's frame, about the point: integrals/small_light.h.
+template <class S>
+typename Kernels<S>::LightElements elements(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
+  return {to_kernel<S>(light.middle) - p, to_kernel<S>(light.reach_a), to_kernel<S>(light.reach_b), to_kernel<S>(light.area)};
+}
+
+// Square of the distance of its middle.
+template <class S>
+STERADIAN_INLINE Real<S> distance2(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
+  const auto to = to_kernel<S>(light.middle) - p;
+  return dot(to, to);
+}
+
+template <class S>
+STERADIAN_INLINE Real<S> deviation2(const packed::Polygon& light) {
+  return static_cast<double>(light.deviation2);
 }
 
 template <class S>

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   write_ggx(page);
   write_half_vector(page);
   write_sheen(page);
+  write_lights(page);
   std::ofstream file(argv[1], std::ios::binary);
   file << page.str();
   file.close();

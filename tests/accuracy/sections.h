@@ -14,5 +14,6 @@ void write_sheen(std::ostream& out);       // Charlie by its cubature
 void write_phong(std::ostream& out);      // Phong lobes by every method
 void write_ggx(std::ostream& out);         // GGX by every real-time method against the reference
 void write_half_vector(std::ostream& out); // edge splitting against the reference
+void write_lights(std::ostream& out);      // small, near and grazing lights, half vectors with shadowing, textured lights
 
 }  // namespace steradian::accuracy

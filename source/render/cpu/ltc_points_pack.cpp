@@ -30,7 +30,7 @@ STERADIAN_INLINE Both integrate_over(const Outline& outline, const integrals::Sh
 template <bool with_diffuse>
 __attribute__((flatten, noinline)) Both integrate_polygon(const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
                                                           const PackVec3& view, const Lobe& lobe) {
-  return integrate_over<with_diffuse>(contours_in(seen.light, frame, p), seen.shading(view), lobe);
+  return integrate_over<with_diffuse>(PolygonOutline{seen, frame, p}, seen.shading(view), lobe);
 }
 
 template <bool with_diffuse>

@@ -8,20 +8,22 @@ namespace {
 
 // A function for each method, so that it holds one walk in registers.
 template <class Share>
-__attribute__((flatten, noinline)) void radiance_by(const Share& share, const PackLight& light, const Points& points, float* result) {
+__attribute__((flatten, noinline)) void radiance_by(const Share& share, double exponent, const PhongOptions& options,
+                                                const PackLight& light, const Points& points, float* result) {
   PackKernels k;
-  integrals::Phong<Pack, Share> integral(share);
+  integrals::Phong<Pack, Share> integral(share, exponent, options);
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
     const auto frame = k.frame_from_normal(n);
-    const auto shading = SeenLight(light, p).shading(transform_transposed(frame, v));
-    store(result + i, integrate(contours_in(light, frame, p), shading, integral).x);
+    const SeenLight seen(light, p);
+    const auto shading = seen.shading(transform_transposed(frame, v));
+    store(result + i, integrate(PolygonOutline{seen, frame, p}, shading, integral).x);
   }
 }
 
 void radiance(const PackLight& light, const Points& points, double exponent, const PhongOptions& options, float* result) {
   const integrals::PhongLobe<Pack> lobe(exponent, options.relative_precision);
-  integrals::with_phong_share<Pack>(lobe, options, [&](const auto& share) { radiance_by(share, light, points, result); });
+  integrals::with_phong_share<Pack>(lobe, options, [&](const auto& share) { radiance_by(share, exponent, options, light, points, result); });
 }
 
 }  // namespace

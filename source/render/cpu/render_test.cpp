@@ -102,6 +102,53 @@ TEST(Render, DiffuseFloorIsThePolygonIntegralAtEveryPixel) {
   EXPECT_LT(worst, 2e-5);
 }
 
+// A light of a thousandth of the size and a million times the radiance is the same light, to the square of its size over its distance.
+TEST(Render, SmallLightsKeepTheirPower) {
+  const auto light = [](LightShape shape, double size) {
+    const Vec3d power = Vec3d{3, 2, 1} / (size * size), center{0.3, 3, -0.5};
+    const Vec3d x = Vec3d{1, 0.1, 0} * size, y = Vec3d{0, 0.2, 1} * size;
+    AreaLight result = polygon({center - x - y, center + x - y, center + x + y, center - x + y}, power);
+    result.shape = shape;
+    result.center = center;
+    if (shape == LightShape::disk) {
+      result.x = x;
+      result.y = y;
+    } else if (shape == LightShape::sphere) {
+      result.x = {size, 0, 0};
+      result.y = {0, size, 0};
+      result.z = {0, 0, 0.7 * size};
+    } else if (shape == LightShape::capsule) {
+      result.x = x;
+      result.radius = 0.1 * size;
+    }
+    return result;
+  };
+  for (const LightShape shape : {LightShape::polygon, LightShape::disk, LightShape::sphere, LightShape::capsule})
+    for (const std::string method : {"closed-form", "ltc", "ltc-compact"}) {
+      Scene scene = floor_scene();
+      scene.materials[0].specular = 1;
+      scene.materials[0].roughness = 0.5f;
+      RenderOptions options = small();
+      options.method = method;
+      Picture pictures[4];
+      const double sizes[] = {3e-2, 1e-3, 1e-4, 1e-6};
+      for (int k = 0; k < 4; ++k) {
+        scene.area_lights = {light(shape, sizes[k])};
+        pictures[k] = render(scene, options);
+      }
+      float largest = 0, worst[4] = {};
+      for (std::size_t i = 0; i < pictures[0].pixels.size(); ++i) {
+        largest = std::max(largest, length(pictures[3].pixels[i]));
+        for (int k = 0; k < 3; ++k) worst[k] = std::max(worst[k], length(pictures[k].pixels[i] - pictures[3].pixels[i]));
+      }
+      EXPECT_GT(largest, 0.01f);
+      // 3 cm at 3 m: 1e-4 of the value times the lobe's curvature; polygons of round lights are off by a thousandth.
+      EXPECT_LT(worst[0], 5e-3f * largest) << static_cast<int>(shape) << " " << method;
+      EXPECT_LT(worst[1], 2e-4f * largest) << static_cast<int>(shape) << " " << method;
+      EXPECT_LT(worst[2], 2e-4f * largest) << static_cast<int>(shape) << " " << method;
+    }
+}
+
 TEST(Render, SphereLightIsItsClosedForm) {
   Scene scene = floor_scene();
   AreaLight sphere;

@@ -31,14 +31,52 @@ struct SeenLight {
   }
 };
 
-STERADIAN_INLINE auto contours_in(const PackLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
-  return shapes::contours_in<Pack>(*std::get_if<packed::Polygon>(&light.shape), frame, p);
+// What integrate asks of an outline's light (integrals/small_light.h). The elements are a function of their own, seldom called.
+__attribute__((flatten, noinline)) inline PackKernels::LightElements elements_in(const SeenLight& light, const PackKernels::mat3& frame,
+                                                                                const PackVec3& p) {
+  if (const auto* polygon = std::get_if<packed::Polygon>(&light.light.shape)) return shapes::elements_in<Pack>(*polygon, frame, p);
+  PackKernels::LightElements e;
+  light.light.with_round([&](const auto& shape) { e = shapes::elements_in<Pack>(shape, frame, p); });
+  return e;
+}
+STERADIAN_INLINE PackReal deviation2_of(const PackLight& light) {
+  if (const auto* polygon = std::get_if<packed::Polygon>(&light.shape)) return shapes::deviation2<Pack>(*polygon);
+  PackReal result(0.0);
+  light.with_round([&](const auto& shape) { result = shapes::deviation2<Pack>(shape); });
+  return result;
 }
 
+STERADIAN_INLINE PackReal distance2_of(const PackLight& light, const PackVec3& p) {
+  if (const auto* polygon = std::get_if<packed::Polygon>(&light.shape)) return shapes::distance2<Pack>(*polygon, p);
+  PackReal result(0.0);
+  light.with_round([&](const auto& shape) { result = shapes::distance2<Pack>(shape, p); });
+  return result;
+}
+
+// The contours of a polygon.
+struct PolygonOutline {
+  const SeenLight& seen;
+  const PackKernels::mat3& frame;
+  const PackVec3& p;
+
+  template <class End, class Add>
+  STERADIAN_INLINE void walk(End end, Add add) const {
+    shapes::contours_in<Pack>(polygon(), frame, p).walk(end, add);
+  }
+  PackKernels::LightElements elements() const { return elements_in(seen, frame, p); }
+  STERADIAN_INLINE PackReal deviation2() const { return shapes::deviation2<Pack>(polygon()); }
+  STERADIAN_INLINE PackReal distance2() const { return shapes::distance2<Pack>(polygon(), p); }
+
+ private:
+  STERADIAN_INLINE const packed::Polygon& polygon() const { return *std::get_if<packed::Polygon>(&seen.light.shape); }
+};
+
 // A function of its own: inlined, it would take registers from the walks.
-__attribute__((flatten, noinline)) inline void fill_round_corners(const PackLight& light, const AboutLobe& lobe, const PackKernels::mat3& frame,
-                                                                  const PackVec3& p, shapes::Corners<Pack>& corners) {
-  light.with_round([&](const auto& shape) { shapes::fill_corners<Pack>(shape, lobe, frame, p, corners); });
+__attribute__((flatten, noinline)) inline int fill_round_corners(const PackLight& light, const AboutLobe& lobe, const PackKernels::mat3& frame,
+                                                                 const PackVec3& p, shapes::Corners<Pack>& corners) {
+  int count = 0;
+  light.with_round([&](const auto& shape) { count = shapes::fill_corners<Pack>(shape, lobe, frame, p, corners); });
+  return count;
 }
 
 // The polygon that stands in for a round light under the lobe: of its outline's area, its corners gathered where the lobe is
@@ -52,10 +90,13 @@ struct RoundOutline {
   template <class End, class Add>
   STERADIAN_INLINE void walk(End end, Add add) const {
     shapes::Corners<Pack> corners;
-    fill_round_corners(seen.light, lobe, frame, p, corners);
-    const std::size_t contour[] = {0, static_cast<std::size_t>(lobe.corners)};
+    const int count = fill_round_corners(seen.light, lobe, frame, p, corners);
+    const std::size_t contour[] = {0, static_cast<std::size_t>(count)};
     integrals::walk_contours(corners.data(), contour, 1, end, add);
   }
+  PackKernels::LightElements elements() const { return elements_in(seen, frame, p); }
+  STERADIAN_INLINE PackReal deviation2() const { return deviation2_of(seen.light); }
+  STERADIAN_INLINE PackReal distance2() const { return distance2_of(seen.light, p); }
 };
 
 // Either of the two, where one place in the code must serve both.
@@ -67,8 +108,11 @@ struct AnyOutline {
     if (round.seen.light.is_round())
       round.walk(end, add);
     else
-      contours_in(round.seen.light, round.frame, round.p).walk(end, add);
+      PolygonOutline{round.seen, round.frame, round.p}.walk(end, add);
   }
+  PackKernels::LightElements elements() const { return round.elements(); }
+  STERADIAN_INLINE PackReal deviation2() const { return round.deviation2(); }
+  STERADIAN_INLINE PackReal distance2() const { return round.distance2(); }
 };
 
 // Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z it is. Functions of their own: g++
@@ -81,7 +125,7 @@ __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight
     return e;
   }
   integrals::Irradiance<Pack> integral;
-  return integrate(contours_in(light.light, frame, p), light.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
+  return integrate(PolygonOutline{light, frame, p}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
 }
 
 __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
@@ -91,7 +135,7 @@ __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenL
     return e;
   }
   integrals::Irradiance<Pack> integral;
-  return integrate(contours_in(light.light, frame, p), light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
+  return integrate(PolygonOutline{light, frame, p}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
 }
 
 // What of it reaches a diffuse lobe under a dielectric's boundary (kernels/lobe/lambert.glsl). view: in the frame.
