@@ -81,8 +81,11 @@ class Phong {
   static constexpr Clip kClip = Clip::horizon;
   using vec3 = typename Kernels<S>::vec3;
 
+  bool foreshortened = false;  // the shares are those of the lobe times the light's cosine
+
+  // Below an exponent of 2 the lobe has a bend where it ends, which elements do not see: they serve only what is tiny there.
   STERADIAN_INLINE Phong(Share share, double exponent, const PhongOptions& options)
-      : exponent_(exponent), bias_(bias_of(options)), share_(share) {}
+      : exponent_(exponent), bias_(exponent < 2 ? kUnbiased : bias_of(options)), share_(share) {}
   STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
     axis_ = Kernels<S>().phong_mirror(shading.view);
     sum_ = 0.0;
@@ -100,7 +103,8 @@ class Phong {
   SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness()), kAlongArcs.roundings, bias_}; }
   Part<S> at(const vec3& u) const {
     const auto in_front = dot(u, axis_) > Real<S>(0.0);
-    return {select(in_front, Kernels<S>().phong_lobe(u, axis_, Real<S>(exponent_)), Real<S>(0.0)), Real<S>(0.0)};
+    const Real<S> lobe = Kernels<S>().phong_lobe(u, axis_, Real<S>(exponent_));
+    return {select(in_front, foreshortened ? lobe * u.z : lobe, Real<S>(0.0)), Real<S>(0.0)};
   }
 
  private:

@@ -11,6 +11,7 @@ namespace steradian::packed {
 struct Capsule {
   Vec3f end_a{}, end_b{};
   float radius = 0;
+  Vec3f half_axis{};  // from the middle to end_b: the difference of the ends, of which rounding leaves little where they are near
 
   template <class Use>
   bool any_bound(Use use) const {
@@ -19,7 +20,7 @@ struct Capsule {
 };
 
 inline Capsule prepare_capsule(const steradian::Capsule& c) {
-  return {static_cast<Vec3f>(c.end_a), static_cast<Vec3f>(c.end_b), static_cast<float>(c.radius)};
+  return {static_cast<Vec3f>(c.end_a), static_cast<Vec3f>(c.end_b), static_cast<float>(c.radius), static_cast<Vec3f>((c.end_b - c.end_a) * 0.5)};
 }
 
 }  // namespace steradian::packed
@@ -67,8 +68,7 @@ STERADIAN_INLINE Real<S> distance2(const packed::Capsule& light, const typename 
 // An upper bound of its mean square extent.
 template <class S>
 Real<S> deviation2(const packed::Capsule& light) {
-  const Vec3f axis = light.end_b - light.end_a;
-  return static_cast<double>(dot(axis, axis) / 4 + light.radius * light.radius);
+  return static_cast<double>(dot(light.half_axis, light.half_axis) + light.radius * light.radius);
 }
 
 // The strip of its cylinder, which is as wide from everywhere across, and the half balls at its ends, each with its second moment along
@@ -78,7 +78,7 @@ typename Kernels<S>::LightElements elements(const packed::Capsule& light, const 
   using R = Real<S>;
   const R least(1.0e-36), r(static_cast<double>(light.radius)), r2 = r * r;
   const auto a = to_kernel<S>(light.end_a) - p, b = to_kernel<S>(light.end_b) - p;
-  const auto axis = b - a, center = (a + b) * R(0.5);
+  const auto axis = to_kernel<S>(light.half_axis) * R(2.0), center = (a + b) * R(0.5);
   const R length2 = dot(axis, axis), span = sqrt(length2);
   const auto along = axis * inversesqrt(max(length2, least)), sight = center * inversesqrt(max(dot(center, center), least));
   const auto across = sight - along * dot(along, sight), aside = cross(along, sight);
@@ -92,10 +92,11 @@ typename Kernels<S>::LightElements elements(const packed::Capsule& light, const 
   return e;
 }
 
+// By the outline alone, which float loses where the capsule is small: ellipse.h has the whole.
 template <class S>
-__attribute__((flatten, noinline)) typename Kernels<S>::vec3 irradiance_vector(const packed::Capsule& light,
-                                                                               const typename Kernels<S>::mat3& frame,
-                                                                               const typename Kernels<S>::vec3& p) {
+__attribute__((flatten, noinline)) typename Kernels<S>::vec3 outline_irradiance_vector(const packed::Capsule& light,
+                                                                                       const typename Kernels<S>::mat3& frame,
+                                                                                       const typename Kernels<S>::vec3& p) {
   return Kernels<S>().capsule_irradiance_vector(capsule_in<S>(light, frame, p));
 }
 

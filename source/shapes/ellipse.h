@@ -58,7 +58,7 @@ inline Ellipsoid prepare_ellipsoid(const AreaLight& a) {
   const auto single = [](Vec3d v) { return static_cast<Vec3f>(v); };
   Ellipsoid light = {single(a.center), single(a.x), single(a.y), single(a.z), single(cross(a.y, a.z) / det), single(cross(a.z, a.x) / det),
                      single(cross(a.x, a.y) / det), {}};
-  if (is_ball(a)) light.ball = {light.center, light.center, static_cast<float>(length(a.x))};
+  if (is_ball(a)) light.ball = {light.center, light.center, static_cast<float>(length(a.x)), {}};
   return light;
 }
 
@@ -148,12 +148,11 @@ typename Kernels<S>::LightElements elements_in(const Shape& light, const typenam
           transform_transposed(frame, e.area)};
 }
 
-// By the elements where they serve.
+// Exact, for radiance 1; z is the irradiance. By the elements where they serve.
 template <class S, class Round>
-STERADIAN_INLINE auto ellipse_irradiance_vector(const Round& light, const typename Kernels<S>::mat3& frame,
-                                                const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE auto by_elements_where_small(typename Kernels<S>::vec3 e, const Round& light, const typename Kernels<S>::mat3& frame,
+                                              const typename Kernels<S>::vec3& p) {
   Kernels<S> k;
-  auto e = k.ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
   if (any_lane(distance2<S>(light, p) > deviation2<S>(light) * Real<S>(integrals::kAlongArcs.least_distance2))) {
     const auto elements = elements_in<S>(light, frame, p);
     const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings});
@@ -161,18 +160,22 @@ STERADIAN_INLINE auto ellipse_irradiance_vector(const Round& light, const typena
   }
   return e;
 }
-
-// Exact, for radiance 1; z is the irradiance.
 template <class S>
 __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Disk& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
-  return ellipse_irradiance_vector<S>(light, frame, p);
+  return by_elements_where_small<S>(Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p)), light, frame, p);
+}
+template <class S>
+__attribute__((flatten, noinline)) auto irradiance_vector(const packed::Capsule& light, const typename Kernels<S>::mat3& frame,
+                                                          const typename Kernels<S>::vec3& p) {
+  return by_elements_where_small<S>(outline_irradiance_vector<S>(light, frame, p), light, frame, p);
 }
 template <class S>
 __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoid& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
-  if (light.ball.radius > 0) return irradiance_vector<S>(light.ball, frame, p);
-  return ellipse_irradiance_vector<S>(light, frame, p);
+  const auto e = light.ball.radius > 0 ? outline_irradiance_vector<S>(light.ball, frame, p)
+                                       : Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));
+  return by_elements_where_small<S>(e, light, frame, p);
 }
 
 // Of a polygon where the rim is near: kernels/outline/ellipse.glsl, ellipse_fan_near.
