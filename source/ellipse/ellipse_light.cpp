@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrals/small_light.h"
+#include "shapes/small_light.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 

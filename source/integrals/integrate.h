@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-#include "integrals/small_light.h"
+#include "shapes/small_light.h"
 #include "shapes/outline.h"
 
 STERADIAN_BEGIN_ISA

@@ -7,7 +7,7 @@
 
 #include "integrals/methods.h"
 #include "shapes/outline.h"
-#include "integrals/small_light.h"
+#include "shapes/small_light.h"
 #include "lobes/lobe.h"
 #include "steradian/reference.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrals/small_light.h"
+#include "shapes/small_light.h"
 #include "shapes/capsule.h"
 #include "shapes/polygon.h"
 #include "steradian/area_light.h"

@@ -77,7 +77,7 @@ STERADIAN_INLINE Seen<S> see(const packed::Polygon& light, const typename Kernel
   return see_plane<S>(light, p);
 }
 
-// The elements of a light in the world's frame, about the point: integrals/small_light.h.
+// The elements of a light in the world's frame, about the point: shapes/small_light.h.
 template <class S>
 typename Kernels<S>::LightElements elements(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
   return {to_kernel<S>(light.middle) - p, to_kernel<S>(light.reach_a), to_kernel<S>(light.reach_b), to_kernel<S>(light.area)};

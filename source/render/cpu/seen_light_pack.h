@@ -31,7 +31,7 @@ struct SeenLight {
   }
 };
 
-// What integrate asks of an outline's light (integrals/small_light.h). The elements are a function of their own, seldom called.
+// What integrate asks of an outline's light (shapes/small_light.h). The elements are a function of their own, seldom called.
 __attribute__((flatten, noinline)) inline PackKernels::LightElements elements_in(const SeenLight& light, const PackKernels::mat3& frame,
                                                                                 const PackVec3& p) {
   if (const auto* polygon = std::get_if<packed::Polygon>(&light.light.shape)) return shapes::elements_in<Pack>(*polygon, frame, p);
