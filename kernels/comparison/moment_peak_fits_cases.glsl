@@ -47,6 +47,7 @@ vec4 case_phong_lorentzian_odd(CaseInput i) {
 //   a.z    range(0.2, 1)
 //   a.w    range(5, 20)
 // Values: 2
+// Bound: statistical
 vec4 case_phong_pearson(CaseInput i) {
     MomentEdge edge = case_front_edge(i);
     return vec4(moment_pearson_front(edge, i.a.w, 1), moment_pearson_front(edge, i.a.w, 0), 0.0, 0.0);

@@ -13,6 +13,7 @@
 //   d.xyz  direction
 //   d.w    range(0.05, 0.95)
 // Values: 2
+// Bound: statistical
 vec4 case_half_vector_splits(CaseInput i) {
     ConicArc arc = case_arc(i);
     return vec4(half_vector_split_uniform(arc, i.d.w), half_vector_split_pole_mapped(arc, i.d.w), 0.0, 0.0);

@@ -43,6 +43,7 @@ vec4 case_ellipse_corner_concentrated(CaseInput i) {
 //   c.x    range(0.7, 1)
 //   c.y    range(-0.5, 0.5)
 // Values: 3
+// Bound: statistical
 vec4 case_ellipse_corner_near(CaseInput i) {
     mat3 frame = frame_from_normal(case_xyz(i.b));
     vec3 long_axis = transform(frame, vec3(1.0, 0.0, 0.0));
