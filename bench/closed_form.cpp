@@ -16,8 +16,13 @@ struct Floor {
   PackLight light;
 
   Points points() const {
-    return {x.size(), {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {vx.data(), vy.data(), vz.data()},
-            {zero.data(), zero.data(), zero.data()}, alpha.data(), alpha.data()};
+    return {x.size(),
+            {x.data(), y.data(), z.data()},
+            {nx.data(), ny.data(), nz.data()},
+            {vx.data(), vy.data(), vz.data()},
+            {zero.data(), zero.data(), zero.data()},
+            alpha.data(),
+            alpha.data()};
   }
 };
 

@@ -36,8 +36,7 @@ void add(BenchList& list, const std::string& name, const std::function<double(co
 void add_derivatives(BenchList& list) {
   const auto light = std::make_shared<PolygonLight>(quad());
   const auto prepared = std::make_shared<PreparedPolygon>(prepare_polygon(*light));
-  add(list, "kernel/lambert/quad/double",
-      [=](const ShadingPoint& p) { return polygon_irradiance(*prepared, p.position, p.normal); });
+  add(list, "kernel/lambert/quad/double", [=](const ShadingPoint& p) { return polygon_irradiance(*prepared, p.position, p.normal); });
   add(list, "kernel/lambert/quad/derivatives",
       [=](const ShadingPoint& p) { return polygon_irradiance_derivatives(*light, p.position, p.normal).position.x; });
 
@@ -49,13 +48,10 @@ void add_derivatives(BenchList& list) {
   Material ggx{.brdf = Brdf::ggx};
   ggx.alpha_x = ggx.alpha_y = 0.3;
   add(list, "kernel/ggx/quad/double", [=](const ShadingPoint& p) { return closed_form_radiance(*prepared, p, ggx).x; });
-  add(list, "kernel/ggx/quad/derivatives",
-      [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, ggx))[0].x; });
-  add(list, "kernel/ltc/quad/double",
-      [=](const ShadingPoint& p) { return ltc_radiance(LtcMethod::classic, *prepared, p, ggx).x; });
-  add(list, "kernel/ltc/quad/derivatives", [=](const ShadingPoint& p) {
-    return by_position(ltc_radiance_derivatives(LtcMethod::classic, *light, p, ggx))[0].x;
-  });
+  add(list, "kernel/ggx/quad/derivatives", [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, ggx))[0].x; });
+  add(list, "kernel/ltc/quad/double", [=](const ShadingPoint& p) { return ltc_radiance(LtcMethod::classic, *prepared, p, ggx).x; });
+  add(list, "kernel/ltc/quad/derivatives",
+      [=](const ShadingPoint& p) { return by_position(ltc_radiance_derivatives(LtcMethod::classic, *light, p, ggx))[0].x; });
 }
 
 }  // namespace steradian::bench

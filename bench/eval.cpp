@@ -22,18 +22,17 @@ Bench lambert(const std::string& name) {
   auto stream = std::make_shared<Stream>();
   for (std::size_t i = 0; i < kQueries; ++i) {
     const double t = static_cast<double>(i) / kQueries;
-    std::string line = fmt::format(
-        R"({{"light":{{"type":"polygon","vertices":[[-1,2,1],[1,2,1],[1,2,-1],[-1,{},-1]],"radiance":[1,0.9,0.8]}},)"
-        R"("position":[{},0,{}],"normal":[{},1,0],"material":{{"brdf":"lambert","albedo":0.5}},"method":"exact"}})",
-        2, 3 * t - 1.5, 1 - t, 0.2 * t);
+    std::string line =
+        fmt::format(R"({{"light":{{"type":"polygon","vertices":[[-1,2,1],[1,2,1],[1,2,-1],[-1,{},-1]],"radiance":[1,0.9,0.8]}},)"
+                    R"("position":[{},0,{}],"normal":[{},1,0],"material":{{"brdf":"lambert","albedo":0.5}},"method":"exact"}})",
+                    2, 3 * t - 1.5, 1 - t, 0.2 * t);
     line.reserve(line.size() + eval::kQueryPadding);
     stream->lines.push_back(std::move(line));
   }
   return {name, kQueries, "", [stream] {
             stream->answers.clear();
             for (const std::string& line : stream->lines)
-              if (!eval::answer_line(stream->reader, line, stream->answers))
-                throw Error("bench eval/lambert", stream->answers);
+              if (!eval::answer_line(stream->reader, line, stream->answers)) throw Error("bench eval/lambert", stream->answers);
             keep(stream->answers.front());
           }};
 }

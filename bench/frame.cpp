@@ -73,8 +73,7 @@ std::vector<AreaLight> ceiling(int count) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   const double step = 2.0 * kHalf / side;
   std::vector<AreaLight> lights;
-  for (int i = 0; i < count; ++i)
-    lights.push_back(ceiling_quad((i % side + 0.5) * step - kHalf, (i / side + 0.5) * step - kHalf, 0.2));
+  for (int i = 0; i < count; ++i) lights.push_back(ceiling_quad((i % side + 0.5) * step - kHalf, (i / side + 0.5) * step - kHalf, 0.2));
   return lights;
 }
 
@@ -108,8 +107,7 @@ struct Rays {
   CameraRays camera;
   tbb::task_arena arena;
 
-  Rays(Scene s, int threads)
-      : scene(std::move(s)), rays(scene), camera(scene.cameras.at(0), kWidth, kHeight), arena(threads) {}
+  Rays(Scene s, int threads) : scene(std::move(s)), rays(scene), camera(scene.cameras.at(0), kWidth, kHeight), arena(threads) {}
   void call() {
     constexpr int kAcross = (kWidth + kTileSide - 1) / kTileSide, kDown = (kHeight + kTileSide - 1) / kTileSide;
     arena.execute([&] {
@@ -117,8 +115,7 @@ struct Rays {
         const FlushDenormals flush;
         const int x = i % kAcross * kTileSide, y = i / kAcross * kTileSide;
         TileHits hits;
-        trace_tile(rays, camera, {x, y, std::min(kTileSide, kWidth - x), std::min(kTileSide, kHeight - y)},
-                   pixel_place(0, 1), hits);
+        trace_tile(rays, camera, {x, y, std::min(kTileSide, kWidth - x), std::min(kTileSide, kHeight - y)}, pixel_place(0, 1), hits);
         keep(hits.u);
       });
     });
@@ -149,8 +146,7 @@ void add(BenchList& list, const std::string& name, const std::function<Bench(con
 
 void add_frame(BenchList& list) {
   for (const std::string method : {"exact", "ltc-compact", "ltc", "closed-form"})
-    add(list, "frame/direct/" + method + "/1080p",
-        [=](const std::string& name, int threads) { return direct(name, method, threads); });
+    add(list, "frame/direct/" + method + "/1080p", [=](const std::string& name, int threads) { return direct(name, method, threads); });
   if (std::filesystem::exists(arcade())) add(list, "frame/rays/arcade/1080p", rays);
   for (const int count : {1, 10, 100, 1000}) {
     const std::string name = "frame/lights/" + std::to_string(count);

@@ -62,7 +62,8 @@ struct Pairs {
       const Vec3f n = map.normal[i], w = map.incoming[i], p{number(-2, 2), number(1, 1.5), number(-2, 2)};
       lights.push_back({p, lobes.x[i], lobes.y[i], lobes.z[i], -n, {0.1f, 0.2f, 0.3f}, {0.5f, 0.4f, 0.3f}, {0.1f, 0.1f, 0.1f}, w});
       const Vec3f x = normalized(w - n * dot(n, w));
-      ggx_lights.push_back({p, x, cross(n, x), n, dot(x, w), dot(n, w), map.alpha[i], {0.1f, 0.2f, 0.3f}, {0.5f, 0.4f, 0.3f}, {0.1f, 0.1f, 0.1f}});
+      ggx_lights.push_back(
+          {p, x, cross(n, x), n, dot(x, w), dot(n, w), map.alpha[i], {0.1f, 0.2f, 0.3f}, {0.5f, 0.4f, 0.3f}, {0.1f, 0.1f, 0.1f}});
     }
     light.diffuse.resize(kReceivers);
     light.glossy.resize(kReceivers);
@@ -113,7 +114,8 @@ void add_indirect(BenchList& list) {
   for (int bits = 12; bits <= 18; bits += 2)
     for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
       const int lights = 1 << bits;
-      add_frame_of(list, std::string("indirect/frame/") + (mode == IndirectMode::ltc ? "ltc/" : "ggx/") + std::to_string(lights), mode, lights);
+      add_frame_of(list, std::string("indirect/frame/") + (mode == IndirectMode::ltc ? "ltc/" : "ggx/") + std::to_string(lights), mode,
+                   lights);
     }
 }
 

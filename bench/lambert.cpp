@@ -80,13 +80,13 @@ Bench packs(const std::string& name, Simd simd, std::optional<LightShape> shape 
 // The library's float function, one point after the other.
 Bench scalar(const std::string& name) {
   auto floor = make_floor();
-  return {name, floor->x.size(), "scalar", [floor] {
-            Floor& f = *floor;
-            for (std::size_t i = 0; i < f.x.size(); ++i)
-              f.result[i] = polygon_irradiance_float(f.light, Vec3d(Vec3f{f.x[i], f.y[i], f.z[i]}),
-                                                     Vec3d(Vec3f{f.nx[i], f.ny[i], f.nz[i]}));
-            keep(f.result.front());
-          }};
+  return {
+      name, floor->x.size(), "scalar", [floor] {
+        Floor& f = *floor;
+        for (std::size_t i = 0; i < f.x.size(); ++i)
+          f.result[i] = polygon_irradiance_float(f.light, Vec3d(Vec3f{f.x[i], f.y[i], f.z[i]}), Vec3d(Vec3f{f.nx[i], f.ny[i], f.nz[i]}));
+        keep(f.result.front());
+      }};
 }
 
 }  // namespace

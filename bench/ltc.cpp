@@ -20,7 +20,8 @@ struct GlossyFloor {
   LtcPackTables tables;
 
   Points points() const {
-    return {x.size(), {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {vx.data(), vy.data(), vz.data()}, {}, alpha.data()};
+    return {x.size(),    {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, {vx.data(), vy.data(), vz.data()}, {},
+            alpha.data()};
   }
 };
 

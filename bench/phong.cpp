@@ -37,8 +37,7 @@ Bench scalar(const std::string& name, PhongOptions options, double n) {
   return {name, count, "scalar", [=] {
             const FlushDenormals flush;
             float sum = 0;
-            for (std::size_t i = 0; i < count; ++i)
-              sum += phong_radiance_float(scene->light, scene->plane.at(i * 16), material, options).x;
+            for (std::size_t i = 0; i < count; ++i) sum += phong_radiance_float(scene->light, scene->plane.at(i * 16), material, options).x;
             keep(sum);
           }};
 }
@@ -50,12 +49,9 @@ void add_phong(BenchList& list) {
     std::string name;
     PhongOptions options;
   };
-  const std::vector<Variant> variants = {{"arvo", {Method::arvo}},
-                                         {"lorentzian", {Method::lorentzian}},
-                                         {"pearson", {Method::pearson}},
-                                         {"ellipsoid", {Method::ellipsoid}},
-                                         {"series", {Method::series}},
-                                         {"series-high", {Method::series, Quality::high}}};
+  const std::vector<Variant> variants = {{"arvo", {Method::arvo}},       {"lorentzian", {Method::lorentzian}},
+                                         {"pearson", {Method::pearson}}, {"ellipsoid", {Method::ellipsoid}},
+                                         {"series", {Method::series}},   {"series-high", {Method::series, Quality::high}}};
   for (const Variant& v : variants)
     for (const int n : {100, 500, 5000}) {
       const std::string name = "kernel/" + v.name + "/quad/n=" + std::to_string(n);

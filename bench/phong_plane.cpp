@@ -37,8 +37,7 @@ PhongPlane make_phong_plane(int width, int height) {
   PhongPlane plane;
   plane.width = width;
   plane.height = height;
-  const Vec3d forward = normalized(kTarget - kEye), right = normalized(cross(forward, Vec3d{0, 1, 0})),
-              up = cross(right, forward);
+  const Vec3d forward = normalized(kTarget - kEye), right = normalized(cross(forward, Vec3d{0, 1, 0})), up = cross(right, forward);
   const double scale = 2 * std::tan(kFieldOfView / 2) / height;
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {
@@ -68,8 +67,7 @@ Points PhongPlane::points() const {
 }
 
 ShadingPoint PhongPlane::at(std::size_t i) const {
-  return {Vec3d(Vec3f{x[i], y[i], z[i]}), Vec3d(Vec3f{nx[i], ny[i], nz[i]}),
-          normalized(Vec3d(Vec3f{vx[i], vy[i], vz[i]}))};
+  return {Vec3d(Vec3f{x[i], y[i], z[i]}), Vec3d(Vec3f{nx[i], ny[i], nz[i]}), normalized(Vec3d(Vec3f{vx[i], vy[i], vz[i]}))};
 }
 
 }  // namespace steradian::moment

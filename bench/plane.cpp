@@ -1,5 +1,5 @@
-// plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB: 64 rays a
-// pixel over the grid, on every 97th pixel of a frame.
+// plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
+// 64 rays a pixel over the grid, on every 97th pixel of a frame.
 #include <fmt/format.h>
 
 #include <memory>

@@ -13,9 +13,7 @@
 namespace steradian {
 namespace {
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // This thread stays on its core until the end of the scope.
 class PinnedToOneCore {

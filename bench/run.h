@@ -24,13 +24,13 @@ struct BenchPass {
 
 // Anything that is to be measured: the closure holds the prepared data, a call does the work on all items once.
 struct Bench {
-  std::string name;         // "kernel/lambert/quad"
-  std::size_t items;        // of one call
-  std::string simd;         // the instruction set that runs, "scalar", or empty where none is chosen
+  std::string name;   // "kernel/lambert/quad"
+  std::size_t items;  // of one call
+  std::string simd;   // the instruction set that runs, "scalar", or empty where none is chosen
   std::function<void()> body;
-  bool one_core = true;     // pinned; false for frames on all threads
+  bool one_core = true;                                 // pinned; false for frames on all threads
   std::function<std::vector<BenchPass>()> passes = {};  // medians of the calls so far; none: a call has no parts
-  bool once = false;        // takes seconds: one call, neither warmed up nor repeated
+  bool once = false;                                    // takes seconds: one call, neither warmed up nor repeated
 };
 
 // What `steradian bench` can run. Data is made only when a bench is chosen by its name.

@@ -11,7 +11,7 @@ struct Curve {
   std::string name;  // no legend where empty
   std::vector<std::pair<double, double>> points;
   bool dashed = false;
-  int colour = 0;    // of a palette of eight
+  int colour = 0;  // of a palette of eight
 };
 
 struct LinePlot {

@@ -21,28 +21,23 @@ Material phong(double n) {
 }
 
 // Every k-th pixel of every k-th row, with the same camera: a smaller picture.
-PhongPlane thinned(const Table2Options& options) {
-  return make_phong_plane(options.width / options.every, options.height / options.every);
-}
+PhongPlane thinned(const Table2Options& options) { return make_phong_plane(options.width / options.every, options.height / options.every); }
 
 std::vector<double> exact_picture(const PhongPlane& plane, const PreparedPolygon& light, int n) {
   std::vector<double> picture(plane.count);
   const Material material = phong(n);
-  for (std::size_t i = 0; i < plane.count; ++i)
-    picture[i] = phong_radiance(light, plane.at(i), material, {Method::exact}).x;
+  for (std::size_t i = 0; i < plane.count; ++i) picture[i] = phong_radiance(light, plane.at(i), material, {Method::exact}).x;
   return picture;
 }
 
-std::vector<float> picture_by(const PhongPlane& plane, const PreparedPolygon& light, int n, const PhongOptions& options,
-                              Simd simd) {
+std::vector<float> picture_by(const PhongPlane& plane, const PreparedPolygon& light, int n, const PhongOptions& options, Simd simd) {
   const FlushDenormals flush;
   std::vector<float> picture(plane.x.size());
   phong_table_for(simd).radiance(prepare_light(light), plane.points(), n, options, picture.data());
   return picture;
 }
 
-double packs_ns(const PhongPlane& plane, const NamedLight& light, int n, const PhongOptions& method,
-                const Table2Options& options) {
+double packs_ns(const PhongPlane& plane, const NamedLight& light, int n, const PhongOptions& method, const Table2Options& options) {
   BenchOptions bench;
   bench.min_time = options.min_time;
   bench.min_runs = 5;
@@ -57,8 +52,7 @@ double packs_ns(const PhongPlane& plane, const NamedLight& light, int n, const P
   return run_bench(body, bench).ns_per_item;
 }
 
-double scalar_ns(const PhongPlane& plane, const NamedLight& light, int n, const PhongOptions& method,
-                 const Table2Options& options) {
+double scalar_ns(const PhongPlane& plane, const NamedLight& light, int n, const PhongOptions& method, const Table2Options& options) {
   BenchOptions bench;
   bench.min_time = options.min_time;
   bench.min_runs = 5;
@@ -150,8 +144,7 @@ std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options&
   for (const NamedLight& light : comparison_lights()) {
     text += "**" + light.name + "**, " + std::to_string(light.edges) + " edges\n\n";
     text += "| method | RMSE n=100 | 500 | 5000 | largest 100 | 500 | 5000 |";
-    if (options.min_time > 0)
-      text += std::string(" ns scalar 100 | 500 | 5000 | ns ") + name_of(options.simd) + " 100 | 500 | 5000 |";
+    if (options.min_time > 0) text += std::string(" ns scalar 100 | 500 | 5000 | ns ") + name_of(options.simd) + " 100 | 500 | 5000 |";
     text += options.min_time > 0 ? "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n" : "\n|---|---|---|---|---|---|---|\n";
     for (const ComparedMethod& method : compared_methods()) {
       text += "| " + method.name + " |";
@@ -167,8 +160,7 @@ std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options&
   }
   text += "Published (another, unknown scene; whole screen, ms per edge, GTX 580 / GTX 980 Ti)\n\n";
   text += "| method | RMSE n = 100, 500, 5000 | ms per edge |\n|---|---|---|\n";
-  for (const Published& p : kPublished)
-    text += std::string("| ") + p.method + " | " + p.rmse + " | " + p.milliseconds + " |\n";
+  for (const Published& p : kPublished) text += std::string("| ") + p.method + " | " + p.rmse + " | " + p.milliseconds + " |\n";
   return text;
 }
 

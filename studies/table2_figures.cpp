@@ -78,18 +78,19 @@ LinePlot half_width_plot() {
   int colour = 0;
   for (const double n : {10.0, 11.0, 100.0, 101.0, 5000.0, 5001.0}) {
     const int even_n = static_cast<int>(n) % 2 == 0;
-    Curve exact{even_n ? "n = " + std::to_string(static_cast<int>(n)) + ", f = x" : "n = " + std::to_string(static_cast<int>(n)) + ", f = 1", {}, false, colour};
+    Curve exact{
+        even_n ? "n = " + std::to_string(static_cast<int>(n)) + ", f = x" : "n = " + std::to_string(static_cast<int>(n)) + ", f = 1",
+        {},
+        false,
+        colour};
     Curve fit{"", {}, true, colour++};
     for (int i = 1; i < 200; ++i) {
       const double c = i / 200.0, s2 = 1 - c * c;
-      const auto height = [&](double phi) {
-        return k.moment_peak_height(s2, c * c, n, even_n, std::cos(phi), std::sin(phi)).v;
-      };
+      const auto height = [&](double phi) { return k.moment_peak_height(s2, c * c, n, even_n, std::cos(phi), std::sin(phi)).v; };
       double low = 0, high = kQuarterTurn;
       for (int step = 0; step < 50; ++step) (height(0.5 * (low + high)) > 0.5 * height(0) ? low : high) = 0.5 * (low + high);
       exact.points.push_back({c, low});
-      fit.points.push_back({c, (even_n ? std::numbers::pi / 3 : std::numbers::pi / 4) *
-                                   k.moment_peak_half_width_ratio(c, n, even_n).v});
+      fit.points.push_back({c, (even_n ? std::numbers::pi / 3 : std::numbers::pi / 4) * k.moment_peak_half_width_ratio(c, n, even_n).v});
     }
     plot.curves.push_back(exact);
     plot.curves.push_back(fit);
@@ -102,9 +103,7 @@ LinePlot fits_plot() {
   constexpr double c = 0.99, n = 100, phi_high = kQuarterTurn;
   const integrals::PhongLobe<double> lobe(n, 0);
   LinePlot plot{"Errors of the methods' integrands over the peak, n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, -0.03, 0.03, {}};
-  const auto add = [&](const char* name, int colour, auto front) {
-    plot.curves.push_back(error_of(name, c, n, phi_high, colour, front));
-  };
+  const auto add = [&](const char* name, int colour, auto front) { plot.curves.push_back(error_of(name, c, n, phi_high, colour, front)); };
   add("lorentzian", 1, [&](const auto& e) { return k.moment_lorentzian_front(e, n, 1); });
   add("pearson", 2, [&](const auto& e) { return k.moment_pearson_front(e, n, 1); });
   add("ellipsoid", 5, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, 1); });
@@ -125,13 +124,12 @@ Picture error_picture(Simd simd, int n, double enlarged) {
   material.exponent = n;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     std::vector<double> exact(plane.count);
-    for (std::size_t i = 0; i < plane.count; ++i)
-      exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {Method::exact}).x;
+    for (std::size_t i = 0; i < plane.count; ++i) exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {Method::exact}).x;
     const double brightest = *std::max_element(exact.begin(), exact.end());
     const auto put = [&](std::size_t column, std::size_t i, double value) {
       const float v = static_cast<float>(value);
-      picture.at(static_cast<int>(column) * kWidth + plane.pixels[i] % kWidth,
-                 static_cast<int>(l) * kHeight + plane.pixels[i] / kWidth) = {v, v, v};
+      picture.at(static_cast<int>(column) * kWidth + plane.pixels[i] % kWidth, static_cast<int>(l) * kHeight + plane.pixels[i] / kWidth) = {
+          v, v, v};
     };
     for (std::size_t i = 0; i < plane.count; ++i) put(0, i, 0.8 * exact[i] / brightest);
     for (std::size_t m = 0; m < methods.size(); ++m) {

@@ -96,9 +96,12 @@ TEST_F(Faults, AClosedPipeEndsTheProgram) {
   close(ends[0]);
   std::string lines;
   for (int i = 0; i < 20'000; ++i)
-    lines += R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1]},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})" "\n";
+    lines +=
+        R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1]},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})"
+        "\n";
   const int out = ends[1];
-  const Outcome o = run_limited({"eval"}, [out] { dup2(out, 1); }, lines);
+  const Outcome o = run_limited(
+      {"eval"}, [out] { dup2(out, 1); }, lines);
   close(ends[1]);
   EXPECT_TRUE(o.status == 128 + SIGPIPE || (o.status == 1 && !o.err.empty())) << o.status << o.err;
 }
@@ -131,7 +134,9 @@ TEST_F(Faults, NoMemoryIsSaid) {
 
 TEST_F(Faults, OutputMayBeTheInput) {
   const fs::path lines = folder / "lines";
-  std::ofstream(lines) << R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1]},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})" "\n";
+  std::ofstream(lines)
+      << R"({"light":{"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1]},"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"}})"
+         "\n";
   EXPECT_EQ(run({"eval", lines, "-o", lines}).status, 0);
   EXPECT_EQ(contents(lines).substr(0, 12), "{\"radiance\":");
   const std::string before = contents(scene);

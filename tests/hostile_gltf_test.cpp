@@ -80,15 +80,16 @@ TEST_F(HostileGltf, NodesTimesTriangles) {
 }
 
 TEST_F(HostileGltf, WarnedMeshes) {
-  const Outcome o = render(square_with([](GltfTestFile& f) {
-                             f.append("images", {{"uri", "data:image/png;base64," + base64(small_png())}});
-                             f.append("textures", {{"source", 0}});
-                             f.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
-                             for (int i = 0; i < 20'000; ++i) {
-                               const json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 2}, {"material", 0}};
-                               f.append("nodes", {{"mesh", f.append("meshes", {{"name", "m" + std::to_string(i)}, {"primitives", {primitive}}})}});
-                             }
-                           }).text());
+  const Outcome o =
+      render(square_with([](GltfTestFile& f) {
+               f.append("images", {{"uri", "data:image/png;base64," + base64(small_png())}});
+               f.append("textures", {{"source", 0}});
+               f.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+               for (int i = 0; i < 20'000; ++i) {
+                 const json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 2}, {"material", 0}};
+                 f.append("nodes", {{"mesh", f.append("meshes", {{"name", "m" + std::to_string(i)}, {"primitives", {primitive}}})}});
+               }
+             }).text());
   EXPECT_EQ(o.status, 0);
   EXPECT_NE(o.err.find("20000 times, the first is mesh \"m0\""), std::string::npos) << o.err;
 }
@@ -104,21 +105,22 @@ TEST_F(HostileGltf, WarnedMaterialsAndUnknownExtensions) {
 
 TEST_F(HostileGltf, Skins) {
   constexpr int kSkins = 2'000;
-  const Outcome o = render(square_with([](GltfTestFile& f) {
-                             const int joints = f.add_accessor(std::vector<std::uint16_t>(16), "VEC4", 5123, 4);
-                             const int weights = f.add_floats(std::vector<float>(16, 0.25f), "VEC4");
-                             std::vector<float> matrices(16 * 20'000);
-                             for (std::size_t i = 0; i < matrices.size(); i += 5) matrices[i] = 1;
-                             f.buffer.resize((f.buffer.size() + 3) / 4 * 4);
-                             const int view = f.add_view(matrices);
-                             const int bind = f.append("accessors", {{"bufferView", view}, {"componentType", 5126}, {"count", 20'000}, {"type", "MAT4"}});
-                             f.primitive()["attributes"]["JOINTS_0"] = joints;
-                             f.primitive()["attributes"]["WEIGHTS_0"] = weights;
-                             for (int i = 0; i < kSkins; ++i) {
-                               const int skin = f.append("skins", {{"joints", {0, 0, 0}}, {"inverseBindMatrices", bind}});
-                               f.append("nodes", {{"mesh", 0}, {"skin", skin}});
-                             }
-                           }).text());
+  const Outcome o =
+      render(square_with([](GltfTestFile& f) {
+               const int joints = f.add_accessor(std::vector<std::uint16_t>(16), "VEC4", 5123, 4);
+               const int weights = f.add_floats(std::vector<float>(16, 0.25f), "VEC4");
+               std::vector<float> matrices(16 * 20'000);
+               for (std::size_t i = 0; i < matrices.size(); i += 5) matrices[i] = 1;
+               f.buffer.resize((f.buffer.size() + 3) / 4 * 4);
+               const int view = f.add_view(matrices);
+               const int bind = f.append("accessors", {{"bufferView", view}, {"componentType", 5126}, {"count", 20'000}, {"type", "MAT4"}});
+               f.primitive()["attributes"]["JOINTS_0"] = joints;
+               f.primitive()["attributes"]["WEIGHTS_0"] = weights;
+               for (int i = 0; i < kSkins; ++i) {
+                 const int skin = f.append("skins", {{"joints", {0, 0, 0}}, {"inverseBindMatrices", bind}});
+                 f.append("nodes", {{"mesh", 0}, {"skin", skin}});
+               }
+             }).text());
   EXPECT_EQ(o.status, 0) << o.err;
 }
 

@@ -15,8 +15,11 @@ using lobes::KeyKind;
 using nlohmann::json;
 
 std::optional<Material> by_eval(const json& lobe) {
-  const json query = {{"light", {{"type", "point"}, {"position", {0, 1, 0}}}}, {"position", {0, 0, 0}}, {"normal", {0, 1, 0}},
-                      {"view", {0, 1, 0}}, {"material", lobe}};
+  const json query = {{"light", {{"type", "point"}, {"position", {0, 1, 0}}}},
+                      {"position", {0, 0, 0}},
+                      {"normal", {0, 1, 0}},
+                      {"view", {0, 1, 0}},
+                      {"material", lobe}};
   const std::string line = query.dump() + std::string(eval::kQueryPadding, ' ');
   try {
     return eval::QueryReader().read(std::string_view(line).substr(0, line.size() - eval::kQueryPadding)).materials.at(0);
@@ -35,8 +38,8 @@ std::optional<Material> by_scene(const json& lobe) {
 
 bool same(const Material& a, const Material& b) {
   return a.brdf == b.brdf && a.albedo == b.albedo && a.exponent == b.exponent && a.alpha_x == b.alpha_x && a.alpha_y == b.alpha_y &&
-         a.tangent == b.tangent && a.f0 == b.f0 && a.f90 == b.f90 && a.shadowing == b.shadowing && a.axis == b.axis && a.foreshortening == b.foreshortening && a.axis_exponent == b.axis_exponent &&
-         a.multiple_scattering == b.multiple_scattering;
+         a.tangent == b.tangent && a.f0 == b.f0 && a.f90 == b.f90 && a.shadowing == b.shadowing && a.axis == b.axis &&
+         a.foreshortening == b.foreshortening && a.axis_exponent == b.axis_exponent && a.multiple_scattering == b.multiple_scattering;
 }
 
 // Values that a key of a kind may have, and such as it may not.

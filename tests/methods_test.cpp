@@ -46,8 +46,17 @@ std::vector<NamedLobe> lobes() {
   product.brdf = Brdf::lobe_product;
   product.exponent = 20;
   product.axis_exponent = 5;
-  return {{"lambert", lambert}, {"phong", phong}, {"phong, any exponent", between}, {"phong, foreshortened", foreshortened}, {"ggx", ggx}, {"ggx, any widths", anisotropic},
-          {"ggx without shadowing", bare}, {"blinn-phong", blinn}, {"beckmann", beckmann}, {"charlie", charlie}, {"lobe-product", product}};
+  return {{"lambert", lambert},
+          {"phong", phong},
+          {"phong, any exponent", between},
+          {"phong, foreshortened", foreshortened},
+          {"ggx", ggx},
+          {"ggx, any widths", anisotropic},
+          {"ggx without shadowing", bare},
+          {"blinn-phong", blinn},
+          {"beckmann", beckmann},
+          {"charlie", charlie},
+          {"lobe-product", product}};
 }
 
 PreparedPolygon light() {
@@ -63,8 +72,8 @@ std::string text_of(const std::string& path) {
 
 // A row of the manual's table.
 std::string manual_row(const Row& row) {
-  return std::string("| `") + row.name + "` | " + row.lobes + " | " + (row.in_float ? "double, float" : "double") + " | " +
-         row.qualities + " | " + (row.derivatives != nullptr ? "yes" : "") + " | " + row.help + " |";
+  return std::string("| `") + row.name + "` | " + row.lobes + " | " + (row.in_float ? "double, float" : "double") + " | " + row.qualities +
+         " | " + (row.derivatives != nullptr ? "yes" : "") + " | " + row.help + " |";
 }
 
 }  // namespace
@@ -159,8 +168,10 @@ TEST(Methods, AutomaticIsTheFirstThatServesAndADraftTakesTheTable) {
   const auto chosen = [](const Material& lobe, Quality quality) {
     return std::string(methods::find(Method::automatic, lobe, quality)->name);
   };
-  const char* const normal[] = {"exact", "series", "series", "series", "closed-form", "closed-form", "exact", "half-vector", "half-vector", "cubature", "matched-lobe"};
-  const char* const draft[] = {"exact", "series", "series", "series", "ltc-compact", "closed-form", "exact", "half-vector", "half-vector", "cubature", "matched-lobe"};
+  const char* const normal[] = {"exact", "series",      "series",      "series",   "closed-form", "closed-form",
+                                "exact", "half-vector", "half-vector", "cubature", "matched-lobe"};
+  const char* const draft[] = {"exact", "series",      "series",      "series",   "ltc-compact", "closed-form",
+                               "exact", "half-vector", "half-vector", "cubature", "matched-lobe"};
   const std::vector<NamedLobe> all = lobes();
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(chosen(all[i].lobe, Quality::normal), normal[i]) << all[i].words;

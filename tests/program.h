@@ -42,7 +42,8 @@ class Program : public testing::Test {
 
   // Runs the program on the file `in` of the folder (made of `input`), out and err to files.
   Outcome run(std::vector<std::string> arguments, const std::string& input = {}) {
-    return run_limited(std::move(arguments), [] {}, input);
+    return run_limited(
+        std::move(arguments), [] {}, input);
   }
 
   // The same after `limit` was called in the new process: for setrlimit, chdir and the like.

@@ -23,8 +23,8 @@ TEST_F(Program, RenderWritesAPictureWithItsSettingsAndItsStatistics) {
   EXPECT_EQ(picture.metadata.at("steradian.method"), "exact");
   EXPECT_EQ(picture.metadata.at("steradian.scene"), floor_scene());
   const json s = json::parse(contents(stats));
-  for (const char* key : {"version", "command", "backend", "device", "simd", "threads", "width", "height", "seed",
-                          "lights", "method", "passes", "total_ms"})
+  for (const char* key :
+       {"version", "command", "backend", "device", "simd", "threads", "width", "height", "seed", "lights", "method", "passes", "total_ms"})
     EXPECT_TRUE(s.contains(key)) << key;
   EXPECT_EQ(s["lights"], 1);
   EXPECT_NE(s["command"].get<std::string>().find("render"), std::string::npos);
@@ -38,8 +38,8 @@ TEST_F(Program, RenderGivesTheSameBytesAtOneAndTwoThreads) {
   for (const std::string method : {"auto", "sampled"}) {
     const auto picture = [&](const std::string& threads) {
       const std::string path = folder / ("t" + threads + ".exr");
-      const Outcome r = run({"render", glossy_scene(), "-o", path, "--size", "96x54", "--method", method, "--aa", "2", "--seed", "7",
-                             "--threads", threads});
+      const Outcome r = run(
+          {"render", glossy_scene(), "-o", path, "--size", "96x54", "--method", method, "--aa", "2", "--seed", "7", "--threads", threads});
       EXPECT_EQ(r.status, 0) << r.err;
       return contents(path);
     };
@@ -164,7 +164,8 @@ TEST_F(Program, DiffMeasuresAndFailsAboveALimit) {
 // pilot and thus itself uncertain by a quarter. Independent errors add in squares.
 TEST_F(Program, GlossyMethodsAreNearTheReference) {
   const std::string reference = folder / "reference.exr";
-  ASSERT_EQ(run({"render", glossy_scene(), "-o", reference, "--size", "48x27", "--method", "reference", "--target-error", "0.02"}).status, 0);
+  ASSERT_EQ(run({"render", glossy_scene(), "-o", reference, "--size", "48x27", "--method", "reference", "--target-error", "0.02"}).status,
+            0);
   for (const auto& [method, limit] :
        std::vector<std::pair<std::string, std::string>>{{"closed-form", "0.0254"}, {"ltc", "0.0321"}, {"ltc-compact", "0.0321"}}) {
     const std::string path = folder / (method + ".exr");

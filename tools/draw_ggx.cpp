@@ -42,8 +42,9 @@ struct Svg {
   }
   void save(const std::string& name, int width, int height) const {
     std::ofstream file(name);
-    file << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height << "\" viewBox=\"0 0 " << width
-         << " " << height << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" << body.str() << "</svg>\n";
+    file << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height << "\" viewBox=\"0 0 " << width << " "
+         << height << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+         << body.str() << "</svg>\n";
   }
 };
 
@@ -173,7 +174,8 @@ void draw_error(const std::string& name) {
         // From white at 1e-4 over yellow to dark red at 1.
         const double t = std::fmin(std::fmax((std::log10(e) + 4) / 4, 0), 1);
         svg.body << format("<rect x=\"%.1f\" y=\"%.1f\" width=\"38\" height=\"38\"", x, y)
-                 << format(" fill=\"rgb(%.0f,%.0f,%.0f)\"/>\n", 255 - 110 * std::fmax(2 * t - 1, 0), 255 - 215 * t, 235 * (1 - std::fmin(2 * t, 1)));
+                 << format(" fill=\"rgb(%.0f,%.0f,%.0f)\"/>\n", 255 - 110 * std::fmax(2 * t - 1, 0), 255 - 215 * t,
+                           235 * (1 - std::fmin(2 * t, 1)));
         svg.text(x + 3, y + 23, e < 1e-4 ? "&lt;.01 %" : format(e < 0.0995 ? "%.2f %%" : "%.0f %%", 100 * e), "font-size:9px");
         if (r + 1 == roughness.size()) svg.text(x + 8, y + 54, format("%.0f°", views[v]), "font-size:11px");
       }

@@ -34,7 +34,8 @@ double frame_ms(const LightField& field) {
   return best;
 }
 
-void draw(const std::string& path, const std::string& what, const std::string& title, const std::vector<std::pair<double, double>>& points) {
+void draw(const std::string& path, const std::string& what, const std::string& title,
+          const std::vector<std::pair<double, double>>& points) {
   double highest = 0;
   std::printf("| %s |", what.c_str());
   for (const auto& [x, y] : points) std::printf(" %.0f |", x), highest = std::max(highest, y);

@@ -19,7 +19,8 @@ void add_box(std::vector<Vec3d>& positions, std::vector<std::uint32_t>& indices,
   const auto first = static_cast<std::uint32_t>(positions.size());
   for (int i = 0; i < 8; ++i)
     positions.push_back({(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z});
-  for (const unsigned i : {0u, 2u, 3u, 0u, 3u, 1u, 4u, 5u, 7u, 4u, 7u, 6u, 0u, 1u, 5u, 0u, 5u, 4u, 2u, 6u, 7u, 2u, 7u, 3u, 0u, 4u, 6u, 0u, 6u, 2u, 1u, 3u, 7u, 1u, 7u, 5u})
+  for (const unsigned i : {0u, 2u, 3u, 0u, 3u, 1u, 4u, 5u, 7u, 4u, 7u, 6u, 0u, 1u, 5u, 0u, 5u, 4u,
+                           2u, 6u, 7u, 2u, 7u, 3u, 0u, 4u, 6u, 0u, 6u, 2u, 1u, 3u, 7u, 1u, 7u, 5u})
     indices.push_back(first + i);
 }
 
@@ -57,7 +58,8 @@ int main(int argc, char** argv) {
     std::snprintf(text, sizeof text, format, values...);
     out << text;
   };
-  print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" font-size=\"15\">\n", width, height);
+  print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" font-size=\"15\">\n", width,
+        height);
   out << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<path fill=\"#ffe9a8\" fill-rule=\"evenodd\" d=\"";
   // The pieces chained, for the fill alone.
   std::vector<Boundary> rest = region.boundary;
@@ -79,13 +81,15 @@ int main(int argc, char** argv) {
   }
   out << "\"/>\n";
   for (const Segment& s : scratch.set.segments)
-    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n", x(s.a.x), y(s.a.y), x(s.b.x), y(s.b.y),
-          s.source == Source::outline ? "#c08000" : "#888888");
+    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n", x(s.a.x), y(s.a.y), x(s.b.x),
+          y(s.b.y), s.source == Source::outline ? "#c08000" : "#888888");
   for (const Boundary& b : region.boundary)
-    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#c03030\" stroke-width=\"3\"/>\n", x(b.ax), y(b.ay), x(b.bx), y(b.by));
+    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#c03030\" stroke-width=\"3\"/>\n", x(b.ax), y(b.ay), x(b.bx),
+          y(b.by));
   for (const Segment& s : scratch.set.segments) {
     const double mx = 0.5 * (x(s.a.x) + x(s.b.x)), my = 0.5 * (y(s.a.y) + y(s.b.y));
-    if (s.source == Source::edge) print("<text x=\"%.1f\" y=\"%.1f\" fill=\"#555555\" font-size=\"12\">%+d</text>\n", mx + 4, my - 4, s.weight);
+    if (s.source == Source::edge)
+      print("<text x=\"%.1f\" y=\"%.1f\" fill=\"#555555\" font-size=\"12\">%+d</text>\n", mx + 4, my - 4, s.weight);
   }
   // A count for every region, where a grid of places first meets it.
   std::set<std::int32_t> said;
@@ -95,7 +99,8 @@ int main(int argc, char** argv) {
       const std::int32_t count = count_at(scratch.set, cx, cy);
       double room = 1e30;
       for (const Segment& s : scratch.set.segments) {
-        const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y, t = std::clamp(((cx - s.a.x) * fx + (cy - s.a.y) * fy) / (fx * fx + fy * fy), 0.0, 1.0);
+        const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y,
+                     t = std::clamp(((cx - s.a.x) * fx + (cy - s.a.y) * fy) / (fx * fx + fy * fy), 0.0, 1.0);
         room = std::min(room, std::hypot(cx - s.a.x - t * fx, cy - s.a.y - t * fy));
       }
       if (room < 0.08 * kCells || count >= kHidden / 2 || !said.insert(count * 4 + (cx > 0) + 2 * (cy > 0)).second) continue;

@@ -119,8 +119,8 @@ std::vector<Long> amplitudes(const Node& p, int highest) {
 }
 
 struct Series {
-  int highest, powers;                  // harmonics 0..highest, powers of kap2 0..powers-1
-  std::vector<std::vector<Long>> c;     // c[k][3 i + j], of kap2^i g^j
+  int highest, powers;               // harmonics 0..highest, powers of kap2 0..powers-1
+  std::vector<std::vector<Long>> c;  // c[k][3 i + j], of kap2^i g^j
 };
 
 Series fit(int highest, int powers) {
@@ -135,8 +135,7 @@ Series fit(int highest, int powers) {
       const Long weight = std::pow(p.kap2, 0.6L) * std::pow(1 - p.kap2, -0.1L) / (p.g + 0.1L);
       std::vector<Long> row;
       for (int i = 0; i < powers; ++i)
-        for (int j = 0; j < kPowersOfG; ++j)
-          row.push_back(weight * (1 - p.kap2) * std::pow(p.kap2, Long(i)) * std::pow(p.g, Long(j)));
+        for (int j = 0; j < kPowersOfG; ++j) row.push_back(weight * (1 - p.kap2) * std::pow(p.kap2, Long(i)) * std::pow(p.g, Long(j)));
       row.push_back(weight * b[r][k]);
       rows.push_back(row);
     }

@@ -30,10 +30,8 @@ void print_table2(const Options& options) {
   table.min_time = options.min_time < 0.5 ? options.min_time : 0.05;
   fmt::print("{}", moment::table2_text(moment::measure_table2(table), table));
   if (options.figures.empty()) return;
-  for (const std::string& file : moment::write_table2_figures(options.figures, table.simd))
-    fmt::print(stderr, "wrote {}\n", file);
+  for (const std::string& file : moment::write_table2_figures(options.figures, table.simd)) fmt::print(stderr, "wrote {}\n", file);
 }
-
 
 std::vector<BenchResult> run(const Options& options) {
   if (!options.simd.empty()) setenv("STERADIAN_SIMD", options.simd.c_str(), 1);
@@ -63,8 +61,7 @@ std::string against_scalar(const std::vector<BenchResult>& results, const BenchR
     constexpr std::string_view kScalar = "/scalar";
     if (!other.name.ends_with(kScalar) || other.name == r.name) continue;
     const std::string base = other.name.substr(0, other.name.size() - kScalar.size());
-    if (r.name == base || r.name.starts_with(base + "/"))
-      return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
+    if (r.name == base || r.name.starts_with(base + "/")) return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
   }
   return {};
 }
@@ -72,8 +69,8 @@ std::string against_scalar(const std::vector<BenchResult>& results, const BenchR
 void print_table(const std::vector<BenchResult>& results) {
   fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd");
   for (const BenchResult& r : results) {
-    fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms,
-               r.runs, r.simd, against_scalar(results, r));
+    fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms, r.runs, r.simd,
+               against_scalar(results, r));
     for (const BenchPass& pass : r.passes) fmt::print("  {:<61} {:>13.4f}\n", pass.name, pass.ms);
   }
 }
@@ -96,9 +93,7 @@ void add_bench(CLI::App& app, Exit&) {
   CLI::App* verb = app.add_subcommand("bench", "Time the integrals on this machine");
   verb->group("This machine");
   auto options = std::make_shared<Options>();
-  verb->add_option("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert")
-      ->group("What")
-      ->default_str("");
+  verb->add_option("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert")->group("What")->default_str("");
   verb->add_option("--simd", options->simd, "Instruction set of the benches that do not name one")
       ->group("What")
       ->check(CLI::IsMember({"sse2", "avx2", "avx512"}))
@@ -109,8 +104,7 @@ void add_bench(CLI::App& app, Exit&) {
   verb->add_flag("--json", options->json, "Print JSON")->group("How");
   verb->add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)")
       ->group("What");
-  verb->add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)")
-      ->group("What");
+  verb->add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)")->group("What");
   verb->add_option("--figures", options->figures, "With --table2: write the page's figures into this folder")
       ->group("What")
       ->check(CLI::ExistingDirectory);

@@ -59,12 +59,12 @@ void run(const Options& options, Exit& exit) {
   const Difference d = difference(read_picture(options.a, options.limits), reference);
   const double white = white_of(reference);
   if (options.json) {
-    nlohmann::ordered_json j = {{"rmse", d.rmse}, {"relative_l2", d.relative_l2}, {"max", d.max},
-                                {"mean_ratio", d.mean_ratio}, {"white", white}};
+    nlohmann::ordered_json j = {
+        {"rmse", d.rmse}, {"relative_l2", d.relative_l2}, {"max", d.max}, {"mean_ratio", d.mean_ratio}, {"white", white}};
     fmt::print("{}\n", j.dump());
   } else {
-    fmt::print("rmse         {:.6g}\nrelative L2  {:.6g}\nmax          {:.6g} at ({}, {})\nmean ratio   {:.6g}\nwhite        {:.6g}\n", d.rmse,
-               d.relative_l2, d.max, d.max_x, d.max_y, d.mean_ratio, white);
+    fmt::print("rmse         {:.6g}\nrelative L2  {:.6g}\nmax          {:.6g} at ({}, {})\nmean ratio   {:.6g}\nwhite        {:.6g}\n",
+               d.rmse, d.relative_l2, d.max, d.max_x, d.max_y, d.mean_ratio, white);
   }
   for (const Limit& limit : limits) {
     const double value = limit.metric == "rmse" ? d.rmse : limit.metric == "max" ? d.max : d.relative_l2;

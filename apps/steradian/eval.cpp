@@ -164,11 +164,11 @@ struct Options {
 void add_eval(CLI::App& app, Exit& exit) {
   CLI::App* verb = app.add_subcommand("eval", "Answer single integrals: JSON lines in, JSON lines out");
   verb->group("Light");
-  verb->footer(
-      std::string() + "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
-      "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
-      "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n\n" +
-      methods::help());
+  verb->footer(std::string() +
+               "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
+               "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
+               "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n\n" +
+               methods::help());
   auto options = std::make_shared<Options>();
   verb->add_option("INPUT", options->input, "File of queries, one a line (default: standard input)")
       ->group("Input and output")
@@ -184,7 +184,8 @@ void add_eval(CLI::App& app, Exit& exit) {
       ->group("Defaults for queries that do not say")
       ->check(CLI::Validator(
           [](std::string& name) {
-            return method_of(name) || name == "par" || name == "marched" ? std::string() : "unknown method " + name + ", use " + methods::names();
+            return method_of(name) || name == "par" || name == "marched" ? std::string()
+                                                                         : "unknown method " + name + ", use " + methods::names();
           },
           ""));
   verb->add_option("--spp", options->spp, "Pairs of samples of method sampled")

@@ -37,8 +37,7 @@ std::string PlaneAnswers::answer(std::string_view line) {
   if (!query.contains("scene") || !query["scene"].is_string()) throw Error("scene", "give the name of an SVG file");
   if (!query.contains("position")) throw Error("position", "give two numbers");
   const auto& p = query["position"];
-  if (!p.is_array() || p.size() != 2 || !p[0].is_number() || !p[1].is_number())
-    throw Error("position", "give two numbers");
+  if (!p.is_array() || p.size() != 2 || !p[0].is_number() || !p[1].is_number()) throw Error("position", "give two numbers");
   PlaneMethod method = defaults_.method;
   if (query.contains("method")) {
     if (!query["method"].is_string()) throw Error("method", "not a text");
@@ -48,8 +47,7 @@ std::string PlaneAnswers::answer(std::string_view line) {
   sampling.spp = number(query, "spp", sampling.spp);
   sampling.seed = number(query, "seed", sampling.seed);
   if (sampling.spp < 1) throw Error("spp", "must be at least 1");
-  const PlaneLight light =
-      world(query["scene"].get<std::string>()).query({p[0].get<double>(), p[1].get<double>()}, method, sampling);
+  const PlaneLight light = world(query["scene"].get<std::string>()).query({p[0].get<double>(), p[1].get<double>()}, method, sampling);
   ordered_json result = {{"mean_radiance", triple(light.radiance)}, {"method", name_of(method)}};
   if (query.contains("moments") && query["moments"].is_boolean() && query["moments"].get<bool>()) {
     result["moment_x"] = triple(light.moment_x);

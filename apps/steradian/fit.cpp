@@ -34,17 +34,15 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
 }
 
 void write_table(const LtcTable& table, const Options& options, const std::string& path) {
-  const std::vector<TableFile> files =
-      options.layout == "classic"
-          ? classic_files(classic_table(table), table.family.name, path)
-          : compact_files(compact_table(table, options.compact), table.family.name, path);
+  const std::vector<TableFile> files = options.layout == "classic"
+                                           ? classic_files(classic_table(table), table.family.name, path)
+                                           : compact_files(compact_table(table, options.compact), table.family.name, path);
   write_files(files);
   for (const TableFile& file : files) fmt::print("{}\n", file.path);
 }
 
 LookUp look_up_of(const LtcTable& table, const Options& options) {
-  if (options.layout == "compact")
-    return [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
+  if (options.layout == "compact") return [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
   const auto normalisation = options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
   return [t = classic_table(table, normalisation)](double r, double c) { return t.look_up(r, c); };
 }
@@ -61,8 +59,7 @@ void report(const LtcTable& table, const Options& options) {
 void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const Options& options) {
   fmt::print("\nFresnel, F90 = 1, whole grid: relative error by n_A and f_A, and with the lobe of its own\n");
   for (double f0 : {0.04, 0.2, 0.9}) {
-    const FresnelError e =
-        measure_fresnel(table.family, look_up_of(table, options), look_up_of(fresnel, options), f0, whole_grid());
+    const FresnelError e = measure_fresnel(table.family, look_up_of(table, options), look_up_of(fresnel, options), f0, whole_grid());
     fmt::print("F0 = {:.2f}  {:6.2f} %  {:6.2f} %\n", f0, 100 * e.split, 100 * e.lobe);
   }
 }
@@ -75,8 +72,8 @@ void run(const Options& options) {
   // A wrong ending is found before the work, not after it.
   if (!options.output.empty()) {
     if (options.layout == "classic")
-      classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4),
-                     ClassicNormalisation::middle}, options.lobe, options.output);
+      classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle},
+                    options.lobe, options.output);
     else
       compact_files({}, options.lobe, options.output);
   }
@@ -109,7 +106,8 @@ void add_fit(CLI::App& app, Exit&) {
       ->check(CLI::IsMember({"classic", "compact"}));
   verb->add_option("-o,--output", options->output,
                    "Table: .h .glsl .json; classic also .dds .exr, as NAME_1 (matrix) and NAME_2 (magnitudes)");
-  verb->add_flag("--fresnel-lobe", options->fresnel_lobe, "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel; with --report, what it gains")
+  verb->add_flag("--fresnel-lobe", options->fresnel_lobe,
+                 "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel; with --report, what it gains")
       ->needs("--output");
   verb->add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
   verb->add_option("--report-picture", options->picture, "The error over roughness and view (.png, .exr)")->needs("--report");

@@ -26,7 +26,8 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto";
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off",
+                             indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto";
   std::vector<std::string> lights;
   int max_lights = 256;
   Limits limits;
@@ -37,9 +38,8 @@ struct Options {
 // "1280x720" to two ints. The limit keeps a slip of the finger from asking for terabytes.
 void parse_size(const std::string& text, RenderOptions& render) {
   int used = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used) == 2 &&
-      static_cast<std::size_t>(used) == text.size() && render.width >= 1 && render.height >= 1 &&
-      render.width <= 16384 && render.height <= 16384)
+  if (std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used) == 2 && static_cast<std::size_t>(used) == text.size() &&
+      render.width >= 1 && render.height >= 1 && render.width <= 16384 && render.height <= 16384)
     return;
   throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
 }
@@ -49,8 +49,8 @@ std::optional<float> exposure_of(const Options& options) {
   if (options.exposure == "auto") return {};
   float stops = 0;
   int used = 0;
-  if (std::sscanf(options.exposure.c_str(), "%f%n", &stops, &used) == 1 &&
-      static_cast<std::size_t>(used) == options.exposure.size() && stops >= -30 && stops <= 30)
+  if (std::sscanf(options.exposure.c_str(), "%f%n", &stops, &used) == 1 && static_cast<std::size_t>(used) == options.exposure.size() &&
+      stops >= -30 && stops <= 30)
     return stops;
   throw CLI::ValidationError("--exposure", "'" + options.exposure + "' is not auto or a number of stops, -30 to 30");
 }
@@ -189,9 +189,7 @@ void run(const CLI::App& verb, Options& options) {
     throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
-  render_options.quality = options.quality == "draft"  ? Quality::draft
-                           : options.quality == "high" ? Quality::high
-                                                       : Quality::normal;
+  render_options.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
 
   refuse_unused_in_space(verb, options);
   const std::optional<float> fixed_exposure = exposure_of(options);
@@ -213,8 +211,7 @@ void run(const CLI::App& verb, Options& options) {
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "steradian: {}\n", warning);
 
   const float exposure = fixed_exposure.value_or(auto_exposure(picture));
-  if (!fixed_exposure && options.output.ends_with(".png"))
-    fmt::print(stderr, "steradian: --exposure {:.2f} (auto)\n", exposure);
+  if (!fixed_exposure && options.output.ends_with(".png")) fmt::print(stderr, "steradian: --exposure {:.2f} (auto)\n", exposure);
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", options.scene},
                       {"steradian.method", stats.method},
@@ -268,9 +265,7 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--indirect-clamp", options->indirect_clamp, "soft bound of near virtual lights, by their area")
       ->check(CLI::IsMember({"on", "off"}))
       ->group("Light");
-  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")
-      ->check(CLI::Range(1, 1 << 20))
-      ->group("Light");
+  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")->check(CLI::Range(1, 1 << 20))->group("Light");
   verb->add_option("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
       ->check(CLI::IsMember({"default", "none", "sun", "studio"}))
       ->group("Light");
@@ -278,20 +273,19 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
   verb->add_option("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)")->group("Picture");
   verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
-  CLI::Option* spp = verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
-      ->check(CLI::Range(1, 1 << 20))
-      ->group("Sampling");
+  CLI::Option* spp =
+      verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
+          ->check(CLI::Range(1, 1 << 20))
+          ->group("Sampling");
   verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
       ->check(CLI::Range(1e-6, 1.0))
       ->group("Sampling");
   verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
   verb->add_option("--backend", options->backend, "where to compute")->check(CLI::IsMember({"cpu"}))->group("Machine");
   verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
-  verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")
-      ->group("Machine");
+  verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")->group("Machine");
   add_limits(*verb, options->limits);
-  verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")
-      ->group("Picture");
+  verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")->group("Picture");
   verb->callback([options, spp, verb] {
     options->spp_given = spp->count() > 0;
     run(*verb, *options);

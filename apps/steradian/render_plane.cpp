@@ -16,9 +16,7 @@
 
 namespace steradian::app {
 
-bool is_plane_scene(const std::string& path) {
-  return path.size() > 4 && (path.ends_with(".svg") || path.ends_with(".SVG"));
-}
+bool is_plane_scene(const std::string& path) { return path.size() > 4 && (path.ends_with(".svg") || path.ends_with(".SVG")); }
 
 void render_plane_scene(const PlaneRender& job) {
   PlaneSvg loaded = load_plane_scene(job.scene, job.limits);
@@ -29,7 +27,10 @@ void render_plane_scene(const PlaneRender& job) {
   }
   const auto& bodies = loaded.scene.bodies;
   if (std::none_of(bodies.begin(), bodies.end(), [](const PlaneBody& body) { return body.light.has_value(); }))
-    fmt::print(stderr, "steradian: {}: no light in this file, so the picture is black: give a shape or its group class=\"light\" or data-steradian=\"light\", or name its layer \"lights\"\n", job.scene);
+    fmt::print(stderr,
+               "steradian: {}: no light in this file, so the picture is black: give a shape or its group class=\"light\" or "
+               "data-steradian=\"light\", or name its layer \"lights\"\n",
+               job.scene);
   PlaneFrameOptions options = job.frame;
   options.limits = job.limits;
   try {

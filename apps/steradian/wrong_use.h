@@ -18,7 +18,7 @@ std::string unknown_verb(const CLI::App& app, int argc, const char* const* argv)
 
 // An option that has an effect only under a condition.
 struct ConditionalOption {
-  const char* name;   // "--spp"
+  const char* name;  // "--spp"
   bool has_effect;
   const char* needs;  // what gives it an effect: "--method sampled"
 };

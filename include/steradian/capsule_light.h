@@ -2,8 +2,8 @@
 // lobes. docs/ggx.md, "Round lights".
 #pragma once
 
-#include "steradian/area_light.h"     // Capsule
-#include "steradian/material.h"       // LobeAxis
+#include "steradian/area_light.h"  // Capsule
+#include "steradian/material.h"    // LobeAxis
 
 namespace steradian {
 

@@ -22,14 +22,13 @@ struct LoadOptions {
 
 struct LoadedScene {
   Scene scene;
-  std::vector<std::string>
-      warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
+  std::vector<std::string> warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file
-// without lights, or with no other light than weak emissive textures on most of its surface (docs/scenes.md), gets a default area light, one without cameras a camera that frames the scene; both are said
-// in a warning. Throws Error with file, place in the file and what to do for everything that is broken or
-// required but unsupported.
+// without lights, or with no other light than weak emissive textures on most of its surface (docs/scenes.md), gets a default area light,
+// one without cameras a camera that frames the scene; both are said in a warning. Throws Error with file, place in the file and what to do
+// for everything that is broken or required but unsupported.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
 
 // The same for the bytes of such a file. path: for messages, and the place that other files are relative to.

@@ -21,8 +21,7 @@ bool serves(LtcMethod method, const Material& material);
 // Precondition: serves(method, material). Error against GGX: docs/ltc.md.
 Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 // The arithmetic in float.
-Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at,
-                         const Material& material);
+Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 
 // The GGX tables that the library ships: raw values, for textures and for shaders.
 struct LtcTableView {

@@ -24,13 +24,13 @@ struct Material {
   double exponent = 1;      // phong, blinn_phong, lobe_product: n >= 0
   double alpha_x = 0.25;    // ggx, beckmann: widths along the tangent and across it, at least kSmallestAlpha; charlie: alpha_x
   double alpha_y = 0.25;
-  Vec3d tangent{0, 0, 0};   // ggx, beckmann: direction of alpha_x, projected on the surface; zero: any
-  Vec3d f0{1, 1, 1};        // ggx: Schlick's Fresnel; f0 = f90 = 1 is no Fresnel
+  Vec3d tangent{0, 0, 0};  // ggx, beckmann: direction of alpha_x, projected on the surface; zero: any
+  Vec3d f0{1, 1, 1};       // ggx: Schlick's Fresnel; f0 = f90 = 1 is no Fresnel
   Vec3d f90{1, 1, 1};
-  bool shadowing = true;    // ggx: height-correlated Smith
-  bool foreshortening = false;  // phong: times the cosine of the light
-  Vec3d axis{0, 0, 0};      // lobe_product: of its second lobe; zero: the normal
-  double axis_exponent = 1; // lobe_product: of its second lobe, n >= 0
+  bool shadowing = true;             // ggx: height-correlated Smith
+  bool foreshortening = false;       // phong: times the cosine of the light
+  Vec3d axis{0, 0, 0};               // lobe_product: of its second lobe; zero: the normal
+  double axis_exponent = 1;          // lobe_product: of its second lobe, n >= 0
   bool multiple_scattering = false;  // ggx: what is lost between the facets is given back, see albedo.h
 };
 

@@ -10,12 +10,22 @@ namespace steradian {
 // `automatic` ("auto") is the most accurate method in real time that serves the lobe.
 enum class Method {
   automatic,
-  series, exact, arvo, lorentzian, pearson, ellipsoid,             // Phong; exact: others, too
-  closed_form, ltc, ltc_compact, ltc_clipless, representative_point,  // GGX
-  half_vector,                                                      // Blinn-Phong, Beckmann, GGX
-  matched_lobe,                                                     // products of Phong lobes
-  cubature,                                                         // Charlie
-  reference, sampled                                                // every lobe
+  series,
+  exact,
+  arvo,
+  lorentzian,
+  pearson,
+  ellipsoid,  // Phong; exact: others, too
+  closed_form,
+  ltc,
+  ltc_compact,
+  ltc_clipless,
+  representative_point,  // GGX
+  half_vector,           // Blinn-Phong, Beckmann, GGX
+  matched_lobe,          // products of Phong lobes
+  cubature,              // Charlie
+  reference,
+  sampled  // every lobe
 };
 
 // How much work a method puts into what it approximates; methods without such a choice ignore it.

@@ -28,8 +28,7 @@ struct PhongOptions {
 
 // Radiance towards the view; 0 for a view below the surface, from behind a one-sided light, and in its plane.
 // Throws Error for a negative exponent, for a method of other lobes, and for arvo with one that is not an integer.
-Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
-                     const PhongOptions& options = {});
+Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material, const PhongOptions& options = {});
 
 // The same in single precision. exact is the fixed quadrature of kernels/integral/moment_quadrature.glsl, with 14 nodes.
 Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
@@ -43,7 +42,6 @@ double axial_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, 
 
 // Integral of max(u.axis, 0)^n (u.other) over the same part, exact as above: foreshortening (other = normal) without
 // approximation. `other` may have any length; n >= 0.
-double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other,
-                          double n);
+double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other, double n);
 
 }  // namespace steradian

@@ -47,8 +47,8 @@ struct PlaneEmission {
   std::optional<PlaneGradient> gradient;  // takes the place of `radiance`
   PlaneProfile profile = PlaneProfile::uniform;
   double range = std::numeric_limits<double>::infinity();  // times (1 - (r/range)^2)^2, r to the light's surface
-  Vec2d spot_axis;                        // light leaves within spot_half_angle of this direction; zero: everywhere
-  double spot_half_angle = 0;             // radians, up to pi
+  Vec2d spot_axis;                                         // light leaves within spot_half_angle of this direction; zero: everywhere
+  double spot_half_angle = 0;                              // radians, up to pi
 };
 
 struct PlaneBody {
@@ -102,8 +102,8 @@ struct PlaneSampling {
 };
 
 struct PlaneLight {
-  Vec3d radiance;                // averaged over the circle of directions
-  Vec3d moment_x, moment_y;      // the same average of radiance times direction (towards the light), per channel
+  Vec3d radiance;            // averaged over the circle of directions
+  Vec3d moment_x, moment_y;  // the same average of radiance times direction (towards the light), per channel
 };
 
 // A scene made ready. Holds its own copy; const, and safe to use from several threads.
@@ -133,10 +133,10 @@ struct PlaneFrameOptions {
   int width = 0, height = 0;  // pixels; 0: the scene's own size, one unit a pixel
   PlaneMethod method = PlaneMethod::exact;
   PlaneSampling sampling;
-  bool moments = false;       // layers "moment_x" and "moment_y"; in double, pixel by pixel
-  int aa = 1;                 // point values a pixel, on a square grid (rounded up to a square number)
-  int threads = 0;            // 0: all
-  Limits limits;              // of the picture, and of the lights and blockers that may meet in it
+  bool moments = false;  // layers "moment_x" and "moment_y"; in double, pixel by pixel
+  int aa = 1;            // point values a pixel, on a square grid (rounded up to a square number)
+  int threads = 0;       // 0: all
+  Limits limits;         // of the picture, and of the lights and blockers that may meet in it
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
 };
 

@@ -42,8 +42,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& light, const Shadin
 
 // Of ltc_radiance by `classic` or `compact`. By the normal, the table's values change too: its interpolation is differentiated.
 // Throws Error for the other methods and for what ltc_radiance does not serve.
-RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at,
-                                             const Material& material);
+RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at, const Material& material);
 
 // By the point, normal and view direction fixed: only what lies between light and point counts, so it is minus the sum over
 // the vertices.

@@ -40,13 +40,10 @@ struct RadianceResult {
 
 // 0 for a view below the surface, from behind (unless two-sided) and for a light without area. Throws Error where the method
 // does not serve the lobe or the precision; it names those that do.
-RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe,
-                        const RadianceOptions& options = {});
-RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe,
-                        const RadianceOptions& options = {});
+RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
+RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 // Polygons, disks, spheres and capsules; of a textured light, under its mean radiance. Round lights are exact for Lambert by
 // `exact`; of other methods they are polygons, and the bound of reference holds the difference (docs/eval.md).
-RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Material& lobe,
-                        const RadianceOptions& options = {});
+RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 
 }  // namespace steradian

@@ -10,8 +10,8 @@
 namespace steradian {
 
 struct ReferenceOptions {
-  double relative_error = 1e-10;   // stop when the bound is below this share of the value ...
-  double absolute_error = 1e-13;   // ... or below this, for light of radiance 1
+  double relative_error = 1e-10;  // stop when the bound is below this share of the value ...
+  double absolute_error = 1e-13;  // ... or below this, for light of radiance 1
   int max_evaluations = 4'000'000;
 };
 
@@ -26,7 +26,7 @@ ReferenceResult reference_radiance(const PreparedPolygon& light, const ShadingPo
                                    const ReferenceOptions& options = {});
 
 struct SampledOptions {
-  int spp = 256;           // pairs of a light sample and a lobe sample
+  int spp = 256;  // pairs of a light sample and a lobe sample
   std::uint64_t seed = 1;
 };
 

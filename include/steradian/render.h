@@ -20,8 +20,8 @@ enum class Shadows { off, on, exact };
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  std::string camera;          // name; empty: the first
-  std::string method = "auto"; // of the specular lobe: a name of `render --help`
+  std::string camera;                 // name; empty: the first
+  std::string method = "auto";        // of the specular lobe: a name of `render --help`
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
@@ -29,7 +29,7 @@ struct RenderOptions {
   double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
   IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
-  int threads = 0;             // 0: all
+  int threads = 0;                                                        // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
 };
 
@@ -45,7 +45,7 @@ struct RenderStats {
   std::string method;  // what `auto` became
   std::size_t lights = 0;
   std::size_t triangles = 0;
-  double shadow_fallback = 0;  // share of pairs of a surface and a light whose shadows rays have estimated
+  double shadow_fallback = 0;         // share of pairs of a surface and a light whose shadows rays have estimated
   std::vector<std::string> warnings;  // what the method leaves out, a sentence each
 };
 

@@ -40,8 +40,8 @@ struct SurfaceMaterial {
   TextureUse clearcoat_roughness_texture;  // g
   TextureUse clearcoat_normal_texture;
 
-  Vec3f sheen_color{0, 0, 0};       // of Charlie's lobe over all but the coat; black: none
-  TextureUse sheen_color_texture;   // sRGB
+  Vec3f sheen_color{0, 0, 0};      // of Charlie's lobe over all but the coat; black: none
+  TextureUse sheen_color_texture;  // sRGB
   float sheen_roughness = 0;
   TextureUse sheen_roughness_texture;  // a
 
@@ -77,11 +77,11 @@ struct Mesh {
   std::string name;
   int material = 0;  // into Scene::materials; always valid
   std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;          // as many as positions
-  std::vector<Vec4f> tangents;         // as many, or none; w = +-1: bitangent = w cross(normal, tangent)
-  std::vector<Vec2f> texcoords[2];     // set 0 and 1: as many, or none
-  std::vector<Vec4f> colors;           // linear, multiply base_color: as many, or none
-  std::vector<std::uint32_t> indices;  // three a triangle
+  std::vector<Vec3f> normals;                 // as many as positions
+  std::vector<Vec4f> tangents;                // as many, or none; w = +-1: bitangent = w cross(normal, tangent)
+  std::vector<Vec2f> texcoords[2];            // set 0 and 1: as many, or none
+  std::vector<Vec4f> colors;                  // linear, multiply base_color: as many, or none
+  std::vector<std::uint32_t> indices;         // three a triangle
   std::vector<std::int32_t> triangle_lights;  // emitters: into Scene::area_lights, -1 dropped; others: none
   bool is_light_shape = false;
   bool casts_shadow = true;  // false: rays between a point and a light pass it, as they do is_light_shape
@@ -117,8 +117,8 @@ struct Scene {
   std::vector<Image> images;  // what TextureUse::image points into
   std::vector<AreaLight> area_lights;
   std::vector<PunctualLight> punctual_lights;
-  std::vector<Camera> cameras;   // at least one after load_scene; the first is the default
-  Vec3d bounds_min, bounds_max;  // of all meshes; both zero without meshes
+  std::vector<Camera> cameras;       // at least one after load_scene; the first is the default
+  Vec3d bounds_min, bounds_max;      // of all meshes; both zero without meshes
   bool multiple_scattering = false;  // of the GGX lobes of metallic-roughness surfaces, see albedo.h
 
   std::size_t triangle_count() const {

@@ -39,9 +39,7 @@ struct TextureUse {
   float uv[6] = {1, 0, 0, 0, 1, 0};
 
   bool present() const { return image >= 0; }
-  Vec2f transformed(Vec2f t) const {
-    return {uv[0] * t.x + uv[1] * t.y + uv[2], uv[3] * t.x + uv[4] * t.y + uv[5]};
-  }
+  Vec2f transformed(Vec2f t) const { return {uv[0] * t.x + uv[1] * t.y + uv[2], uv[3] * t.x + uv[4] * t.y + uv[5]}; }
 };
 
 // The texel value at mesh coordinates t (transform, wrap and filter applied), rgb linear. White without a

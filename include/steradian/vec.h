@@ -20,9 +20,7 @@ struct Vec2 {
   STERADIAN_INLINE friend Vec2 operator*(Vec2 a, R s) { return {a.x * s, a.y * s}; }
   STERADIAN_INLINE friend Vec2 operator*(R s, Vec2 a) { return {s * a.x, s * a.y}; }
   STERADIAN_INLINE friend R dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-  STERADIAN_INLINE friend Vec2 select(typename R::M m, Vec2 a, Vec2 b) {
-    return {select(m, a.x, b.x), select(m, a.y, b.y)};
-  }
+  STERADIAN_INLINE friend Vec2 select(typename R::M m, Vec2 a, Vec2 b) { return {select(m, a.x, b.x), select(m, a.y, b.y)}; }
 };
 
 template <class R>
@@ -36,9 +34,7 @@ struct Vec3 {
   STERADIAN_INLINE friend Vec3 operator*(Vec3 a, R s) { return {a.x * s, a.y * s, a.z * s}; }
   STERADIAN_INLINE friend Vec3 operator*(R s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
   STERADIAN_INLINE friend R dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  STERADIAN_INLINE friend Vec3 cross(Vec3 a, Vec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
+  STERADIAN_INLINE friend Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
   STERADIAN_INLINE friend Vec3 select(typename R::M m, Vec3 a, Vec3 b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
   }
@@ -49,12 +45,8 @@ struct Vec4 {
   R x, y, z, w;
   Vec4() = default;
   STERADIAN_INLINE Vec4(R x_, R y_, R z_, R w_) : x(x_), y(y_), z(z_), w(w_) {}
-  STERADIAN_INLINE friend Vec4 operator+(Vec4 a, Vec4 b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
-  }
-  STERADIAN_INLINE friend Vec4 operator-(Vec4 a, Vec4 b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
-  }
+  STERADIAN_INLINE friend Vec4 operator+(Vec4 a, Vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+  STERADIAN_INLINE friend Vec4 operator-(Vec4 a, Vec4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
   STERADIAN_INLINE friend Vec4 operator*(Vec4 a, R s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
   STERADIAN_INLINE friend Vec4 operator*(R s, Vec4 a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
   STERADIAN_INLINE friend Vec4 select(typename R::M m, Vec4 a, Vec4 b) {

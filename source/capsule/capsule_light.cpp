@@ -28,8 +28,7 @@ template <class S>
 Seen<S> seen_from(const Capsule& capsule, Vec3d position, const Frame& frame) {
   const double unit = unit_of(capsule, position);
   return Kernels<S>().capsule_prepare(local<S>(frame, (capsule.end_a - position) * unit),
-                                      local<S>(frame, (capsule.end_b - position) * unit),
-                                      typename Kernels<S>::real(capsule.radius * unit));
+                                      local<S>(frame, (capsule.end_b - position) * unit), typename Kernels<S>::real(capsule.radius * unit));
 }
 
 template <class S>
@@ -43,9 +42,8 @@ template <class S>
 S irradiance_of_line(Vec3d end_a, Vec3d end_b, Vec3d position, Vec3d normal) {
   const double unit = unit_of({end_a, end_b, 0}, position);
   const Frame frame = Frame::from_normal(normal);
-  const S e = Kernels<S>()
-                  .line_irradiance_vector(local<S>(frame, (end_a - position) * unit), local<S>(frame, (end_b - position) * unit))
-                  .z.v;
+  const S e =
+      Kernels<S>().line_irradiance_vector(local<S>(frame, (end_a - position) * unit), local<S>(frame, (end_b - position) * unit)).z.v;
   return static_cast<S>(static_cast<double>(e) * unit);
 }
 
@@ -56,9 +54,7 @@ Vec3d to_vector(const Kernels<double>::vec3& v) { return {v.x.v, v.y.v, v.z.v}; 
 // The direction from which the outline's two ends along the tube are equally far: all of it is in front.
 Vec3d middle_of(const Seen<double>& c) {
   const auto angle = [&](Kernels<double>::real place) { return std::atan2(place.v, c.height.v); };
-  const auto cap = [&](const Kernels<double>::vec3& end) {
-    return std::asin(std::min(c.radius.v / length(to_vector(end)), 1.0));
-  };
+  const auto cap = [&](const Kernels<double>::vec3& end) { return std::asin(std::min(c.radius.v / length(to_vector(end)), 1.0)); };
   const double middle = 0.5 * (angle(c.at_a) - cap(c.end_a) + angle(c.at_b) + cap(c.end_b));
   return to_vector(c.toward) * std::cos(middle) + to_vector(c.along) * std::sin(middle);
 }
@@ -79,9 +75,7 @@ PolygonLight flattened(const std::vector<Vec3d>& corners, Vec3d position, Vec3d 
 
 }  // namespace
 
-double capsule_irradiance(const Capsule& capsule, Vec3d position, Vec3d normal) {
-  return irradiance<double>(capsule, position, normal);
-}
+double capsule_irradiance(const Capsule& capsule, Vec3d position, Vec3d normal) { return irradiance<double>(capsule, position, normal); }
 float capsule_irradiance_float(const Capsule& capsule, Vec3d position, Vec3d normal) {
   return irradiance<float>(capsule, position, normal);
 }
@@ -111,8 +105,7 @@ double distance_along(const Capsule& capsule, Vec3d origin, Vec3d direction) {
 }
 
 PolygonLight polygon_for_lobe(const Capsule& capsule, Vec3d position, const LobeAxis& lobe, int vertices) {
-  if (vertices < 6 || vertices > 2048)
-    throw Error("vertices", "must be from 6 to 2048, here is " + std::to_string(vertices));
+  if (vertices < 6 || vertices > 2048) throw Error("vertices", "must be from 6 to 2048, here is " + std::to_string(vertices));
   if (!(distance_to_axis(capsule, position) > capsule.radius)) return {};
   Kernels<double> k;
   const auto seen = seen_from<double>(capsule, position, kWorld);

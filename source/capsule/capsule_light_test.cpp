@@ -61,8 +61,7 @@ TEST(CapsuleIrradiance, OfNoLengthIsTheSpheres) {
     // A length L adds at most 2 R L + what it covers of the sphere itself: 2 L / (1 - R) of its directions.
     const double length = 1e-9;
     const Vec3d end = center + random_direction(random) * length;
-    worst_near = std::max(worst_near, std::fabs(capsule_irradiance({center, end, radius}, {}, normal) - sphere) * (1 - radius) /
-                                          length);
+    worst_near = std::max(worst_near, std::fabs(capsule_irradiance({center, end, radius}, {}, normal) - sphere) * (1 - radius) / length);
   }
   std::printf("largest difference %.2e, in float %.2e; over the length %.2f\n", worst, worst_float, worst_near);
   EXPECT_LT(worst, 1e-12);
@@ -284,9 +283,7 @@ TEST(CapsulePolygons, GgxHoldsItsError) {
     Material m;
     m.brdf = Brdf::ggx;
     m.alpha_x = m.alpha_y = random.uniform(0.05, 0.4);
-    const auto radiance = [&](const PolygonLight& light) {
-      return closed_form_radiance(prepare_polygon(light), at, m, Quality::high).x;
-    };
+    const auto radiance = [&](const PolygonLight& light) { return closed_form_radiance(prepare_polygon(light), at, m, Quality::high).x; };
     const double truth = radiance(polygon_of_equal_steps(c, {}, 256));
     const int vertices[2] = {12, 16};
     for (int k = 0; k < 2; ++k) {
@@ -296,8 +293,7 @@ TEST(CapsulePolygons, GgxHoldsItsError) {
     }
     ++count;
   }
-  for (int k = 0; k < 2; ++k)
-    std::printf("K = %d: largest error %.5f, rms %.5f\n", 12 + 4 * k, worst[k], std::sqrt(sum[k] / count));
+  for (int k = 0; k < 2; ++k) std::printf("K = %d: largest error %.5f, rms %.5f\n", 12 + 4 * k, worst[k], std::sqrt(sum[k] / count));
   EXPECT_LE(worst[0], 0.01);
   EXPECT_LE(worst[1], 0.005);
 }

@@ -11,8 +11,7 @@ namespace {
 void check_finite(const Picture& picture, const char* which) {
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
-      if (!is_finite(picture.at(x, y)))
-        throw Error(which, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is not finite");
+      if (!is_finite(picture.at(x, y))) throw Error(which, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is not finite");
 }
 
 // 0/0 is no difference at all; x/0 is one beyond measure.
@@ -25,8 +24,8 @@ double ratio(double a, double b, double both_zero) {
 
 Difference difference(const Picture& a, const Picture& b) {
   if (a.width != b.width || a.height != b.height)
-    throw Error("", "the pictures differ in size: " + std::to_string(a.width) + " x " + std::to_string(a.height) +
-                        " and " + std::to_string(b.width) + " x " + std::to_string(b.height));
+    throw Error("", "the pictures differ in size: " + std::to_string(a.width) + " x " + std::to_string(a.height) + " and " +
+                        std::to_string(b.width) + " x " + std::to_string(b.height));
   check_finite(a, "first picture");
   check_finite(b, "second picture");
   Difference d;

@@ -21,8 +21,7 @@ double two_sided_threshold(double p) {
 }  // namespace
 
 ZTest z_test(const Picture& picture, const Picture& estimate, double rounding) {
-  if (picture.width != estimate.width || picture.height != estimate.height)
-    throw Error("", "the pictures differ in size");
+  if (picture.width != estimate.width || picture.height != estimate.height) throw Error("", "the pictures differ in size");
   const auto found = estimate.layers.find("variance");
   if (found == estimate.layers.end()) throw Error("", "the estimate has no layer 'variance'");
   const auto channel = [](Vec3f v, int c) { return static_cast<double>(c == 0 ? v.x : c == 1 ? v.y : v.z); };

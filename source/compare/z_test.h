@@ -6,9 +6,9 @@
 namespace steradian {
 
 struct ZTest {
-  std::size_t tested = 0;    // channels of pixels with variance or difference
+  std::size_t tested = 0;  // channels of pixels with variance or difference
   std::size_t accepted = 0;
-  double threshold = 0;      // standard deviations
+  double threshold = 0;  // standard deviations
   double worst = 0;
   double share() const { return tested > 0 ? static_cast<double>(accepted) / static_cast<double>(tested) : 1; }
 };

@@ -87,9 +87,8 @@ void AtomicFile::open_temporary(unsigned mode) {
     if (descriptor_ < 0) fail("cannot create", errno);
     return;
   }
-  temporary_ = take_free_name(target_, [&](const std::string& name) {
-    return descriptor_ = open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
-  });
+  temporary_ = take_free_name(
+      target_, [&](const std::string& name) { return descriptor_ = open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode); });
   if (descriptor_ < 0) fail("cannot create", errno);
 }
 

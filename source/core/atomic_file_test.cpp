@@ -28,9 +28,7 @@ class AtomicFiles : public testing::Test {
     folder = name;
   }
   void TearDown() override { fs::remove_all(folder); }
-  std::size_t count() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-  }
+  std::size_t count() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator())); }
   fs::path folder;
 };
 

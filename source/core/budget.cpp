@@ -28,8 +28,8 @@ void Budget::take_memory(const std::string& place, std::string_view what, std::u
   const std::uint64_t left = limits_.memory - memory_;
   if (bytes > left)
     throw Error(place,
-                "would take " + readable_bytes(bytes) + " of memory for " + std::string(what) + ", " +
-                    readable_bytes(left) + " of " + readable_bytes(limits_.memory) + " are left",
+                "would take " + readable_bytes(bytes) + " of memory for " + std::string(what) + ", " + readable_bytes(left) + " of " +
+                    readable_bytes(limits_.memory) + " are left",
                 "raise the limit with --max-memory, or use less");
   memory_ += bytes;
   last_place_ = place;
@@ -41,8 +41,8 @@ void Budget::take_work(const std::string& place, std::string_view what, std::uin
   const std::uint64_t left = limits_.work - work_;
   if (steps > left)
     throw Error(place,
-                "would take " + readable_steps(steps) + " for " + std::string(what) + ", " + readable_steps(left) +
-                    " of " + readable_steps(limits_.work) + " are left",
+                "would take " + readable_steps(steps) + " for " + std::string(what) + ", " + readable_steps(left) + " of " +
+                    readable_steps(limits_.work) + " are left",
                 "raise the limit with --max-work, or use less");
   work_ += steps;
 }
@@ -50,8 +50,8 @@ void Budget::take_work(const std::string& place, std::string_view what, std::uin
 Error Budget::out_of_memory() const {
   if (last_what_.empty()) return Error("", "the machine ran out of memory", "free some memory, or use less");
   return Error(last_place_,
-               "the machine ran out of memory after " + readable_bytes(memory_) + ", the last of them " +
-                   readable_bytes(last_bytes_) + " for " + last_what_,
+               "the machine ran out of memory after " + readable_bytes(memory_) + ", the last of them " + readable_bytes(last_bytes_) +
+                   " for " + last_what_,
                "free some memory, or use less");
 }
 

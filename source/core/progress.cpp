@@ -21,9 +21,7 @@ ProgressOutput progress_on_terminal() {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
   };
-  output.seconds = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  };
+  output.seconds = [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
   return output;
 }
 
@@ -56,11 +54,9 @@ void Progress::show(double now) {
   if (total_ > 0) {
     const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
     const double left = share > 0 ? elapsed * (1 - share) / share : 0.0;
-    std::snprintf(line, sizeof line, "\r%.80s  %5.1f %%  %.0f s, %.0f s left\x1b[K", label_.c_str(), 100 * share,
-                  elapsed, left);
+    std::snprintf(line, sizeof line, "\r%.80s  %5.1f %%  %.0f s, %.0f s left\x1b[K", label_.c_str(), 100 * share, elapsed, left);
   } else {
-    std::snprintf(line, sizeof line, "\r%.80s  %llu  %.0f s\x1b[K", label_.c_str(),
-                  static_cast<unsigned long long>(done), elapsed);
+    std::snprintf(line, sizeof line, "\r%.80s  %llu  %.0f s\x1b[K", label_.c_str(), static_cast<unsigned long long>(done), elapsed);
   }
   output_.write(line);
 }

@@ -17,8 +17,7 @@ Bytes read_file(const std::string& path, const std::string& place, Budget& budge
   budget.take_memory(place, "the bytes of " + path, size);
   Bytes bytes(static_cast<std::size_t>(size));
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (file.gcount() != static_cast<std::streamsize>(bytes.size()))
-    throw Error(place, "the file " + path + " ended while it was read");
+  if (file.gcount() != static_cast<std::streamsize>(bytes.size())) throw Error(place, "the file " + path + " ended while it was read");
   return bytes;
 }
 

@@ -14,9 +14,8 @@ bool runs(Simd simd) {
     case Simd::sse2: return true;
     case Simd::avx2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     case Simd::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-             __builtin_cpu_supports("avx512cd");
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+             __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
   }
   return false;
 }
@@ -43,8 +42,7 @@ std::vector<Simd> available_simd() {
   for (Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512})
     if (runs(simd)) result.push_back(simd);
   if (result.empty())
-    throw Error("this build", "holds no instruction set that this processor runs",
-                "build with -DSTERADIAN_INSTRUCTION_SETS=sse2");
+    throw Error("this build", "holds no instruction set that this processor runs", "build with -DSTERADIAN_INSTRUCTION_SETS=sse2");
   return result;
 }
 
@@ -58,8 +56,7 @@ Simd active_simd() {
                   std::string("widest here: ") + name_of(available_simd().back()));
     return simd;
   }
-  throw Error("STERADIAN_SIMD", std::string("unknown instruction set '") + forced + "'",
-              "use sse2, avx2 or avx512, or unset it");
+  throw Error("STERADIAN_SIMD", std::string("unknown instruction set '") + forced + "'", "use sse2, avx2 or avx512, or unset it");
 }
 
 }  // namespace steradian

@@ -43,13 +43,13 @@ Simd active_simd();
 // lambert_tableSUFFIX_for(simd).
 #define STERADIAN_DECLARE_PACK_TABLE_IN(suffix, Table, function)       \
   namespace isa_sse2##suffix {                                         \
-  const Table& function();                                             \
+    const Table& function();                                           \
   }                                                                    \
   namespace isa_avx2##suffix {                                         \
-  const Table& function();                                             \
+    const Table& function();                                           \
   }                                                                    \
   namespace isa_avx512##suffix {                                       \
-  const Table& function();                                             \
+    const Table& function();                                           \
   }                                                                    \
   inline const Table& function##suffix##_for(Simd simd) {              \
     if constexpr (is_built(Simd::avx512))                              \

@@ -31,8 +31,7 @@ S irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
   const auto seen = seen_from<S>(scaled, position, Frame::from_normal(normal));
   const auto elements = k.ellipse_elements(seen);
   const integrals::SmallLight<S> small = {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings};
-  if (any_lane(integrals::elements_serve<S>(elements, small)))
-    return k.light_elements_irradiance_vector(elements).z.v;
+  if (any_lane(integrals::elements_serve<S>(elements, small))) return k.light_elements_irradiance_vector(elements).z.v;
   return k.ellipse_irradiance_vector(seen).z.v;
 }
 
@@ -55,9 +54,7 @@ const Frame kWorld{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 }  // namespace
 
-double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
-  return irradiance<double>(ellipse, position, normal);
-}
+double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) { return irradiance<double>(ellipse, position, normal); }
 float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
   return irradiance<float>(ellipse, position, normal);
 }

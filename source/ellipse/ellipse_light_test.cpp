@@ -23,8 +23,7 @@ Ellipse random_round_light(Random& random, Vec3d direction) {
   const double size = std::tan(random.uniform(3, 45) * kPi / 180) * 0.7;
   const Frame f = Frame::from_normal(random_direction(random));
   const auto axis = [&](Vec3d a) { return a * (size * random.uniform(0.3, 1.1)); };
-  if (random.uniform() < 0.6)
-    return *silhouette(direction, axis(f.x), axis(f.y), axis(f.z), {});
+  if (random.uniform() < 0.6) return *silhouette(direction, axis(f.x), axis(f.y), axis(f.z), {});
   const Vec3d facing = normalized(random_direction(random) * 0.8 - direction);
   const Frame g = Frame::from_normal(facing);
   return {direction, axis(g.x), axis(g.y)};
@@ -108,12 +107,11 @@ TEST(EllipsePolygons, PhongLobesHoldTheirError) {
       };
       const double truth = radiance(equal_area_polygon(e, {1, 1, 1}, 512));
       const int vertices[3] = {8, 12, 16};
-      for (int k = 0; k < 3; ++k)
-        worst[k] = std::max(worst[k], std::fabs(radiance(polygon_for_lobe(e, {}, lobe, vertices[k])) - truth));
+      for (int k = 0; k < 3; ++k) worst[k] = std::max(worst[k], std::fabs(radiance(polygon_for_lobe(e, {}, lobe, vertices[k])) - truth));
       even_worst = std::max(even_worst, std::fabs(radiance(equal_area_polygon(e, {1, 1, 1}, 8)) - truth));
     }
-    std::printf("n = %4.0f: largest error of the full lobe K = 8 %.5f, 12 %.5f, 16 %.5f; 8 at equal steps %.5f\n", n, worst[0],
-                worst[1], worst[2], even_worst);
+    std::printf("n = %4.0f: largest error of the full lobe K = 8 %.5f, 12 %.5f, 16 %.5f; 8 at equal steps %.5f\n", n, worst[0], worst[1],
+                worst[2], even_worst);
     EXPECT_LE(worst[0], 0.0075) << "n " << n;
     EXPECT_LE(worst[1], 0.0011) << "n " << n;
     EXPECT_LE(worst[2], worst[0]) << "n " << n;
@@ -134,9 +132,7 @@ TEST(EllipsePolygons, GgxHoldsItsErrorWithTwelveVertices) {
     Material m;
     m.brdf = Brdf::ggx;
     m.alpha_x = m.alpha_y = random.uniform(0.05, 0.4);
-    const auto radiance = [&](const PolygonLight& light) {
-      return closed_form_radiance(prepare_polygon(light), at, m, Quality::high).x;
-    };
+    const auto radiance = [&](const PolygonLight& light) { return closed_form_radiance(prepare_polygon(light), at, m, Quality::high).x; };
     const double error = std::fabs(radiance(polygon_of_equal_steps(e, {}, 12)) - radiance(equal_area_polygon(e, {1, 1, 1}, 256)));
     worst = std::max(worst, error);
     sum += error * error;

@@ -30,8 +30,8 @@ LobeAnswer point_answer(const PointLight& light, const ShadingPoint& at, const M
 }
 
 // Adds what one material contributes to the derivatives. Throws Error for lobes and methods that have none.
-void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoint& at, const Material& m,
-                     const MethodEntry& entry, Quality quality) {
+void add_derivatives(Answer& answer, const PolygonLight& light, const ShadingPoint& at, const Material& m, const MethodEntry& entry,
+                     Quality quality) {
   if (entry.derivatives == nullptr)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + entry.name, "use auto");
   const RadianceDerivatives d = entry.derivatives(light, at, m, quality);
@@ -52,21 +52,18 @@ class Sum {
     answer_.radiance += part.radiance;
     if (part.bound) answer_.bound = answer_.bound.value_or(0.0) + *part.bound;
     // The lobes are sampled with seeds of their own: variances add.
-    if (part.standard_error)
-      answer_.standard_error = std::hypot(answer_.standard_error.value_or(0.0), *part.standard_error);
+    if (part.standard_error) answer_.standard_error = std::hypot(answer_.standard_error.value_or(0.0), *part.standard_error);
   }
   Answer& answer() { return answer_; }
   Answer finish(Precision precision) && {
     answer_.precision = precision;
-    const bool error_is_finite =
-        std::isfinite(answer_.bound.value_or(0.0)) && std::isfinite(answer_.standard_error.value_or(0.0));
+    const bool error_is_finite = std::isfinite(answer_.bound.value_or(0.0)) && std::isfinite(answer_.standard_error.value_or(0.0));
     // What is printed as a float must be one.
     const Vec3d r = answer_.radiance;
     const double largest = std::max({std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
     const bool fits = precision == Precision::double_ || largest <= static_cast<double>(std::numeric_limits<float>::max());
     if (!is_finite(r) || !fits || !error_is_finite)
-      throw Error("radiance", "the result is out of the range of numbers",
-                  "scale radiance, intensity, albedo or distances down");
+      throw Error("radiance", "the result is out of the range of numbers", "scale radiance, intensity, albedo or distances down");
     return std::move(answer_);
   }
 
@@ -84,8 +81,7 @@ Answer evaluate(const Query& query) {
   const auto* curved = std::get_if<CurvedLight>(&query.light);
   const auto* polygon = std::get_if<PolygonLight>(&query.light);
   const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
-  if (query.derivatives && polygon == nullptr)
-    throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
+  if (query.derivatives && polygon == nullptr) throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
   if (query.derivatives && query.occluders != nullptr)
     throw Error("derivatives", "there are none past occluders yet", "leave one of the keys out");
   Sum sum;

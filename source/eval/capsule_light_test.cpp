@@ -49,9 +49,7 @@ Answer ask(const Light& light, const ShadingPoint& at, const Material& m, Method
 }
 
 CurvedLight tube(Vec3d a, Vec3d b, double radius) { return {capsule_or_line(a, b, radius)}; }
-Light sphere(Vec3d center, double radius) {
-  return CurvedLight{Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}};
-}
+Light sphere(Vec3d center, double radius) { return CurvedLight{Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
 
 struct Case {
   const char* name;
@@ -203,14 +201,13 @@ TEST(EvalCapsule, ATinyOneIsAPointLight) {
 }
 
 TEST(EvalCapsule, InsideBelowAndNoWidthGiveZero) {
-  const CurvedLight dark[] = {tube({-1, 0.5, 0}, {1, 0.5, 0}, 0.6),   // inside
-                               tube({-1, 0, 0}, {1, 0, 0}, 0.1),       // on the axis, inside
-                               tube({-1, 0, 0}, {1, 0, 0}, 0),         // through the point
-                               tube({0, 0, 0}, {0, 0, 0}, 0),
-                               tube({0, 1, 0}, {0, 1, 0}, 0),          // a point
-                               tube({0, 1, 0}, {0, 2, 0}, 0),          // towards the point
-                               tube({-1, -2, 0}, {1, -2, 0}, 1),       // below the horizon
-                               tube({-1, -2, 0}, {1, -2, 0}, 0)};
+  const CurvedLight dark[] = {tube({-1, 0.5, 0}, {1, 0.5, 0}, 0.6),                                 // inside
+                              tube({-1, 0, 0}, {1, 0, 0}, 0.1),                                     // on the axis, inside
+                              tube({-1, 0, 0}, {1, 0, 0}, 0),                                       // through the point
+                              tube({0, 0, 0}, {0, 0, 0}, 0),        tube({0, 1, 0}, {0, 1, 0}, 0),  // a point
+                              tube({0, 1, 0}, {0, 2, 0}, 0),                                        // towards the point
+                              tube({-1, -2, 0}, {1, -2, 0}, 1),                                     // below the horizon
+                              tube({-1, -2, 0}, {1, -2, 0}, 0)};
   for (const CurvedLight& light : dark)
     for (const Material& m : {material_of(Brdf::lambert), ggx(0.3)})
       for (Method method : {Method::automatic, Method::reference, Method::sampled})
@@ -224,7 +221,7 @@ TEST(EvalCapsule, EveryMethodGivesFiniteNumbersWhereverThePointIs) {
     const Vec3d b = i % 3 == 0 ? a * random.uniform(0, 3) : random_direction(random) * std::pow(10, random.uniform(-2, 2));
     const double radius = i % 4 == 0 ? 0 : std::pow(10, random.uniform(-9, 1));
     for (const Case& c : cases()) {
-      if (c.method == Method::exact && c.material.brdf != Brdf::lambert) continue;  // 1024 vertices: slow
+      if (c.method == Method::exact && c.material.brdf != Brdf::lambert) continue;             // 1024 vertices: slow
       const Answer answer = ask(tube(a, b, radius), kFloor, c.material, c.method, c.quality);  // throws where not finite
       EXPECT_GE(answer.radiance.x, 0.0) << c.name << " " << i;
       if (c.material.brdf == Brdf::lambert && radius > 0) {
@@ -237,8 +234,7 @@ TEST(EvalCapsule, EveryMethodGivesFiniteNumbersWhereverThePointIs) {
 TEST(EvalCapsule, ReadsItsKeysAndNamesWrongOnes) {
   QueryReader reader;
   const auto read = [&](const std::string& light) {
-    const std::string line = R"({"light": )" + light +
-                       R"(, "position": [0,0,0], "normal": [0,1,0], "material": {"brdf": "lambert"}})";
+    const std::string line = R"({"light": )" + light + R"(, "position": [0,0,0], "normal": [0,1,0], "material": {"brdf": "lambert"}})";
     std::string out, padded = line + std::string(kQueryPadding, ' ');
     answer_line(reader, std::string_view(padded).substr(0, line.size()), out);
     return out;

@@ -44,12 +44,14 @@ CurvedLight seen_from(const CurvedLight& light, Vec3d position) {
   CurvedLight seen = light;
   double largest = 0;
   bool finite = true;
-  std::visit([&](auto& shape) {
-    each_length(shape, position, [&](const auto& x) {
-      finite &= std::isfinite(largest_of(x));
-      largest = std::max(largest, largest_of(x));
-    });
-  }, seen.shape);
+  std::visit(
+      [&](auto& shape) {
+        each_length(shape, position, [&](const auto& x) {
+          finite &= std::isfinite(largest_of(x));
+          largest = std::max(largest, largest_of(x));
+        });
+      },
+      seen.shape);
   if (!finite) throw Error("light", "is not finite as seen from the position", "scale the query down");
   if (!(largest > 0)) return seen;
   std::visit([&](auto& shape) { each_length(shape, {}, [&](auto& x) { x = x / largest; }); }, seen.shape);
@@ -71,11 +73,12 @@ LobeAnswer small_answer(Vec3d place, Vec3d intensity, const ShadingPoint& at, co
 }
 
 // Of the ellipse that the origin sees, x cross y towards it.
-LobeAnswer ellipse_answer(const Ellipse& outline, Vec3d radiance, const ShadingPoint& at, const Material& m,
-                          const MethodEntry& entry, const MethodOptions& options) {
+LobeAnswer ellipse_answer(const Ellipse& outline, Vec3d radiance, const ShadingPoint& at, const Material& m, const MethodEntry& entry,
+                          const MethodOptions& options) {
   if (is_exact_lambert(m, entry))
-    return lambert_answer(in_precision(options, [&] { return ellipse_irradiance(outline, {}, at.normal); },
-                                       [&] { return ellipse_irradiance_float(outline, {}, at.normal); }),
+    return lambert_answer(in_precision(
+                              options, [&] { return ellipse_irradiance(outline, {}, at.normal); },
+                              [&] { return ellipse_irradiance_float(outline, {}, at.normal); }),
                           radiance, m);
   if (length(outline.x) + length(outline.y) < 1e-9 * length(outline.center)) {
     const double area = -dot(cross(outline.x, outline.y) * kPi, outline.center) / length(outline.center);
@@ -114,8 +117,9 @@ LobeAnswer thin_answer(const Capsule& c, const Axis& axis, Vec3d radiance, const
   // Towards the point nothing of a line is seen.
   if (!(length(axis.moment) > 1e-14 * axis.distance)) return nothing(entry.method);
   if (is_exact_lambert(m, entry))
-    return lambert_answer(in_precision(options, [&] { return line_irradiance(c.end_a, c.end_b, {}, at.normal); },
-                                       [&] { return line_irradiance_float(c.end_a, c.end_b, {}, at.normal); }),
+    return lambert_answer(in_precision(
+                              options, [&] { return line_irradiance(c.end_a, c.end_b, {}, at.normal); },
+                              [&] { return line_irradiance_float(c.end_a, c.end_b, {}, at.normal); }),
                           radiance, m);
   const auto of_half_width = [&](double share) {
     const double half_width = share * axis.distance;
@@ -166,15 +170,15 @@ struct AnswerOfShape {
     if (is_small(c, axis))
       return small_answer(middle(c), light.radiance * (2 * c.radius * across(axis) + kPi * c.radius * c.radius), at, m, entry);
     if (is_exact_lambert(m, entry))
-      return lambert_answer(in_precision(options, [&] { return capsule_irradiance(c, {}, at.normal); },
-                                         [&] { return capsule_irradiance_float(c, {}, at.normal); }),
-                            light.radiance, m);
+      return lambert_answer(
+          in_precision(
+              options, [&] { return capsule_irradiance(c, {}, at.normal); }, [&] { return capsule_irradiance_float(c, {}, at.normal); }),
+          light.radiance, m);
     // The corners of so thin an outline would be rounded to one place.
     if (c.radius < 1e-7 * axis.distance && axis.length > 1e3 * c.radius)
       return thin_answer(c, axis, light.radiance * (2 * c.radius), at, m, entry, options);
     return outline_answer([&](const LobeAxis& lobe, int vertices) { return polygon_for_lobe(c, {}, lobe, vertices); },
-                          [&](int vertices) { return polygon_of_equal_steps(c, {}, vertices); }, light.radiance, at, m, entry,
-                          options);
+                          [&](int vertices) { return polygon_of_equal_steps(c, {}, vertices); }, light.radiance, at, m, entry, options);
   }
 
  private:

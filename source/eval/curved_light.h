@@ -14,7 +14,7 @@ namespace steradian::eval {
 // capsule thinner than 1e-7 of its distance, is for them a strip across the sight: of a half width, seen, of a thousandth of
 // the lobe's width (in float 3 %), and its radiance so much the higher. The error is quadratic in that width; `reference`
 // doubles it once and holds the difference in its bound.
-LobeAnswer curved_light_answer(const CurvedLight& light, const ShadingPoint& at, const Material& material,
-                               const MethodEntry& entry, const MethodOptions& options);
+LobeAnswer curved_light_answer(const CurvedLight& light, const ShadingPoint& at, const Material& material, const MethodEntry& entry,
+                               const MethodOptions& options);
 
 }  // namespace steradian::eval

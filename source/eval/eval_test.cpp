@@ -17,8 +17,7 @@ const std::string kLight = R"("light":{"type":"rect","center":[0,2,0],"x":[1,0,0
 const std::string kPlace = R"("position":[0,0,0],"normal":[0,1,0],"view":[0,1,0.5])";
 const std::string kLambert = R"("material":{"brdf":"lambert"})";
 
-std::string query(const std::string& light, const std::string& place, const std::string& material,
-                  const std::string& rest = {}) {
+std::string query(const std::string& light, const std::string& place, const std::string& material, const std::string& rest = {}) {
   return "{" + light + "," + place + "," + material + (rest.empty() ? "" : "," + rest) + "}";
 }
 std::string with_material(const std::string& material, const std::string& rest = {}) {
@@ -62,19 +61,21 @@ TEST(Eval, AnswersEveryMaterialMethodAndLight) {
                                    R"({"brdf":"ggx","alpha_x":0.2,"alpha_y":0.4,"tangent":[1,0,1]})",
                                    R"({"brdf":"blinn-phong","exponent":10})",
                                    R"({"brdf":"beckmann","alpha":0.3})"};
-  const std::string lights[] = {
-      kLight, R"("light":{"type":"point","position":[1,2,0],"intensity":[3,2,1]})",
-      R"("light":{"type":"polygon","vertices":[[-1,2,1],[-1,2,-1],[1,2,-1],[1,2,1]],)"
-      R"("holes":[[[0,2,0],[0.5,2,0],[0,2,0.5]]],"radiance":[1,2,3],"two_sided":true})"};
+  const std::string lights[] = {kLight, R"("light":{"type":"point","position":[1,2,0],"intensity":[3,2,1]})",
+                                R"("light":{"type":"polygon","vertices":[[-1,2,1],[-1,2,-1],[1,2,-1],[1,2,1]],)"
+                                R"("holes":[[[0,2,0],[0.5,2,0],[0,2,0.5]]],"radiance":[1,2,3],"two_sided":true})"};
   for (const std::string& light : lights)
     for (const std::string& material : materials)
       for (const std::string method : {"auto", "reference", "sampled"}) {
-        const std::string line = query(light, kPlace, "\"material\":" + material,
-                                       R"("method":")" + method + R"(","spp":16,"seed":3,"precision":"double")");
+        const std::string line =
+            query(light, kPlace, "\"material\":" + material, R"("method":")" + method + R"(","spp":16,"seed":3,"precision":"double")");
         const json a = answer(line);
         ASSERT_TRUE(a.contains("radiance")) << line << "\n" << a;
         const auto is = [&](const char* part) { return material.find(part) != std::string::npos; };
-        const std::string resolved = is("lambert") || is("none") ? "exact" : is("\"phong") ? "series" : is("ggx") ? "closed-form" : "half-vector";
+        const std::string resolved = is("lambert") || is("none") ? "exact"
+                                     : is("\"phong")             ? "series"
+                                     : is("ggx")                 ? "closed-form"
+                                                                 : "half-vector";
         EXPECT_EQ(a["method"], method != "auto" ? method : resolved);
         EXPECT_EQ(a.contains("standard_error"), method == "sampled");
         EXPECT_EQ(a.contains("bound"), a["method"] == "reference");
@@ -132,8 +133,7 @@ TEST(Eval, AgreesWithTheReferenceOnLambert) {
 
 TEST(Eval, VectorsNeedNotBeUnit) {
   const std::string ggx = R"("material":{"brdf":"ggx","roughness":0.5})";
-  EXPECT_DOUBLE_EQ(red(query(kLight, kPlace, ggx)),
-                   red(query(kLight, R"("position":[0,0,0],"normal":[0,7,0],"view":[0,1e-3,5e-4])", ggx)));
+  EXPECT_DOUBLE_EQ(red(query(kLight, kPlace, ggx)), red(query(kLight, R"("position":[0,0,0],"normal":[0,7,0],"view":[0,1e-3,5e-4])", ggx)));
 }
 
 TEST(Eval, MaterialsOfAListAdd) {
@@ -202,9 +202,7 @@ struct Wrong {
 
 TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
   const std::string good = query(kLight, kPlace, kLambert);
-  const auto polygon = [](const std::string& vertices) {
-    return with_light(R"({"type":"polygon","vertices":)" + vertices + "}");
-  };
+  const auto polygon = [](const std::string& vertices) { return with_light(R"({"type":"polygon","vertices":)" + vertices + "}"); };
   const std::vector<Wrong> all = {
       {"hello", {"not JSON"}},
       {"{", {"not JSON"}},
@@ -223,8 +221,7 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
       {query(kLight, R"("position":[0,null,0],"normal":[0,1,0])", kLambert), {"position[1]: expected a number"}},
       {query(kLight, R"("position":[0,0,0],"normal":[0,0,0])", kLambert), {"normal: the vector is zero"}},
       {query(kLight, R"("position":[0,0,0],"normal":[0,1,0],"view":[0,0,0])", kLambert), {"view: the vector"}},
-      {query(kLight, R"("position":[0,0,0],"normal":[0,1,0])", R"("material":{"brdf":"phong","exponent":3})"),
-       {"view: missing", "phong"}},
+      {query(kLight, R"("position":[0,0,0],"normal":[0,1,0])", R"("material":{"brdf":"phong","exponent":3})"), {"view: missing", "phong"}},
       {query(kLight, kPlace, kLambert, R"("method":"magic")"), {"method: 'magic'", "sampled"}},
       {query(kLight, kPlace, kLambert, R"("method":3)"), {"method: expected a string"}},
       {query(kLight, kPlace, kLambert, R"("precision":"half")"), {"precision: 'half'"}},
@@ -236,8 +233,8 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
        {"derivatives: ", "ggx has none"}},
       {query(kLight, kPlace, kLambert, R"("normal":[0,0,1])"), {"normal: the key is given twice"}},
       {query(kLight, kPlace, kLambert, R"("colour":1,"size":2)"), {"colour: unknown", "size: unknown"}},
-      {query(R"("light":{"type":"rect","centre":[0,2,0],"x":[1,0,0],"y":[0,0,1]})", kPlace,
-             R"("material":{"brdf":"lambert","exponent":2})", R"("extra":{})"),
+      {query(R"("light":{"type":"rect","centre":[0,2,0],"x":[1,0,0],"y":[0,0,1]})", kPlace, R"("material":{"brdf":"lambert","exponent":2})",
+             R"("extra":{})"),
        {"light.centre: unknown", "light.center: missing", "material.exponent: unknown", "extra: unknown"}},
       {with_light("7"), {"light: expected an object"}},
       {with_light("{}"), {"light.type: missing", "polygon, rect, disk, sphere, ellipsoid, capsule, point"}},
@@ -246,24 +243,20 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
       {with_light(R"({"type":"sphere","center":[0,1,0],"radius":-1})"), {"light.radius: must not be negative"}},
       {with_light(R"({"type":"sphere","center":[0,1,0],"radius":1,"two_sided":true})"), {"light.two_sided: unknown"}},
       {with_light(R"({"type":"ellipsoid","center":[0,1,0],"x":[1,0,0],"y":[0,1,0]})"), {"light.z: missing"}},
-      {query(R"("light":{"type":"disk","center":[1e308,2,0],"x":[1,0,0],"y":[0,0,1]})", R"("position":[-1e308,0,0],"normal":[0,1,0])", kLambert),
+      {query(R"("light":{"type":"disk","center":[1e308,2,0],"x":[1,0,0],"y":[0,0,1]})", R"("position":[-1e308,0,0],"normal":[0,1,0])",
+             kLambert),
        {"light: is not finite"}},
       {with_light(R"({"type":["rect"]})"), {"light.type: expected a string"}},
       {polygon("[[0,1,0],[1,1,0]]"), {"light.vertices: ", "at least 3 vertices", "2"}},
       {polygon("[]"), {"light.vertices: ", "at least 3 vertices"}},
       {polygon("[[0,1,0],[1,1,0],[1,1,\"z\"]]"), {"light.vertices[2][2]: expected a number"}},
       {polygon("[[0,1,0],[1,1,0],[1,1,1],[0,2,1]]"), {"light.vertices[", "off the polygon's plane"}},
-      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"holes":[[[0,1,0]]]})"),
-       {"light.holes[0]: ", "at least 3"}},
-      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"two_sided":1})"),
-       {"light.two_sided: expected true or false"}},
-      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"radiance":-1})"),
-       {"light.radiance: must not be negative"}},
-      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"radiance":[1,2]})"),
-       {"light.radiance: expected 3 numbers"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"holes":[[[0,1,0]]]})"), {"light.holes[0]: ", "at least 3"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"two_sided":1})"), {"light.two_sided: expected true or false"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"radiance":-1})"), {"light.radiance: must not be negative"}},
+      {with_light(R"({"type":"polygon","vertices":[[0,1,0],[1,1,0],[1,1,1]],"radiance":[1,2]})"), {"light.radiance: expected 3 numbers"}},
       {with_light(R"({"type":"rect","center":[1e308,2,0],"x":[1e308,0,0],"y":[0,0,1]})"), {"light", "finite"}},
-      {query(R"("light":{"type":"point","position":[0,1,0],"intensity":1e308})", kPlace,
-             R"("material":{"brdf":"lambert","albedo":1e300})"),
+      {query(R"("light":{"type":"point","position":[0,1,0],"intensity":1e308})", kPlace, R"("material":{"brdf":"lambert","albedo":1e300})"),
        {"radiance: ", "out of the range"}},
       {with_material("[]"), {"material: the list is empty"}},
       {with_material(R"([{"brdf":"lambert"},{"brdf":"velvet"}])"), {"material[1].brdf: 'velvet'", "beckmann"}},
@@ -361,8 +354,7 @@ TEST(Eval, SurvivesMutatedLines) {
 // The derivatives of [channel][vertex] against the same question with a vertex moved.
 TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
   const auto ask = [](double dx, const std::string& rest, double px = 0.2) {
-    json light = {{"type", "polygon"}, {"radiance", {2, 1, 0.5}},
-                  {"vertices", {{-1 + dx, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}};
+    json light = {{"type", "polygon"}, {"radiance", {2, 1, 0.5}}, {"vertices", {{-1 + dx, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}};
     json position = {px, 0.1, 0};
     return answer(query("\"light\":" + light.dump(), "\"position\":" + position.dump() + R"(,"normal":[0,0.6,0.8])",
                         R"("material":{"brdf":"lambert","albedo":0.5})", rest));
@@ -383,8 +375,8 @@ TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
 
 TEST(Eval, DerivativesOfTransformedCosinesAreServed) {
   for (const char* method : {"ltc", "ltc-compact"}) {
-    const json a = answer(with_material(R"({"brdf":"ggx","roughness":0.6})",
-                                        std::string(R"("derivatives":true,"method":")") + method + '"'));
+    const json a =
+        answer(with_material(R"({"brdf":"ggx","roughness":0.6})", std::string(R"("derivatives":true,"method":")") + method + '"'));
     ASSERT_TRUE(a.contains("d_vertices")) << a;
     EXPECT_NE(a["d_vertices"][0][0][0].get<double>(), 0.0) << a;
     EXPECT_EQ(a.at("d_normal").size(), 3u) << a;
@@ -394,9 +386,7 @@ TEST(Eval, DerivativesOfTransformedCosinesAreServed) {
 
 // The library's test compares their values with differences; here: that they arrive, and add up over materials.
 TEST(Eval, DerivativesOfPhongAndGgxAddUp) {
-  const auto ask = [](const std::string& material) {
-    return answer(with_material(material, R"("derivatives":true)"));
-  };
+  const auto ask = [](const std::string& material) { return answer(with_material(material, R"("derivatives":true)")); };
   const std::string phong = R"({"brdf":"phong","exponent":8})", ggx = R"({"brdf":"ggx","roughness":0.6})";
   const json one = ask(phong), other = ask(ggx), both = ask("[" + phong + "," + ggx + "]");
   for (const json& a : {one, other, both}) ASSERT_TRUE(a.contains("d_vertices")) << a;
@@ -407,10 +397,9 @@ TEST(Eval, DerivativesOfPhongAndGgxAddUp) {
 }
 
 TEST(Eval, DerivativesAreRefusedWhereThereAreNone) {
-  EXPECT_TRUE(answer(with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc-clipless")"))
-                  .contains("error"));
-  EXPECT_TRUE(answer(query(R"("light":{"type":"point","position":[0,1,0]})", kPlace, kLambert, R"("derivatives":true)"))
-                  .contains("error"));
+  EXPECT_TRUE(
+      answer(with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc-clipless")")).contains("error"));
+  EXPECT_TRUE(answer(query(R"("light":{"type":"point","position":[0,1,0]})", kPlace, kLambert, R"("derivatives":true)")).contains("error"));
 }
 
 }  // namespace

@@ -75,8 +75,7 @@ std::int64_t read_integer(Problems& problems, const Place& place, Json value, st
     wrong_type(problems, place, "an integer", value);
     return low;
   }
-  if (x < low || x > high)
-    problems.add(place, "must be an integer from " + std::to_string(low) + " to " + std::to_string(high));
+  if (x < low || x > high) problems.add(place, "must be an integer from " + std::to_string(low) + " to " + std::to_string(high));
   return x;
 }
 

@@ -22,7 +22,7 @@ using Json = simdjson::dom::element;
 // Where we are, as a chain of the callers' frames: written out ("light.holes[0][2]") only for a message.
 struct Place {
   const Place* up = nullptr;
-  std::string_view key;     // or, where empty, an index
+  std::string_view key;  // or, where empty, an index
   std::size_t index = 0;
 
   Place in(std::string_view name) const { return {this, name, 0}; }
@@ -55,15 +55,14 @@ void read_key(Problems& problems, const Place& place, Json value, const Field<T>
 }
 
 std::string readable(std::string_view key);  // a key from the input, cut where it is long
-std::string quoted(std::string_view name);    // the same within '' for a value
+std::string quoted(std::string_view name);   // the same within '' for a value
 const char* type_name(Json value);
 void wrong_type(Problems& problems, const Place& place, const char* expected, Json found);
 
 // Reads the keys of the table, of Fields or of another row with a name, `required` and its own read_key; `tag` is a key that was
 // read before. Unknown, repeated and missing keys are problems.
 template <class Row, class T>
-void read_fields(Problems& problems, const Place& place, Json value, std::string_view tag, std::span<const Row> fields,
-                 T& result) {
+void read_fields(Problems& problems, const Place& place, Json value, std::string_view tag, std::span<const Row> fields, T& result) {
   simdjson::dom::object object;
   if (value.get(object) != simdjson::SUCCESS) return wrong_type(problems, place, "an object", value);
   unsigned long long seen = 0;  // a bit per field, the highest for the tag
@@ -92,8 +91,7 @@ void read_fields(Problems& problems, const Place& place, Json value, std::string
 
 // A row of `rows` (which have a name) by the string at a key of an object; null, and a problem, for anything else.
 template <class Row>
-const Row* read_tag(Problems& problems, const Place& place, Json value, std::string_view tag,
-                    std::span<const Row> rows) {
+const Row* read_tag(Problems& problems, const Place& place, Json value, std::string_view tag, std::span<const Row> rows) {
   simdjson::dom::object object;
   if (value.get(object) != simdjson::SUCCESS) {
     wrong_type(problems, place, "an object", value);

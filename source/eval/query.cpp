@@ -23,30 +23,25 @@ struct LightKeys {
 
 using LightField = Field<LightKeys>;
 
-constexpr LightField kRadiance = {
-    "radiance", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.radiance = read_colour(p, at, v); }};
-constexpr LightField kTwoSided = {
-    "two_sided", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.two_sided = read_bool(p, at, v); }};
-constexpr LightField kCenter = {
-    "center", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.center = read_vector(p, at, v); }, true};
-constexpr LightField kHalfAxisX = {
-    "x", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.x = read_vector(p, at, v); }, true};
-constexpr LightField kHalfAxisY = {
-    "y", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.y = read_vector(p, at, v); }, true};
-constexpr LightField kHalfAxisZ = {
-    "z", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.z = read_vector(p, at, v); }, true};
-constexpr LightField kRadius = {
-    "radius", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radius = read_not_negative(p, at, v); }, true};
+constexpr LightField kRadiance = {"radiance",
+                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.radiance = read_colour(p, at, v); }};
+constexpr LightField kTwoSided = {"two_sided",
+                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.two_sided = read_bool(p, at, v); }};
+constexpr LightField kCenter = {"center", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.center = read_vector(p, at, v); },
+                                true};
+constexpr LightField kHalfAxisX = {"x", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.x = read_vector(p, at, v); }, true};
+constexpr LightField kHalfAxisY = {"y", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.y = read_vector(p, at, v); }, true};
+constexpr LightField kHalfAxisZ = {"z", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.z = read_vector(p, at, v); }, true};
+constexpr LightField kRadius = {"radius",
+                                [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radius = read_not_negative(p, at, v); }, true};
 
 constexpr LightField kPolygonFields[] = {
-    {"vertices",
-     [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.vertices = read_contour(p, at, v); }, true},
+    {"vertices", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.vertices = read_contour(p, at, v); }, true},
     {"holes",
      [](Problems& p, const Place& at, Json v, LightKeys& k) {
        simdjson::dom::array holes;
        if (v.get(holes) != simdjson::SUCCESS) return wrong_type(p, at, "a list of holes", v);
-       for (const Json hole : holes)
-         k.polygon.holes.push_back(read_contour(p, at.at(k.polygon.holes.size()), hole));
+       for (const Json hole : holes) k.polygon.holes.push_back(read_contour(p, at.at(k.polygon.holes.size()), hole));
      }},
     kRadiance,
     kTwoSided,
@@ -66,10 +61,8 @@ constexpr LightField kCapsuleFields[] = {
     kRadiance,
 };
 constexpr LightField kPointFields[] = {
-    {"position",
-     [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
-    {"intensity",
-     [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
+    {"position", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
+    {"intensity", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
 };
 
 Light polygon_of(LightKeys&& k) { return std::move(k.polygon); }
@@ -77,21 +70,15 @@ Light rect_of(LightKeys&& k) {
   k.polygon.vertices = {k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y};
   return std::move(k.polygon);
 }
-Light disk_of(LightKeys&& k) {
-  return CurvedLight{Ellipse{k.center, k.x, k.y}, k.polygon.radiance, k.polygon.two_sided};
-}
-Light ellipsoid_of(LightKeys&& k) {
-  return CurvedLight{Ellipsoid{k.center, k.x, k.y, k.z}, k.polygon.radiance};
-}
+Light disk_of(LightKeys&& k) { return CurvedLight{Ellipse{k.center, k.x, k.y}, k.polygon.radiance, k.polygon.two_sided}; }
+Light ellipsoid_of(LightKeys&& k) { return CurvedLight{Ellipsoid{k.center, k.x, k.y, k.z}, k.polygon.radiance}; }
 Light sphere_of(LightKeys&& k) {
   k.x = {k.radius, 0, 0};
   k.y = {0, k.radius, 0};
   k.z = {0, 0, k.radius};
   return ellipsoid_of(std::move(k));
 }
-Light capsule_of(LightKeys&& k) {
-  return CurvedLight{capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k.polygon.radiance};
-}
+Light capsule_of(LightKeys&& k) { return CurvedLight{capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k.polygon.radiance}; }
 Light point_of(LightKeys&& k) { return k.point_light; }
 
 struct LightRow {
@@ -180,8 +167,7 @@ void read_method(Problems& problems, const Place& place, Json value, Query& quer
 
 void read_precision(Problems& problems, const Place& place, Json value, Query& query) {
   const std::string_view name = read_string(problems, place, value);
-  if (value.is_string() && name != "double" && name != "float")
-    problems.add(place, quoted(name) + " is not known", "double or float");
+  if (value.is_string() && name != "double" && name != "float") problems.add(place, quoted(name) + " is not known", "double or float");
   query.precision = name == "float" ? Precision::float_ : Precision::double_;
 }
 
@@ -208,7 +194,8 @@ constexpr Field<MeshKeys> kMeshFields[] = {
        simdjson::dom::array list;
        if (v.get(list) != simdjson::SUCCESS) return wrong_type(p, at, "a list of whole numbers", v);
        for (const Json i : list)
-         k.indices.push_back(static_cast<std::uint32_t>(read_integer(p, at.at(k.indices.size()), i, 0, std::numeric_limits<std::int32_t>::max())));
+         k.indices.push_back(
+             static_cast<std::uint32_t>(read_integer(p, at.at(k.indices.size()), i, 0, std::numeric_limits<std::int32_t>::max())));
        if (k.indices.size() % 3 != 0) p.add(at, "expected three a triangle, found " + std::to_string(k.indices.size()));
      },
      true},
@@ -269,18 +256,13 @@ constexpr Field<Query> kQueryFields[] = {
     {"method", read_method},
     {"precision", read_precision},
     {"quality", read_quality},
-    {"spp",
-     [](Problems& p, const Place& at, Json v, Query& q) {
-       q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max()));
-     }},
-    {"seed",
-     [](Problems& p, const Place& at, Json v, Query& q) {
-       q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max()));
-     }},
+    {"spp", [](Problems& p, const Place& at, Json v,
+               Query& q) { q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max())); }},
+    {"seed", [](Problems& p, const Place& at, Json v,
+                Query& q) { q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max())); }},
     {"occluders", read_occluders},
     {"geometric_normal", [](Problems& p, const Place& at, Json v, Query& q) { q.geometric_normal = read_direction(p, at, v); }},
-    {"derivatives",
-     [](Problems& p, const Place& at, Json v, Query& q) { q.derivatives = read_bool(p, at, v); }},
+    {"derivatives", [](Problems& p, const Place& at, Json v, Query& q) { q.derivatives = read_bool(p, at, v); }},
 };
 
 }  // namespace
@@ -296,8 +278,7 @@ Query QueryReader::read(std::string_view line) {
   static_assert(kQueryPadding >= simdjson::SIMDJSON_PADDING);
   Json root;
   const auto error = parser_->json.parse(line.data(), line.size(), false).get(root);
-  if (error == simdjson::CAPACITY || error == simdjson::MEMALLOC)
-    throw Error("", "the line is too long to be read");
+  if (error == simdjson::CAPACITY || error == simdjson::MEMALLOC) throw Error("", "the line is too long to be read");
   if (error != simdjson::SUCCESS)
     throw Error("", std::string("not JSON: ") + simdjson::error_message(error),
                 "one object a line; numbers are decimals within the range of double, so no NaN and no Infinity");

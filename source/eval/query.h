@@ -34,9 +34,9 @@ struct Query {
   Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
-  bool derivatives = false;  // of the radiance by the light's vertices
+  bool derivatives = false;                            // of the radiance by the light's vertices
   std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing blocks
-  std::optional<Vec3d> geometric_normal;  // unit, of the triangle that the position is on; none: the normal
+  std::optional<Vec3d> geometric_normal;               // unit, of the triangle that the position is on; none: the normal
 };
 
 struct QueryDefaults {

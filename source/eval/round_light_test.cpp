@@ -130,14 +130,14 @@ TEST(EvalRoundLight, SampledAgreesWithinItsStandardError) {
 }
 
 TEST(EvalRoundLight, HiddenSidesInsidesAndNoAreaGiveZero) {
-  const CurvedLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),   // its back
-                             disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),   // its plane
-                             disk({0, 2, 0}, {1, 0, 0}, {2, 0, 0}),   // no area
-                             disk({0, 2, 0}, {}, {}),
-                             sphere({0, 0.5, 0}, 1),                  // inside
-                             sphere({0, 1, 0}, 0),
-                             sphere({0, 0, 0}, 0),
-                             sphere({0, -2, 0}, 1)};                  // below the horizon
+  const CurvedLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),  // its back
+                              disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),  // its plane
+                              disk({0, 2, 0}, {1, 0, 0}, {2, 0, 0}),  // no area
+                              disk({0, 2, 0}, {}, {}),
+                              sphere({0, 0.5, 0}, 1),  // inside
+                              sphere({0, 1, 0}, 0),
+                              sphere({0, 0, 0}, 0),
+                              sphere({0, -2, 0}, 1)};  // below the horizon
   for (const CurvedLight& light : dark)
     for (const Material& m : {material_of(Brdf::lambert), ggx(0.3)})
       for (Method method : {Method::automatic, Method::reference, Method::sampled})

@@ -73,7 +73,8 @@ TEST(ShadowedEval, EveryMethodAgreesWithRays) {
         EXPECT_NEAR(a["radiance"][0].get<double>(), expected, bar) << light << row.material << method;
         if (method == "reference") continue;
         const json single = answer(query(light, row.material, method, kWithOccluders + R"(,"precision":"float")"));
-        EXPECT_NEAR(single["radiance"][0].get<double>(), a["radiance"][0].get<double>(), (row.error + 2e-4) * whole + 1e-6) << light << row.material << method;
+        EXPECT_NEAR(single["radiance"][0].get<double>(), a["radiance"][0].get<double>(), (row.error + 2e-4) * whole + 1e-6)
+            << light << row.material << method;
       }
     }
 }
@@ -85,7 +86,8 @@ TEST(ShadowedEval, TakesMeshesAndNormals) {
   EXPECT_EQ(inline_triangles, mesh);
   // Nothing from below the triangle that the point is on.
   EXPECT_EQ(answer(query(kRect, lambert, "exact", R"(,"occluders":[],"geometric_normal":[0,-1,0])"))["radiance"][0].get<double>(), 0.0);
-  const double open = answer(query(kRect, lambert, "exact"))["radiance"][0], none = answer(query(kRect, lambert, "exact", R"(,"occluders":[])"))["radiance"][0];
+  const double open = answer(query(kRect, lambert, "exact"))["radiance"][0],
+               none = answer(query(kRect, lambert, "exact", R"(,"occluders":[])"))["radiance"][0];
   EXPECT_NEAR(none, open, 1e-4 * open);  // seen from 1e-5 above
   const std::string point = R"({"type":"point","position":[0.3,2,0]})";
   EXPECT_EQ(answer(query(point, lambert, "exact", kWithOccluders))["radiance"][0].get<double>(), 0.0);

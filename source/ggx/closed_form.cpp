@@ -9,8 +9,7 @@ namespace steradian {
 namespace {
 
 void check_ggx(const Material& material) {
-  if (material.brdf != Brdf::ggx)
-    throw Error("material.brdf", std::string("the closed form has no ") + name_of(material.brdf), "use ggx");
+  if (material.brdf != Brdf::ggx) throw Error("material.brdf", std::string("the closed form has no ") + name_of(material.brdf), "use ggx");
 }
 
 template <class S, class Integral>
@@ -44,12 +43,10 @@ Vec3d exact(const PreparedPolygon& light, const ShadingPoint& at, const Material
 
 }  // namespace
 
-Vec3d closed_form_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
-                           Quality quality) {
+Vec3d closed_form_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material, Quality quality) {
   return closed_form<double>(light, at, with_multiple_scattering(material, at), quality);
 }
-Vec3d closed_form_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
-                                 Quality quality) {
+Vec3d closed_form_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material, Quality quality) {
   return closed_form<float>(light, at, with_multiple_scattering(material, at), quality);
 }
 

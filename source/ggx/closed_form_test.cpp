@@ -108,8 +108,8 @@ TEST(GgxClosedForm, NormalQualityHoldsItsErrorOverRoughnessAndView) {
   const Grid metal = relative_rmse(1.0, 28, evaluate), dielectric = relative_rmse(0.04, 28, evaluate);
   EXPECT_LE(metal.all, 0.003);
   EXPECT_LE(dielectric.all, 0.005);
-  std::printf("relative RMSE of %d rectangles: F0 = 1 %.5f, worst cell %.4f; F0 = 0.04 %.5f, worst cell %.4f\n", 28 * 36,
-              metal.all, metal.worst_cell, dielectric.all, dielectric.worst_cell);
+  std::printf("relative RMSE of %d rectangles: F0 = 1 %.5f, worst cell %.4f; F0 = 0.04 %.5f, worst cell %.4f\n", 28 * 36, metal.all,
+              metal.worst_cell, dielectric.all, dielectric.worst_cell);
 }
 
 TEST(GgxClosedForm, HighQualityHoldsItsErrorInEveryCell) {
@@ -119,8 +119,8 @@ TEST(GgxClosedForm, HighQualityHoldsItsErrorInEveryCell) {
   const Grid metal = relative_rmse(1.0, 28, evaluate), dielectric = relative_rmse(0.04, 28, evaluate);
   EXPECT_LE(metal.worst_cell, 0.015);
   EXPECT_LE(dielectric.worst_cell, 0.015);
-  std::printf("relative RMSE: F0 = 1 %.5f, worst cell %.4f; F0 = 0.04 %.5f, worst cell %.4f\n", metal.all,
-              metal.worst_cell, dielectric.all, dielectric.worst_cell);
+  std::printf("relative RMSE: F0 = 1 %.5f, worst cell %.4f; F0 = 0.04 %.5f, worst cell %.4f\n", metal.all, metal.worst_cell, dielectric.all,
+              dielectric.worst_cell);
 }
 
 TEST(GgxClosedForm, AnisotropicAndNonConvexLightsKeepTheErrorOfRectangles) {
@@ -221,7 +221,8 @@ TEST(GgxClosedForm, IsFiniteAndWithinTheLightForNonsense) {
     ASSERT_TRUE(value_float >= 0 && value_float <= f * (1 + 1e-6)) << i << ": " << value_float << " alpha " << m.alpha_x << " view " << z;
     m.shadowing = false;  // sends more than it gets at grazing views, but finite all the same
     const double exact = exact_ggx_radiance(light, at, m).x, exact_float = exact_ggx_radiance_float(light, at, m).x;
-    ASSERT_TRUE(std::isfinite(exact) && exact >= 0 && std::isfinite(exact_float) && exact_float >= 0) << i << ": " << exact << ", in float " << exact_float;
+    ASSERT_TRUE(std::isfinite(exact) && exact >= 0 && std::isfinite(exact_float) && exact_float >= 0)
+        << i << ": " << exact << ", in float " << exact_float;
   }
   EXPECT_GT(evaluated, 50'000);
   std::printf("%d of 100000 evaluated, seed 13\n", evaluated);
@@ -263,14 +264,20 @@ TEST(GgxClosedFormPack, AgreesWithDoubleOnEveryInstructionSet) {
           a[13][i] = static_cast<float>(m.alpha_y);
         }
         const auto plane = [&](std::size_t k) { return a[k].data(); };
-        const Points points = {kCount, {plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)}, {plane(6), plane(7), plane(8)},
-                               {plane(9), plane(10), plane(11)}, plane(12), plane(13)};
+        const Points points = {kCount,
+                               {plane(0), plane(1), plane(2)},
+                               {plane(3), plane(4), plane(5)},
+                               {plane(6), plane(7), plane(8)},
+                               {plane(9), plane(10), plane(11)},
+                               plane(12),
+                               plane(13)};
         std::vector<float> plain(kCount), fresnel(kCount);
         closed_form_table_for(simd).ggx(prepare_light(light), points, quality, plain.data(), fresnel.data());
         for (std::size_t i = 0; i < kCount; ++i) {
           const double value = closed_form_radiance(light, at[i], materials[i], quality).x;
           // Float's error of the closed form (1e-4 of the lobe) and that of a node count that rounding may change.
-          ASSERT_NEAR(static_cast<double>(plain[i]), value, 1e-3) << name_of(simd) << " point " << i << " alpha " << materials[i].alpha_x << "," << materials[i].alpha_y;
+          ASSERT_NEAR(static_cast<double>(plain[i]), value, 1e-3)
+              << name_of(simd) << " point " << i << " alpha " << materials[i].alpha_x << "," << materials[i].alpha_y;
           ASSERT_LE(fresnel[i], plain[i]);
           ASSERT_GE(fresnel[i], 0.0f);
         }

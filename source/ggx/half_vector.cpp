@@ -24,12 +24,10 @@ Vec3d radiance(const PreparedPolygon& light, const ShadingPoint& at, const Mater
   };
   constexpr Vec3d kOne{1, 1, 1};
   switch (m.brdf) {
-    case Brdf::ggx:
-      return by(integrals::GgxHalfVectorArcs<S>{m.alpha_x, m.alpha_y, m.shadowing ? 1.0 : 0.0}, m.tangent, m.f0, m.f90);
+    case Brdf::ggx: return by(integrals::GgxHalfVectorArcs<S>{m.alpha_x, m.alpha_y, m.shadowing ? 1.0 : 0.0}, m.tangent, m.f0, m.f90);
     case Brdf::blinn_phong: return by(integrals::BlinnPhongArcs<S>(m.exponent), {}, kOne, kOne);
     case Brdf::beckmann: return by(integrals::BeckmannArcs<S>{m.alpha_x, m.alpha_y}, m.tangent, kOne, kOne);
-    default:
-      throw Error("material.brdf", std::string("half vectors have no ") + name_of(m.brdf), "use blinn-phong, beckmann or ggx");
+    default: throw Error("material.brdf", std::string("half vectors have no ") + name_of(m.brdf), "use blinn-phong, beckmann or ggx");
   }
 }
 

@@ -26,8 +26,8 @@ TEST(Complex, UnitIsCosineAndSine) {
     const auto u = k.complex_unit(x);
     const auto uf = f.complex_unit(x);
     worst = std::max({worst, std::fabs(u.x.v - std::cos(x)), std::fabs(u.y.v - std::sin(x))});
-    worst_float = std::max({worst_float, std::fabs(static_cast<double>(uf.x.v) - std::cos(x)),
-                            std::fabs(static_cast<double>(uf.y.v) - std::sin(x))});
+    worst_float =
+        std::max({worst_float, std::fabs(static_cast<double>(uf.x.v) - std::cos(x)), std::fabs(static_cast<double>(uf.y.v) - std::sin(x))});
   }
   EXPECT_LT(worst, 8 * 1.1e-16);       // 8 roundings
   EXPECT_LT(worst_float, 8 * 6.0e-8);  // of either kind

@@ -34,11 +34,10 @@ inline Setup random_rectangle(Random& random, double roughness, double view_degr
   const Vec3d mirror{-s.at.view.x, -s.at.view.y, s.at.view.z};
   const double spread = std::min(3 * alpha, 1.0), turn = random.uniform(-std::numbers::pi, std::numbers::pi);
   const double aside = spread * std::sqrt(random.uniform());
-  const Vec3d direction = normalized(
-      Frame::from_normal(mirror).to_world({2 * aside * std::cos(turn), 2 * aside * std::sin(turn), 1}));
+  const Vec3d direction = normalized(Frame::from_normal(mirror).to_world({2 * aside * std::cos(turn), 2 * aside * std::sin(turn), 1}));
   const double tilt = 60 * kRadians * random.uniform(), around = random.uniform(-std::numbers::pi, std::numbers::pi);
-  const Vec3d normal = Frame::from_normal(-direction)
-                           .to_world({std::sin(tilt) * std::cos(around), std::sin(tilt) * std::sin(around), std::cos(tilt)});
+  const Vec3d normal =
+      Frame::from_normal(-direction).to_world({std::sin(tilt) * std::cos(around), std::sin(tilt) * std::sin(around), std::cos(tilt)});
   const Frame frame = Frame::from_normal(normal);
   const double spin = random.uniform(-std::numbers::pi, std::numbers::pi);
   const Vec3d x = frame.to_world({std::cos(spin), std::sin(spin), 0}) * std::exp(random.uniform(std::log(0.05), std::log(1.5)));

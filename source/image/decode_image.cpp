@@ -8,9 +8,7 @@
 namespace steradian {
 
 ImageFormat format_of(std::span<const std::uint8_t> bytes) {
-  const auto begins = [&](const char* magic, std::size_t n) {
-    return bytes.size() >= n && std::memcmp(bytes.data(), magic, n) == 0;
-  };
+  const auto begins = [&](const char* magic, std::size_t n) { return bytes.size() >= n && std::memcmp(bytes.data(), magic, n) == 0; };
   if (begins("\x89PNG\r\n\x1A\n", 8)) return ImageFormat::png;
   if (begins("\xFF\xD8\xFF", 3)) return ImageFormat::jpeg;
   if (begins("\xABKTX", 4) || begins("RIFF", 4) || begins("DDS ", 4)) return ImageFormat::known_but_not_read;
@@ -22,8 +20,8 @@ std::size_t checked_texels(std::size_t width, std::size_t height, const std::str
   // Both are below 2^31: the product is exact.
   if (width * height > max_texels)
     throw Error(place,
-                "the picture claims " + std::to_string(width) + " x " + std::to_string(height) +
-                    " texels, more than may be read (" + std::to_string(max_texels) + ")",
+                "the picture claims " + std::to_string(width) + " x " + std::to_string(height) + " texels, more than may be read (" +
+                    std::to_string(max_texels) + ")",
                 "use a smaller picture");
   return width * height;
 }

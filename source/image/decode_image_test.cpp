@@ -64,8 +64,9 @@ std::string jpeg(unsigned width, unsigned height, Scans scans, int components = 
   for (unsigned y = 0; y < height; ++y) {
     for (unsigned x = 0; x < width; ++x)
       for (unsigned c = 0; c < static_cast<unsigned>(components); ++c)
-        row[x * static_cast<unsigned>(components) + c] =
-            static_cast<unsigned char>(c == 0 ? 255 * x / width : c == 1 ? 255 * y / height : 64);
+        row[x * static_cast<unsigned>(components) + c] = static_cast<unsigned char>(c == 0   ? 255 * x / width
+                                                                                    : c == 1 ? 255 * y / height
+                                                                                             : 64);
     JSAMPROW rows[] = {row.data()};
     jpeg_write_scanlines(&codec, rows, 1);
   }
@@ -223,10 +224,10 @@ TEST(DecodeImage, RefusesAJpegOfTooManyScans) {
 
 TEST(DecodeImage, OpensNoOtherFormat) {
   // Softimage, Radiance, GIF, BMP, TGA, PNM and PSD begin so.
-  for (const std::string& other : {std::string("\x53\x80\xF6\x34") + std::string(100, '\0'), std::string("#?RADIANCE\n\n-Y 1 +X 1\n\1\1\1\1"),
-                                   std::string("GIF89a") + std::string(64, '\1'), std::string("BM") + std::string(64, '\1'),
-                                   std::string(2, '\0') + "\2" + std::string(64, '\1'), std::string("P6 1 1 255 \1\1\1"),
-                                   std::string("8BPS") + std::string(64, '\1'), std::string()}) {
+  for (const std::string& other : {std::string("\x53\x80\xF6\x34") + std::string(100, '\0'),
+                                   std::string("#?RADIANCE\n\n-Y 1 +X 1\n\1\1\1\1"), std::string("GIF89a") + std::string(64, '\1'),
+                                   std::string("BM") + std::string(64, '\1'), std::string(2, '\0') + "\2" + std::string(64, '\1'),
+                                   std::string("P6 1 1 255 \1\1\1"), std::string("8BPS") + std::string(64, '\1'), std::string()}) {
     EXPECT_EQ(format_of(bytes_of(other)), ImageFormat::unknown);
     EXPECT_NE(refusal(other).find("neither PNG nor JPEG"), std::string::npos);
   }

@@ -82,8 +82,8 @@ void check_attributes(std::span<const std::uint8_t> bytes, const std::string& pl
   while (skip_text() > 0) {
     skip_text();
     if (at + 4 > bytes.size()) damaged();
-    const std::uint64_t size = bytes[at] | std::uint64_t{bytes[at + 1]} << 8 | std::uint64_t{bytes[at + 2]} << 16 |
-                               std::uint64_t{bytes[at + 3]} << 24;
+    const std::uint64_t size =
+        bytes[at] | std::uint64_t{bytes[at + 1]} << 8 | std::uint64_t{bytes[at + 2]} << 16 | std::uint64_t{bytes[at + 3]} << 24;
     at += 4;
     if (size > bytes.size() - at) damaged();
     at += static_cast<std::size_t>(size);
@@ -103,8 +103,8 @@ Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budge
   const auto window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1, height = std::int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
-    throw Error(place, "the picture claims " + std::to_string(width) + " x " + std::to_string(height) +
-                           " pixels; a side may have " + std::to_string(kLargestSide));
+    throw Error(place, "the picture claims " + std::to_string(width) + " x " + std::to_string(height) + " pixels; a side may have " +
+                           std::to_string(kLargestSide));
   std::set<std::string> layers{""};
   std::uint64_t channels = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels) {
@@ -116,8 +116,7 @@ Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budge
   // A wrong tile size could overflow the product below.
   if (lines > kLargestSide) throw Error(place, "the EXR picture claims tiles of " + std::to_string(lines) + " lines");
   budget.take_memory(place, "the picture's pixels", sizeof(Vec3f) * pixels * layers.size());
-  budget.take_memory(place, "the picture's blocks of lines",
-                     2 * sizeof(float) * channels * static_cast<std::uint64_t>(width) * lines);
+  budget.take_memory(place, "the picture's blocks of lines", 2 * sizeof(float) * channels * static_cast<std::uint64_t>(width) * lines);
   return header;
 }
 

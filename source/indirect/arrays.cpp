@@ -53,9 +53,8 @@ std::size_t in_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * k
 
 void clear(void* p, std::size_t bytes) {
   constexpr std::size_t kPart = std::size_t{1} << 20;
-  tbb::parallel_for(std::size_t{0}, (bytes + kPart - 1) / kPart, [=](std::size_t i) {
-    std::memset(static_cast<char*>(p) + i * kPart, 0, std::min(kPart, bytes - i * kPart));
-  });
+  tbb::parallel_for(std::size_t{0}, (bytes + kPart - 1) / kPart,
+                    [=](std::size_t i) { std::memset(static_cast<char*>(p) + i * kPart, 0, std::min(kPart, bytes - i * kPart)); });
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace steradian::indirect {
 namespace {
 
 constexpr int kCount = kMaskSide * kMaskSide;
-constexpr int kReach = 9;        // six standard deviations: what lies beyond is below float
-constexpr double kSigma = 1.5;   // Ulichney's, of the Gaussian that measures crowding
+constexpr int kReach = 9;       // six standard deviations: what lies beyond is below float
+constexpr double kSigma = 1.5;  // Ulichney's, of the Gaussian that measures crowding
 
 // Points on a torus and how crowded every place is.
 class Crowd {
@@ -72,7 +72,8 @@ Mask64 make() {
   }
   Mask64 mask;
   const auto rank = [&](int place, int r) {
-    mask[static_cast<std::size_t>(place / kMaskSide)][static_cast<std::size_t>(place % kMaskSide)] = (static_cast<float>(r) + 0.5f) / kCount;
+    mask[static_cast<std::size_t>(place / kMaskSide)][static_cast<std::size_t>(place % kMaskSide)] =
+        (static_cast<float>(r) + 0.5f) / kCount;
   };
   Crowd falling = start;
   for (int r = kSeeds - 1; r >= 0; --r) {

@@ -41,12 +41,13 @@ void TileLists::cull(const CullTable& table, const LightSet& set, const Receiver
                 set.diffuse.size()},
                box, blocks);
   const SpheroidArrays& s = set.spheroids;
-  glossy_.run(table.spheroids,
-              {{s.x.x.data(), s.x.y.data(), s.x.z.data(), s.y.x.data(), s.y.y.data(), s.y.z.data(), s.z.x.data(), s.z.y.data(),
-                s.z.z.data(), s.g.x.data(), s.g.y.data(), s.g.z.data(), s.normal.x.data(), s.normal.y.data(), s.normal.z.data(), s.offset.data()},
-               nullptr,
-               set.glossy.size()},
-              box, blocks);
+  glossy_.run(
+      table.spheroids,
+      {{s.x.x.data(), s.x.y.data(), s.x.z.data(), s.y.x.data(), s.y.y.data(), s.y.z.data(), s.z.x.data(), s.z.y.data(), s.z.z.data(),
+        s.g.x.data(), s.g.y.data(), s.g.z.data(), s.normal.x.data(), s.normal.y.data(), s.normal.z.data(), s.offset.data()},
+       nullptr,
+       set.glossy.size()},
+      box, blocks);
 }
 
 }  // namespace steradian::indirect

@@ -36,8 +36,8 @@ STERADIAN_INLINE void store_chosen(float* to, const float* from, unsigned bits) 
 STERADIAN_INLINE void store_chosen(std::uint32_t* to, const std::uint32_t* from, std::size_t first, unsigned bits) {
 #if defined(__AVX512F__)
   const __m512i lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
-  const __m512i index = from != nullptr ? _mm512_loadu_si512(from + first)
-                                        : _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
+  const __m512i index =
+      from != nullptr ? _mm512_loadu_si512(from + first) : _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), index));
 #else
   for (; bits != 0; bits &= bits - 1) {
@@ -99,7 +99,8 @@ __attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, cons
 __attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bounds, const Box& box,
                                                const Passed<kSpheroidPlanes>& passed) {
   const PackVec3 c = broadcast(box.center), h = broadcast(box.half);
-  const PackReal across = broadcast(indirect::kBallRadius), along = broadcast(indirect::kBallAlong), middle = broadcast(indirect::kBallCenter);
+  const PackReal across = broadcast(indirect::kBallRadius), along = broadcast(indirect::kBallAlong),
+                 middle = broadcast(indirect::kBallCenter);
   const auto& p = bounds.plane;
   return run(bounds, passed, [&](std::size_t i) {
     const auto reach = [&](const PackVec3& row) { return abs(row.x) * h.x + abs(row.y) * h.y + abs(row.z) * h.z; };

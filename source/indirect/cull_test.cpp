@@ -77,7 +77,9 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
         TileLists lists;
         lists.cull(cull_table_for(simd), set, receivers, 0);
         for (std::size_t b = 0; b < kBlocks; ++b) {
-          const auto missing = [](TileLists::List list, std::size_t j) { return !std::binary_search(list.begin, list.begin + list.count, j); };
+          const auto missing = [](TileLists::List list, std::size_t j) {
+            return !std::binary_search(list.begin, list.begin + list.count, j);
+          };
           listed += (lists.diffuse(b).count + lists.glossy(b).count) * kBlockReceivers;
           for (std::size_t i = b * kBlockReceivers; i < (b + 1) * kBlockReceivers; ++i) {
             const Vec3f n = receivers.normal[i];

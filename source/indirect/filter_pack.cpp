@@ -19,8 +19,8 @@ struct Likeness {
 };
 // 26 degrees and a twentieth; and what is let in where so little is found that the pattern would be seen, at edges.
 constexpr Likeness kSame{0.9, 0.05, 0.2}, kLoose{0.3, 0.7, 0.5};
-constexpr double kEnough = 0.6;      // share of the weights
-constexpr double kRounding = 1e-5;   // a hundredth of a millimetre
+constexpr double kEnough = 0.6;     // share of the weights
+constexpr double kRounding = 1e-5;  // a hundredth of a millimetre
 
 struct Sums {
   PackVec3 diffuse{0.0, 0.0, 0.0}, shine{0.0, 0.0, 0.0};
@@ -69,9 +69,9 @@ STERADIAN_INLINE PackVec3 mean(const PackVec3& sum, PackReal weight, const PackV
   return over(sum + over(others, others_weight) * lack, weight + lack);
 }
 
-__attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indirect::Raster& raster,
-                                  const indirect::FilterWeights& weights, indirect::FilterAxis axis, int begin, int end, int first,
-                                  int last, const indirect::Light& from, indirect::Light& to) {
+__attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indirect::Raster& raster, const indirect::FilterWeights& weights,
+                                  indirect::FilterAxis axis, int begin, int end, int first, int last, const indirect::Light& from,
+                                  indirect::Light& to) {
   const bool along_x = axis == indirect::FilterAxis::x;
   int reach_low = -kFilterReach, reach_high = kFilterReach;  // the diffuse taps are the widest
   while (weights.diffuse[reach_low + kFilterReach] == 0) ++reach_low;
@@ -85,9 +85,20 @@ __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indir
       if (!any_lane(there)) continue;
       const PackReal width = load(g.width + i);
       const auto glossy = width > none;
-      const int low = along_x ? reach_low : std::max(reach_low, -y), high = along_x ? reach_high : std::min(reach_high, raster.height - 1 - y);
-      const Taps taps{g, weights, from, i, along_x ? 1 : raster.pitch(), low, high, load_at(g.position, i), n, width,
-                      glossy && width < PackReal(0.1), any_lane(glossy)};
+      const int low = along_x ? reach_low : std::max(reach_low, -y),
+                high = along_x ? reach_high : std::min(reach_high, raster.height - 1 - y);
+      const Taps taps{g,
+                      weights,
+                      from,
+                      i,
+                      along_x ? 1 : raster.pitch(),
+                      low,
+                      high,
+                      load_at(g.position, i),
+                      n,
+                      width,
+                      glossy && width < PackReal(0.1),
+                      any_lane(glossy)};
       const Sums same = taps.gather(kSame);
       PackVec3 diffuse = over(same.diffuse, same.diffuse_weight), shine = over(same.shine, same.shine_weight);
       if (any_lane(there && (same.diffuse_weight < enough || (glossy && same.shine_weight < enough)))) {

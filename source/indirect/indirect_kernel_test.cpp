@@ -106,11 +106,14 @@ double largest_pair_error(std::uint64_t seed, int count) {
     Vec3d l = random_direction(random);
     if (dot(l, eye.normal) < 0) l = -l;
     const double distance = std::exp(random.uniform(-2, 2));
-    const auto pair = k.indirect_pair(vector<K>(l * distance), vector<K>(eye.normal), eye.lobe, vector<K>(-light.normal), k.indirect_turned(light.lobe));
+    const auto pair =
+        k.indirect_pair(vector<K>(l * distance), vector<K>(eye.normal), eye.lobe, vector<K>(-light.normal), k.indirect_turned(light.lobe));
     const double out = std::max(-dot(light.normal, l), 0.0), in = std::max(dot(eye.normal, l), 0.0);
-    const double expected[] = {in / distance, out / distance, in > 0 ? eye.evaluate(l) / distance : 0, out > 0 ? light.evaluate(-l) / distance : 0};
+    const double expected[] = {in / distance, out / distance, in > 0 ? eye.evaluate(l) / distance : 0,
+                               out > 0 ? light.evaluate(-l) / distance : 0};
     const double found[] = {static_cast<double>(pair.to_diffuse.v), static_cast<double>(pair.from_diffuse.v),
-                            static_cast<double>((pair.to_glossy * eye.lobe.scale).v), static_cast<double>((pair.from_glossy * light.lobe.scale).v)};
+                            static_cast<double>((pair.to_glossy * eye.lobe.scale).v),
+                            static_cast<double>((pair.from_glossy * light.lobe.scale).v)};
     for (int c = 0; c < 4; ++c) worst = std::max(worst, std::fabs(found[c] - expected[c]) / (expected[c] + 1e-3 / distance));
   }
   return worst;
@@ -283,10 +286,10 @@ TEST(IndirectCulling, SpheroidIsSmall) {
       // costs 4 pi most and its variance is squares / most; a tight bound costs its volume's share and varies by total.
       gains.push_back(4 * kPi * most * (squares / most) / (ratios.back() * total * total));
     }
-  std::cout << "volume over the true one: spheroid median " << median(ratios) << ", worst " << *std::max_element(ratios.begin(), ratios.end())
-            << "; ball median " << median(balls) << ", worst " << *std::max_element(balls.begin(), balls.end())
-            << "; cost times variance below the ball's: median " << median(gains) << ", least " << *std::min_element(gains.begin(), gains.end())
-            << "\n";
+  std::cout << "volume over the true one: spheroid median " << median(ratios) << ", worst "
+            << *std::max_element(ratios.begin(), ratios.end()) << "; ball median " << median(balls) << ", worst "
+            << *std::max_element(balls.begin(), balls.end()) << "; cost times variance below the ball's: median " << median(gains)
+            << ", least " << *std::min_element(gains.begin(), gains.end()) << "\n";
   EXPECT_LE(median(ratios), 1.8);
   EXPECT_LE(*std::max_element(ratios.begin(), ratios.end()), 2.6);
   EXPECT_GE(median(gains), 2.5);

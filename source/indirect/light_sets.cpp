@@ -32,7 +32,6 @@ Vec3f glossy_brightness(const ShadowMap& map, const LobeArrays& lobes, std::size
   return map.flux[i] * mean_reflectance(map, lobes, i) * lobes.scale[i];
 }
 
-
 void push(VectorArray& a, Vec3f v) {
   a.x.push_back(v.x);
   a.y.push_back(v.y);
@@ -127,7 +126,9 @@ class SetMaker {
 
   void add_ggx(LightSet& set, std::size_t i, const GlossyLight& light) const {
     Kernels<float> k;
-    const auto vector = [](Vec3f v) { return Kernels<float>::vec3{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; };
+    const auto vector = [](Vec3f v) {
+      return Kernels<float>::vec3{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    };
     const auto plain = [](const Kernels<float>::vec3& v) { return Vec3f{v.x.v, v.y.v, v.z.v}; };
     const auto frame = k.frame_from_normal_and_view(vector(map_.normal[i]), vector(map_.incoming[i]));
     GgxLight ggx{};
@@ -142,7 +143,8 @@ class SetMaker {
     ggx.bright = flux * map_.f0[i];
     ggx.grazing = flux * (map_.f90[i] - map_.f0[i]);
     // The threshold over the brightness without the lobe: a half of GGX has the lobe's size in it.
-    ggx.reach = static_cast<float>(options_.threshold) / std::max(largest(flux * mean_reflectance(map_, lobes_, i)) / std::max(lobes_.n_a[i], 1e-6f), 1e-30f);
+    ggx.reach = static_cast<float>(options_.threshold) /
+                std::max(largest(flux * mean_reflectance(map_, lobes_, i)) / std::max(lobes_.n_a[i], 1e-6f), 1e-30f);
     ggx.xi = light.xi;
     ggx.soft = light.soft;
     set.ggx.push_back(ggx);
@@ -181,9 +183,7 @@ std::vector<LightSet> make_sets(const ShadowMap& map, const LobeArrays& lobes, c
   }
   std::vector<LightSet> result(static_cast<std::size_t>(sets));
   const SetMaker maker(map, lobes, options);
-  tbb::parallel_for(0, sets, [&](int s) {
-    result[static_cast<std::size_t>(s)] = maker.make(s, members[static_cast<std::size_t>(s)]);
-  });
+  tbb::parallel_for(0, sets, [&](int s) { result[static_cast<std::size_t>(s)] = maker.make(s, members[static_cast<std::size_t>(s)]); });
   return result;
 }
 
@@ -194,8 +194,7 @@ TexelIrradiance irradiance_at(const ShadowMap& map, const LobeArrays& lobes, std
   const float inverse = 1 / std::sqrt(d2);
   const Vec3f w{dot(lobes.x[i], v), dot(lobes.y[i], v), dot(lobes.z[i], v)};
   const float w2 = dot(w, w), half = w.z > 0 ? w.z * d2 / (w2 * w2) : 0;
-  return {largest(diffuse_brightness(map, i)) * cosine / d2 * inverse,
-          largest(glossy_brightness(map, lobes, i)) * half * inverse};
+  return {largest(diffuse_brightness(map, i)) * cosine / d2 * inverse, largest(glossy_brightness(map, lobes, i)) * half * inverse};
 }
 
 namespace {

@@ -52,7 +52,7 @@ struct QuadLight {
 // Bounds of where lights matter, in arrays that are read sixteen lights at a time; padding reaches nowhere.
 // Diffuse: the egg d^2 <= range^2 cosine. Glossy: the unit ball of q = g - T p (kernels, indirect_spheroid).
 struct EggArrays {
-  VectorArray position, normal;  // normal: away from the surface
+  VectorArray position, normal;      // normal: away from the surface
   std::vector<float> range, offset;  // offset: of the surface's plane
 };
 // The ball that holds an egg of range 1: how far in front of the light, and its radius.
@@ -77,8 +77,8 @@ struct LightSet {
 
 struct SetOptions {
   IndirectMode mode = IndirectMode::ltc;
-  int stride = 8;           // stride^2 sets
-  double threshold = 0;     // of irradiance; 0: everything reaches everywhere
+  int stride = 8;        // stride^2 sets
+  double threshold = 0;  // of irradiance; 0: everything reaches everywhere
   bool soften = true;
   std::uint64_t seed = 1;
 };

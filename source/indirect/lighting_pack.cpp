@@ -121,13 +121,12 @@ STERADIAN_INLINE void add_glossy_lights(const LightSet& set, const TileLists::Li
     lobe.x = broadcast(light.row_x);
     lobe.y = broadcast(light.row_y);
     lobe.z = broadcast(light.row_z);
-    const PackReal value = select(dot(broadcast(light.normal), way.v) > PackReal(0.0),
-                                  k.indirect_glossy_half(lobe, way.v, way.d2, soft), PackReal(0.0));
+    const PackReal value =
+        select(dot(broadcast(light.normal), way.v) > PackReal(0.0), k.indirect_glossy_half(lobe, way.v, way.d2, soft), PackReal(0.0));
     const PackReal kept = k.indirect_kept(value, broadcast(light.reach) * (way.d2 * way.inverse), broadcast(light.xi));
     if (!any_lane(kept > PackReal(0.0))) continue;
     PackVec3 bright = broadcast(light.bright);
-    if (light.by_pair > 0)
-      bright = bright + broadcast(light.grazing) * k.indirect_grazing(broadcast(light.incoming), way.v, way.d2);
+    if (light.by_pair > 0) bright = bright + broadcast(light.grazing) * k.indirect_grazing(broadcast(light.incoming), way.v, way.d2);
     add_pair<glossy, quads>(at, way, kept, bright, light.normal, &set.glossy_quads[list.begin[j]], soft, value,
                             set.diffuse.size() + list.begin[j], sums);
   }
@@ -173,27 +172,27 @@ STERADIAN_INLINE Prepared prepare(const indirect::Receivers& receivers, std::siz
 }
 
 template <class Sink>
-STERADIAN_INLINE Sink run(const LightSet& set, const TileLists::List& diffuse, const TileLists::List& shiny, const Prepared& p,
-                          bool quads, const Sink& start) {
+STERADIAN_INLINE Sink run(const LightSet& set, const TileLists::List& diffuse, const TileLists::List& shiny, const Prepared& p, bool quads,
+                          const Sink& start) {
   if (!any_lane(p.glossy)) return add_lights<false, false>(set, diffuse, shiny, p.at, start);
   if (quads && any_lane(p.at.sharp)) return add_lights<true, true>(set, diffuse, shiny, p.at, start);
   return add_lights<true, false>(set, diffuse, shiny, p.at, start);
 }
 
-void ltc(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers,
-         std::size_t first, const LtcPackTables& tables, bool quads, indirect::Light& light) {
+void ltc(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
+         const LtcPackTables& tables, bool quads, indirect::Light& light) {
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     const Prepared p = prepare(receivers, i, tables);
     const Sums sums = run(set, diffuse, shiny, p, quads, Sums());
     store_vector(light.diffuse, i, sums.diffuse);
     // Without a glossy lobe, or seen from below: nothing.
-    store_vector(light.glossy, i, any_lane(p.glossy) ? select(p.facing, sums.glossy * p.at.lobe.scale, PackVec3(0.0, 0.0, 0.0))
-                                                     : PackVec3(0.0, 0.0, 0.0));
+    store_vector(light.glossy, i,
+                 any_lane(p.glossy) ? select(p.facing, sums.glossy * p.at.lobe.scale, PackVec3(0.0, 0.0, 0.0)) : PackVec3(0.0, 0.0, 0.0));
   }
 }
 
-void pick(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers,
-          std::size_t first, const LtcPackTables& tables, bool quads, const float* shares, const indirect::PickedLights& picked) {
+void pick(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
+          const LtcPackTables& tables, bool quads, const float* shares, const indirect::PickedLights& picked) {
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     const Prepared p = prepare(receivers, i, tables);
     Picks all;
@@ -258,8 +257,8 @@ __attribute__((flatten, noinline)) void add_ggx_lights(const LightSet& set, cons
   }
 }
 
-void ggx(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers,
-         std::size_t first, const LtcPackTables& tables, bool, indirect::Light& light) {
+void ggx(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
+         const LtcPackTables& tables, bool, indirect::Light& light) {
   K k;
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     GgxReceiver at;
@@ -278,7 +277,9 @@ void ggx(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, co
       // Demodulated by the same mean reflectance as the other mode, so that both filter the same kind of signal.
       const auto magnitude = look_up_magnitude(tables, sqrt(at.alpha), at.view.z);
       const PackVec3 mean = at.f0 * magnitude.x + at.grazing * magnitude.y;
-      const auto divide = [&](PackReal a, PackReal b) { return select(glossy && b > PackReal(1.0e-12), a / max(b, PackReal(1.0e-12)), PackReal(0.0)); };
+      const auto divide = [&](PackReal a, PackReal b) {
+        return select(glossy && b > PackReal(1.0e-12), a / max(b, PackReal(1.0e-12)), PackReal(0.0));
+      };
       sums.glossy = {divide(sums.glossy.x, mean.x), divide(sums.glossy.y, mean.y), divide(sums.glossy.z, mean.z)};
     } else {
       add_ggx_lights<false>(set, diffuse, shiny, at, sums);

@@ -34,9 +34,7 @@ Surface surface_of(const FrameSurfaces& s, std::size_t i) {
 }
 
 // Ground truth looks at a surface as its material describes it.
-bool needs_materials(const RenderOptions& options) {
-  return options.indirect.mode == IndirectMode::path || options.method == "reference";
-}
+bool needs_materials(const RenderOptions& options) { return options.indirect.mode == IndirectMode::path || options.method == "reference"; }
 
 // Places spread over the picture, for the culling's threshold.
 VectorArray some_receivers(const FrameSurfaces& s) {
@@ -63,7 +61,8 @@ double pixel_spacing(const FrameSurfaces& s) {
       const std::size_t at = s.raster.at(x, y), right = s.raster.at(x + 1, y), below = s.raster.at(x, y + 1);
       const Vec3f n = s.normal[at];
       if (!(dot(n, n) > 0) || !(dot(n, s.normal[right]) > 0.9f) || !(dot(n, s.normal[below]) > 0.9f)) continue;  // another surface
-      spacings.push_back(0.5 * static_cast<double>(length(s.position[right] - s.position[at]) + length(s.position[below] - s.position[at])));
+      spacings.push_back(0.5 *
+                         static_cast<double>(length(s.position[right] - s.position[at]) + length(s.position[below] - s.position[at])));
     }
   if (spacings.empty()) return 0;
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
@@ -128,8 +127,8 @@ void Pipeline::take(const SurfaceTile& tile, TileArea area) {
     for (int x = 0; x < area.width; ++x) {
       const std::size_t slot = tile_slot(x, y), i = surfaces_.raster.at(area.x + x, area.y + y);
       if (tile.alpha_x[slot] != tile.alpha_y[slot]) surfaces_.alpha[i] = std::sqrt(tile.alpha_x[slot] * tile.alpha_y[slot]);
-      const bool takes_light = tile.material[slot] != nullptr &&
-                               (weighs(get(tile.albedo, slot)) || weighs(get(tile.f0, slot)) || weighs(get(tile.f90, slot)));
+      const bool takes_light =
+          tile.material[slot] != nullptr && (weighs(get(tile.albedo, slot)) || weighs(get(tile.f0, slot)) || weighs(get(tile.f90, slot)));
       if (!takes_light)
         surfaces_.normal.put(i, {0, 0, 0});
       else if (!materials_.empty()) {

@@ -12,7 +12,9 @@ struct Raster {
   static constexpr int kMargin = 32;
   int pitch() const { return (width + 15) / 16 * 16 + 2 * kMargin; }
   std::size_t size() const { return static_cast<std::size_t>(pitch()) * static_cast<std::size_t>(height); }
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(pitch()) + static_cast<std::size_t>(x + kMargin); }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(pitch()) + static_cast<std::size_t>(x + kMargin);
+  }
 };
 
 // In the picture's order. A normal of zero: no surface that takes light; the margins are such.
@@ -41,11 +43,14 @@ struct Layout {
   int tiles() const { return tiles_x * tiles_y; }
   int sets() const { return stride * stride; }
   std::size_t size() const { return static_cast<std::size_t>(sets()) * static_cast<std::size_t>(tiles()) * kTileReceivers; }
-  std::size_t tile_begin(int set, int tile) const { return (static_cast<std::size_t>(set) * static_cast<std::size_t>(tiles()) + static_cast<std::size_t>(tile)) * kTileReceivers; }
+  std::size_t tile_begin(int set, int tile) const {
+    return (static_cast<std::size_t>(set) * static_cast<std::size_t>(tiles()) + static_cast<std::size_t>(tile)) * kTileReceivers;
+  }
   // A place is the sum of what a row and what a column adds.
   std::size_t row_part(int y) const {
     const int v = y / stride;
-    return tile_begin(y % stride * stride, v / kTile * tiles_x) + static_cast<std::size_t>(v % kTile / kBlock * (kTile * kBlock) + v % kBlock * kBlock);
+    return tile_begin(y % stride * stride, v / kTile * tiles_x) +
+           static_cast<std::size_t>(v % kTile / kBlock * (kTile * kBlock) + v % kBlock * kBlock);
   }
   std::size_t column_part(int x) const {
     const int u = x / stride;

@@ -16,8 +16,7 @@ __attribute__((flatten)) void run(const indirect::FrameSurfaces& s, const indire
       PackVec3 result(albedo.x * diffuse.x * by_pi, albedo.y * diffuse.y * by_pi, albedo.z * diffuse.z * by_pi);
       const PackVec3 f0 = load_at(s.f0, i), f90 = load_at(s.f90, i);
       if (any_lane(f0.x + f0.y + f0.z + f90.x > PackReal(0.0))) {
-        const auto magnitude =
-            look_up_magnitude(tables, sqrt(load(s.alpha.data() + i)), dot(load_at(s.normal, i), load_at(s.view, i)));
+        const auto magnitude = look_up_magnitude(tables, sqrt(load(s.alpha.data() + i)), dot(load_at(s.normal, i), load_at(s.view, i)));
         const PackVec3 shine = load_at(light.glossy, i), mean = f0 * magnitude.x + (f90 - f0) * magnitude.y;
         result = result + PackVec3(mean.x * shine.x, mean.y * shine.y, mean.z * shine.z);
       }

@@ -20,7 +20,7 @@ constexpr unsigned kCastsShadow = 2;  // RayScene: light passes the shapes that 
 struct LightRay {
   Vec3d origin, direction;  // direction of any length
   Vec3d flux;
-  Vec3d step_x, step_y;   // of the direction (or of the origin, for parallel light), to the next texel
+  Vec3d step_x, step_y;  // of the direction (or of the origin, for parallel light), to the next texel
   bool parallel = false;
   double solid_angle = 0;  // of the texel, where the ray is no part of a perspective or parallel grid
   double back = 0;         // how far behind the origin its apex is taken to be
@@ -109,8 +109,8 @@ Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles
             const double k = static_cast<double>(j) * side + i + 1;
             const auto fraction = [](double x) { return x - std::floor(x); };
             const double u = fraction(0.5 + k / kRoot) * total;
-            const auto next = std::upper_bound(triangles.begin(), triangles.end(), u,
-                                               [](double x, const LightTriangle& t) { return x < t.area_before; });
+            const auto next =
+                std::upper_bound(triangles.begin(), triangles.end(), u, [](double x, const LightTriangle& t) { return x < t.area_before; });
             const LightTriangle& t = *(next - 1);
             const double root = std::sqrt(fraction(0.5 + k / (kRoot * kRoot)));
             const double v = fraction(0.5 + k / (kRoot * kRoot * kRoot));
@@ -191,14 +191,16 @@ Texel shade(const Scene& scene, const LightRay& r, const RTCRayHit16& packet, in
   Texel texel;
   const Vec3d unit = normalized(r.direction);
   texel.incoming = static_cast<Vec3f>(-unit);
-  texel.surface = surface_at(scene, scene.meshes[packet.hit.geomID[k]], packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k], texel.incoming);
+  texel.surface =
+      surface_at(scene, scene.meshes[packet.hit.geomID[k]], packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k], texel.incoming);
   const Surface& s = texel.surface;
   const Vec3d n = static_cast<Vec3d>(s.normal);
   const double distance = static_cast<double>(packet.ray.tfar[k]);
   Vec3d flux = r.flux;
   if (std::isfinite(r.range) && r.range > 0) flux = flux * std::clamp(1 - std::pow(distance / r.range, 4), 0.0, 1.0);
   texel.flux = static_cast<Vec3f>(flux);
-  texel.lit = weighs(texel.flux) && !s.material->unlit && dot(s.normal, texel.incoming) > 0 && (weighs(s.albedo) || weighs(s.f0) || weighs(s.f90));
+  texel.lit =
+      weighs(texel.flux) && !s.material->unlit && dot(s.normal, texel.incoming) > 0 && (weighs(s.albedo) || weighs(s.f0) || weighs(s.f90));
   const double cosine = std::max(-dot(n, unit), 0.02);
   if (r.solid_angle > 0) {
     const double far = distance + r.back;

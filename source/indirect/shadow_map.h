@@ -18,8 +18,8 @@ struct ShadowMap {
   VectorArray flux;              // RGB [W]: what the texel's cone carries
   VectorArray albedo, f0, f90;
   FloatArray alpha;
-  FloatArray area;        // of the cone's section with the surface [m2]
-  VectorArray edge_x, edge_y;     // half axes of that section, a parallelogram about the position
+  FloatArray area;                         // of the cone's section with the surface [m2]
+  VectorArray edge_x, edge_y;              // half axes of that section, a parallelogram about the position
   std::vector<std::uint16_t> column, row;  // place in the light's grid, which is fixed in the light's space
 
   void resize(std::size_t size);  // all arrays, and the count

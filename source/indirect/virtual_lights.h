@@ -11,13 +11,12 @@ namespace steradian::indirect {
 
 // Lobes of surfaces, for kernels/indirect/indirect.glsl. Arrays of a multiple of 16.
 struct LobeArrays {
-  VectorArray x, y, z;        // rows of M^-1 in world space
-  FloatArray scale;   // |M^-1| / pi
+  VectorArray x, y, z;  // rows of M^-1 in world space
+  FloatArray scale;     // |M^-1| / pi
   FloatArray n_a, f_a;
   FloatArray stretch;  // largest of M
 
-  explicit LobeArrays(std::size_t size = 0)
-      : x(size), y(size), z(size), scale(size), n_a(size), f_a(size), stretch(size) {}
+  explicit LobeArrays(std::size_t size = 0) : x(size), y(size), z(size), scale(size), n_a(size), f_a(size), stretch(size) {}
 };
 
 struct VirtualLightTable {

@@ -127,15 +127,21 @@ TEST(SheenPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
   panel.vertices = {{-0.6, 0.5, -0.4}, {-0.6, 1.1, 1.2}, {1.2, 1.1, 1.2}, {1.2, 0.5, -0.4}};
   panel.two_sided = true;
   const PreparedPolygon light = prepare_polygon(panel);
-  const Points points = {kCount, {a[0].data(), a[1].data(), a[2].data()}, {a[3].data(), a[4].data(), a[5].data()},
-                         {a[6].data(), a[7].data(), a[8].data()}, {}, a[9].data(), nullptr};
+  const Points points = {kCount,
+                         {a[0].data(), a[1].data(), a[2].data()},
+                         {a[3].data(), a[4].data(), a[5].data()},
+                         {a[6].data(), a[7].data(), a[8].data()},
+                         {},
+                         a[9].data(),
+                         nullptr};
   for (Simd simd : available_simd()) {
     std::vector<float> result(kCount);
     sheen_table_for(simd).radiance(prepare_light(light), points, result.data());
     for (std::size_t i = 0; i < kCount; ++i) {
       Material m = charlie(1);
       m.alpha_x = m.alpha_y = a[9][i];
-      const double expected = sheen_radiance(light, {{a[0][i], a[1][i], a[2][i]}, {a[3][i], a[4][i], a[5][i]}, {a[6][i], a[7][i], a[8][i]}}, m).x;
+      const double expected =
+          sheen_radiance(light, {{a[0][i], a[1][i], a[2][i]}, {a[3][i], a[4][i], a[5][i]}, {a[6][i], a[7][i], a[8][i]}}, m).x;
       EXPECT_NEAR(result[i], expected, 2e-5 + 1e-4 * expected) << name_of(simd) << " " << i;
     }
   }

@@ -86,9 +86,7 @@ class UnshadowedGgx : public GgxArcs<S> {
     const auto e = this->prepare();
     return {Kernels<S>().ggx_unshadowed(this->view_, e * this->facing(reversed)), Real<S>(0.0)};
   }
-  Part<S> at(const typename Kernels<S>::vec3& u) const {
-    return {Kernels<S>().ggx_lobe_and_fresnel(this->view_, u, 0.0).x, Real<S>(0.0)};
-  }
+  Part<S> at(const typename Kernels<S>::vec3& u) const { return {Kernels<S>().ggx_lobe_and_fresnel(this->view_, u, 0.0).x, Real<S>(0.0)}; }
 };
 
 }  // namespace integrals

@@ -35,7 +35,7 @@ class HalfVector {
     auto p = k.half_vector_at(view_, edge, edge.begin);
     for (int j = 1; j <= options_.arcs; ++j) {
       const Real<S> share(static_cast<double>(j) / options_.arcs);
-      const auto tau = j == options_.arcs                     ? edge.end
+      const auto tau = j == options_.arcs                    ? edge.end
                        : options_.split == ArcSplit::uniform ? k.half_vector_split_uniform(edge, share)
                                                              : k.half_vector_split_pole_mapped(edge, share);
       const auto q = k.half_vector_at(view_, edge, tau);

@@ -112,7 +112,7 @@ struct Together {
   template <class V>
   auto small_light(const V& center) const {
     return BothSmall<decltype(first.small_light(center)), decltype(second.small_light(center))>{first.small_light(center),
-                                                                                               second.small_light(center)};
+                                                                                                second.small_light(center)};
   }
   template <class V>
   auto at(const V& u) const {
@@ -165,7 +165,10 @@ STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shadin
   set_to_zero(nothing);
   const Mask<S> lit = integral.begin(shading);
   if (!any_lane(lit)) return nothing;
-  if constexpr (requires { outline.elements(); integral.least_distance2(); }) {
+  if constexpr (requires {
+                  outline.elements();
+                  integral.least_distance2();
+                }) {
     const auto beyond = outline.distance2() > outline.deviation2() * Real<S>(integral.least_distance2());
     if (any_lane(lit && beyond)) return integrate_small(outline, shading, integral, lit);
   }

@@ -18,7 +18,8 @@ using K = Kernels<double>;
 
 // Above the horizon, with a hole.
 PreparedPolygon light_with_a_hole() {
-  return prepare_polygon({{{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, {{{-0.5, -0.5, 2}, {0.5, -0.4, 2}, {0, 0.5, 2}}}, {1, 1, 1}, true});
+  return prepare_polygon(
+      {{{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, {{{-0.5, -0.5, 2}, {0.5, -0.4, 2}, {0, 0.5, 2}}}, {1, 1, 1}, true});
 }
 
 // Every edge as a contour of its own, in an order of the seed.
@@ -54,7 +55,8 @@ void expect_the_same_in_any_order(auto&& integral) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const PreparedPolygon pieces = as_single_edges(light, seed);
     // A sum of seven terms in another order.
-    EXPECT_NEAR(integrate(integrals::contours_in<double>(pieces, frame, position), shading, integral).x.v, expected, 1e-14 + 1e-12 * std::fabs(expected));
+    EXPECT_NEAR(integrate(integrals::contours_in<double>(pieces, frame, position), shading, integral).x.v, expected,
+                1e-14 + 1e-12 * std::fabs(expected));
   }
 }
 
@@ -67,7 +69,8 @@ TEST(Integrate, TakesSingleEdgesInAnyOrder) {
   ggx.quality = Quality::draft;  // the cubature's nodes go by the edges
   expect_the_same_in_any_order(ggx);
   const integrals::PhongLobe<double> lobe(20, 0);
-  integrals::with_phong_share<double>(lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::Phong<double, decltype(share)>(share, 20, {})); });
+  integrals::with_phong_share<double>(
+      lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::Phong<double, decltype(share)>(share, 20, {})); });
 }
 
 TEST(Integrate, TwoIntegralsTogetherAreThoseOfTwoWalks) {

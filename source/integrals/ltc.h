@@ -84,9 +84,7 @@ class CliplessLtc {
   }
   vec3 end(const vec3& u) const { return K().ltc_direction(lobe_.matrix, u); }
   void add(const vec3& a, const vec3& b) { sum_ = K().ltc_clipless_add_edge(sum_, a, b); }
-  Part<S> finish(Mask<S> reversed) {
-    return value_of(lobe_, K().ltc_clipless_integral(sum_, reversed));
-  }
+  Part<S> finish(Mask<S> reversed) { return value_of(lobe_, K().ltc_clipless_integral(sum_, reversed)); }
 
   double least_distance2() const { return kTransformed.least_distance2; }
   SmallLight<S> small_light(const vec3& center) const { return small_light_under(lobe_, center); }

@@ -23,9 +23,7 @@ bool plain_phong(const Material& m) { return m.brdf == Brdf::phong && !m.foresho
 bool ggx_lobes(const Material& m) { return m.brdf == Brdf::ggx; }
 bool sheen(const Material& m) { return m.brdf == Brdf::charlie; }
 bool products(const Material& m) { return m.brdf == Brdf::lobe_product; }
-bool half_vector_lobes(const Material& m) {
-  return m.brdf == Brdf::blinn_phong || m.brdf == Brdf::beckmann || m.brdf == Brdf::ggx;
-}
+bool half_vector_lobes(const Material& m) { return m.brdf == Brdf::blinn_phong || m.brdf == Brdf::beckmann || m.brdf == Brdf::ggx; }
 bool exact_lobes(const Material& m) {
   return m.brdf == Brdf::lambert || m.brdf == Brdf::phong || (m.brdf == Brdf::ggx && !m.shadowing && m.f0 == m.f90);
 }
@@ -48,8 +46,8 @@ Vec3d lambert(S irradiance, Vec3d radiance, Vec3d albedo) {
 template <Method method>
 RadianceResult phong(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
   const PhongOptions o{method, options.quality};
-  return answer(method, options.precision == Precision::float_ ? Vec3d(phong_radiance_float(light, at, m, o))
-                                                               : phong_radiance(light, at, m, o));
+  return answer(method,
+                options.precision == Precision::float_ ? Vec3d(phong_radiance_float(light, at, m, o)) : phong_radiance(light, at, m, o));
 }
 
 RadianceResult exact(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
@@ -57,19 +55,16 @@ RadianceResult exact(const PreparedPolygon& light, const ShadingPoint& at, const
   if (m.brdf == Brdf::phong) return phong<Method::exact>(light, at, m, options);
   if (m.brdf == Brdf::ggx)
     return answer(Method::exact, in_float ? exact_ggx_radiance_float(light, at, m) : exact_ggx_radiance(light, at, m));
-  return answer(Method::exact,
-                in_float ? lambert(polygon_irradiance_float(light, at.position, at.normal), light.radiance, m.albedo)
-                         : lambert(polygon_irradiance(light, at.position, at.normal), light.radiance, m.albedo));
+  return answer(Method::exact, in_float ? lambert(polygon_irradiance_float(light, at.position, at.normal), light.radiance, m.albedo)
+                                        : lambert(polygon_irradiance(light, at.position, at.normal), light.radiance, m.albedo));
 }
 
-RadianceResult closed_form(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
-                           const RadianceOptions& options) {
+RadianceResult closed_form(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
   const auto evaluate = options.precision == Precision::float_ ? closed_form_radiance_float : closed_form_radiance;
   return answer(Method::closed_form, evaluate(light, at, m, options.quality));
 }
 
-RadianceResult half_vector(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
-                           const RadianceOptions& options) {
+RadianceResult half_vector(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
   const int arcs = options.quality == Quality::draft ? 3 : options.quality == Quality::normal ? 4 : 8;
   const auto evaluate = options.precision == Precision::float_ ? half_vector_radiance_float : half_vector_radiance;
   return answer(Method::half_vector, evaluate(light, at, m, {.arcs = arcs}));
@@ -106,8 +101,7 @@ double matched_lobe_radiance(const PreparedPolygon& light, const ShadingPoint& a
   return static_cast<double>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral).x.v);
 }
 
-RadianceResult matched_lobe(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
-                            const RadianceOptions& options) {
+RadianceResult matched_lobe(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
   const double r = options.precision == Precision::float_ ? matched_lobe_radiance<float>(light, at, m, options.quality)
                                                           : matched_lobe_radiance<double>(light, at, m, options.quality);
   return answer(Method::matched_lobe, light.radiance * m.albedo * r);
@@ -118,15 +112,13 @@ RadianceResult reference(const PreparedPolygon& light, const ShadingPoint& at, c
   return {r.radiance, r.bound, std::nullopt, Method::reference};
 }
 
-RadianceResult sampled(const PreparedPolygon& light, const ShadingPoint& at, const Material& m,
-                       const RadianceOptions& options) {
+RadianceResult sampled(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
   const SampledResult r = sampled_radiance(light, at, m, {options.spp, options.seed});
   return {r.radiance, std::nullopt, r.standard_error, Method::sampled};
 }
 
 RadianceDerivatives exact_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
-  if (m.brdf != Brdf::lambert)
-    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by exact", "use auto");
+  if (m.brdf != Brdf::lambert) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by exact", "use auto");
   return radiance_derivatives(light, at, m, quality);
 }
 
@@ -142,8 +134,7 @@ constexpr Row kMethods[] = {
     {Method::series, "series", "phong", phong_lobes, true, "normal, high",
      "constant time: 1.3e-3 of the full lobe at worst, 4.5e-4 in high quality", phong<Method::series>, radiance_derivatives},
     {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
-     "closed form without approximation; phong by quadrature along the outline to 1e-10 of the full lobe", exact,
-     exact_derivatives},
+     "closed form without approximation; phong by quadrature along the outline to 1e-10 of the full lobe", exact, exact_derivatives},
     {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities,
      "Arvo's recurrence: exact, time grows with the exponent", phong<Method::arvo>},
     {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities,
@@ -153,30 +144,31 @@ constexpr Row kMethods[] = {
     {Method::ellipsoid, "ellipsoid", "phong without foreshortening", plain_phong, true, kNoQualities, "the same, a blend of ellipsoids",
      phong<Method::ellipsoid>},
     {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high",
-     "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form,
-     radiance_derivatives},
+     "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form, radiance_derivatives},
     {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, kNoQualities,
      "linearly transformed cosines by the classic table of 64 x 64: 3 % rms", ltc<LtcMethod::classic, Method::ltc>,
      ltc_derivatives<LtcMethod::classic>},
-    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true,
-     kNoQualities, "the same by a table of 4 KB about the mirrored view",
-     ltc<LtcMethod::compact, Method::ltc_compact>, ltc_derivatives<LtcMethod::compact>},
-    {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true,
-     kNoQualities, "ltc with a sphere's form factor in place of clipping, for comparison",
-     ltc<LtcMethod::clipless, Method::ltc_clipless>},
-    {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing",
-     ltc_lobes<LtcMethod::representative_point>, true, kNoQualities, "one point of the light, Karis 2013, for comparison",
+    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities,
+     "the same by a table of 4 KB about the mirrored view", ltc<LtcMethod::compact, Method::ltc_compact>,
+     ltc_derivatives<LtcMethod::compact>},
+    {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true, kNoQualities,
+     "ltc with a sphere's form factor in place of clipping, for comparison", ltc<LtcMethod::clipless, Method::ltc_clipless>},
+    {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::representative_point>,
+     true, kNoQualities, "one point of the light, Karis 2013, for comparison",
      ltc<LtcMethod::representative_point, Method::representative_point>},
     {Method::half_vector, "half-vector", "blinn-phong; beckmann; ggx", half_vector_lobes, true, "draft, normal, high",
-     "edges split into 3, 4 or 8 great-circle arcs in half-vector space: 0.6 % rms; ggx takes shadowing and Fresnel at one direction", half_vector},
+     "edges split into 3, 4 or 8 great-circle arcs in half-vector space: 0.6 % rms; ggx takes shadowing and Fresnel at one direction",
+     half_vector},
     {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high",
-     "one stretched lobe of the product's height and curvature at its peak, by the series: 1 % of the product on most lights, more where its axes are near 90 degrees apart", matched_lobe},
+     "one stretched lobe of the product's height and curvature at its peak, by the series: 1 % of the product on most lights, more where "
+     "its axes are near 90 degrees apart",
+     matched_lobe},
     {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities,
      "a few nodes about the light's mean direction: 0.1 % rms, 0.4 % on lights five times as large as their distance", cubature},
     {Method::reference, "reference", "all", every_lobe, false, kNoQualities,
      "adaptive quadrature (render: path tracing until converged); tells a bound of its error", reference},
-    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities,
-     "light and lobe sampling, --spp pairs; tells its standard error", sampled},
+    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "light and lobe sampling, --spp pairs; tells its standard error",
+     sampled},
 };
 
 }  // namespace
@@ -211,8 +203,7 @@ const Row& resolve(Method method, const Material& lobe, Precision precision, Qua
     throw Error("method", std::string(name_of(method)) + " does not serve brdf " + brdf, "use auto or one of: " + serving);
   }
   if (precision == Precision::float_ && !row->in_float)
-    throw Error("precision", std::string("method ") + row->name + " works in double only for brdf " + brdf,
-                "leave precision out");
+    throw Error("precision", std::string("method ") + row->name + " works in double only for brdf " + brdf, "leave precision out");
   return *row;
 }
 
@@ -232,8 +223,7 @@ std::string names() {
 
 std::string help() {
   std::string text = "Methods, in the order in which auto looks for one that serves a lobe (a draft takes ltc-compact before closed-form):";
-  for (const Row& row : kMethods)
-    text += std::string("\n  ") + row.name + ": " + row.lobes + ". " + row.help;
+  for (const Row& row : kMethods) text += std::string("\n  ") + row.name + ": " + row.lobes + ". " + row.help;
   return text;
 }
 
@@ -241,8 +231,7 @@ std::string help() {
 
 namespace steradian {
 
-RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe,
-                        const RadianceOptions& options) {
+RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options) {
   const methods::Row& row = methods::resolve(options.method, lobe, options.precision, options.quality);
   if (!(dot(at.normal, at.view) > 0)) return methods::nothing(row.method);
   return row.polygon(light, at, lobe, options);

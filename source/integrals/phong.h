@@ -16,10 +16,10 @@ struct PhongLobe {
   using K = Kernels<S>;
 
   Real<S> n{1.0};
-  int integer_n = 1;    // arvo's count of steps
-  int even_n = 0;       // of an integer exponent: the peak fits' choice of f
-  bool below_1 = false; // the series then goes through n + 2
-  int can_stop = 0;     // arvo's early exit
+  int integer_n = 1;     // arvo's count of steps
+  int even_n = 0;        // of an integer exponent: the peak fits' choice of f
+  bool below_1 = false;  // the series then goes through n + 2
+  int can_stop = 0;      // arvo's early exit
   Real<S> relative_precision{0.0};
   typename K::MomentSeries series;
   typename K::MomentSeriesHigh series_high;
@@ -60,8 +60,7 @@ struct PhongLobe {
     } else if constexpr (method == Method::ellipsoid) {
       return k.moment_ellipsoid_front(edge, n, even_n);
     } else if constexpr (quality == Quality::high) {
-      return below_1 ? k.moment_series_high_low_front(edge, series_high, n)
-                     : k.moment_series_high_front(edge, series_high);
+      return below_1 ? k.moment_series_high_low_front(edge, series_high, n) : k.moment_series_high_front(edge, series_high);
     } else {
       return below_1 ? k.moment_series_low_front(edge, series, n) : k.moment_series_front(edge, series);
     }

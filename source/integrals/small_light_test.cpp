@@ -25,7 +25,8 @@ double stated(Method method, Precision precision, double size) {
     case Method::representative_point: return 3 * size + 1e-5;
     case Method::lorentzian:
     case Method::pearson:
-    case Method::ellipsoid: return precision == Precision::float_ ? 1e-4 : 0.07;  // their own bias, over lights that are small against the lobe
+    case Method::ellipsoid:
+      return precision == Precision::float_ ? 1e-4 : 0.07;  // their own bias, over lights that are small against the lobe
     default: return precision == Precision::float_ ? 1e-4 : 1e-7 + 1e-15 / size;
   }
 }
@@ -53,7 +54,7 @@ TEST(SmallLight, EveryMethodAtEverySize) {
   const ShadingPoint at = {{}, {0, 1, 0}, normalized(Vec3d{0.6, 0.8, 0.2})};
   Material unshadowed = material(Brdf::ggx, 0.25);
   unshadowed.shadowing = false;
-  const Material materials[] = {material(Brdf::lambert, 1),      material(Brdf::phong, 20),     material(Brdf::ggx, 0.25),
+  const Material materials[] = {material(Brdf::lambert, 1),      material(Brdf::phong, 20),      material(Brdf::ggx, 0.25),
                                 material(Brdf::blinn_phong, 50), material(Brdf::beckmann, 0.25), unshadowed};
   int tested = 0;
   for (const Material& m : materials)
@@ -115,15 +116,18 @@ TEST(LightElements, ErrorIsBelowItsBound) {
   const auto vector = [&] { return Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; };
   double largest_share = 0;
   for (int i = 0; i < 400; ++i) {
-    const Material m = i % 4 == 0 ? material(Brdf::phong, 100) : i % 4 == 1 ? material(Brdf::ggx, 0.1)
-                     : i % 4 == 2 ? material(Brdf::beckmann, 0.2) : material(Brdf::lambert, 1);
+    const Material m = i % 4 == 0   ? material(Brdf::phong, 100)
+                       : i % 4 == 1 ? material(Brdf::ggx, 0.1)
+                       : i % 4 == 2 ? material(Brdf::beckmann, 0.2)
+                                    : material(Brdf::lambert, 1);
     const double view_z = uniform(0.15, 1);
     const Vec3d view{std::sqrt(1 - view_z * view_z), 0, view_z};
     const lobes::Lobe lobe(m, view);
     const Vec3d peak = m.brdf == Brdf::lambert ? Vec3d{0, 0, 1} : Vec3d{-view.x, 0, view.z};
-    const double sharpness = m.brdf == Brdf::phong      ? k.light_elements_sharpness(0.1).v
-                             : m.brdf == Brdf::lambert ? k.light_elements_diffuse_sharpness().v
-                             : k.light_elements_half_vector_sharpness(m.brdf == Brdf::ggx ? 0.05 : 0.2 / std::sqrt(2.0), view_z).v;
+    const double sharpness = m.brdf == Brdf::phong ? k.light_elements_sharpness(0.1).v
+                             : m.brdf == Brdf::lambert
+                                 ? k.light_elements_diffuse_sharpness().v
+                                 : k.light_elements_half_vector_sharpness(m.brdf == Brdf::ggx ? 0.05 : 0.2 / std::sqrt(2.0), view_z).v;
     const double t = uniform(0.1, 0.7), deviation = t / sharpness;
     const Vec3d direction = normalized(peak + vector() * (2 / sharpness));
     if (direction.z < 0.05 + 3 * deviation) continue;

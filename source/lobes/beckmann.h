@@ -10,9 +10,7 @@ struct Beckmann {
   static constexpr Brdf kBrdf = Brdf::beckmann;
   static constexpr const char* kName = "beckmann";
   static constexpr Key kKeys[] = {kAlpha, kRoughness, kAlphaX, kAlphaY, kTangent};
-  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) {
-    return {mirrored(at), 2 * std::max(m.alpha_x, m.alpha_y)};
-  }
+  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) { return {mirrored(at), 2 * std::max(m.alpha_x, m.alpha_y)}; }
 
   Beckmann(const Material& material, Vec3d view_) : ax(material.alpha_x), ay(material.alpha_y), view(view_) {}
 

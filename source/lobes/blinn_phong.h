@@ -11,9 +11,7 @@ struct BlinnPhong {
   static constexpr const char* kName = "blinn-phong";
   static constexpr Key kKeys[] = {kExponent};
   // A turned half vector turns the reflected direction by twice the angle.
-  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) {
-    return {mirrored(at), 2 / std::sqrt(m.exponent + 1)};
-  }
+  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) { return {mirrored(at), 2 / std::sqrt(m.exponent + 1)}; }
 
   BlinnPhong(const Material& material, Vec3d view_) : n(material.exponent), view(view_) {}
 

@@ -16,9 +16,7 @@ inline Vec3d direction_at(double z, double sine, double u) {
 }
 
 // Density cos / pi over the hemisphere: a uniform point of the disk, lifted.
-inline Vec3d sample_cosine_hemisphere(double u, double v) {
-  return direction_at(std::sqrt(1 - v), std::sqrt(v), u);
-}
+inline Vec3d sample_cosine_hemisphere(double u, double v) { return direction_at(std::sqrt(1 - v), std::sqrt(v), u); }
 inline double pdf_cosine_hemisphere(Vec3d l) { return std::max(l.z, 0.0) / std::numbers::pi; }
 
 // Density (n+1)/(2 pi) cos^n over the hemisphere, n >= 0: the Phong lobe about its axis.

@@ -11,17 +11,18 @@ struct Ggx {
   static constexpr Brdf kBrdf = Brdf::ggx;
   static constexpr const char* kName = "ggx";
   static constexpr Key kKeys[] = {
-      kRoughness, kAlpha, kAlphaX, kAlphaY, kTangent,
+      kRoughness,
+      kAlpha,
+      kAlphaX,
+      kAlphaY,
+      kTangent,
       {"f0", KeyKind::colour, [](Draft& d, const KeyValue& v) { d.material.f0 = v.vector; }},
       {"f90", KeyKind::colour, [](Draft& d, const KeyValue& v) { d.material.f90 = v.vector; }},
       {"shadowing", KeyKind::word, [](Draft& d, const KeyValue& v) { d.material.shadowing = v.word != "none"; }, false, "smith none"},
       {"multiple_scattering", KeyKind::flag, [](Draft& d, const KeyValue& v) { d.material.multiple_scattering = v.flag; }}};
-  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) {
-    return {mirrored(at), 2 * std::max(m.alpha_x, m.alpha_y)};
-  }
+  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) { return {mirrored(at), 2 * std::max(m.alpha_x, m.alpha_y)}; }
 
-  Ggx(const Material& material, Vec3d view_)
-      : ax(material.alpha_x), ay(material.alpha_y), shadowing(material.shadowing), view(view_) {
+  Ggx(const Material& material, Vec3d view_) : ax(material.alpha_x), ay(material.alpha_y), shadowing(material.shadowing), view(view_) {
     Material local = material;
     local.tangent = {1, 0, 0};
     const Material lobe = with_multiple_scattering(local, {{}, {0, 0, 1}, view});

@@ -17,9 +17,7 @@ Kernels<double>::vec3 to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
 
 Vec3d sample_blinn_phong_half_vector(double n, double u, double v) { return sample_cosine_power(n + 1, u, v); }
 
-double pdf_blinn_phong_half_vector(double n, Vec3d h) {
-  return h.z > 0 ? kernels.blinn_phong_distribution(to_kernel(h), n).v * h.z : 0;
-}
+double pdf_blinn_phong_half_vector(double n, Vec3d h) { return h.z > 0 ? kernels.blinn_phong_distribution(to_kernel(h), n).v * h.z : 0; }
 
 // The slopes of Beckmann's surface are normally distributed.
 Vec3d sample_beckmann_half_vector(double ax, double ay, double u, double v) {

@@ -58,8 +58,8 @@ std::optional<WidthProblem> check_width(const Draft& draft);
 // ---- Keys that several lobes have --------------------------------------------------------------------------------
 
 inline constexpr Key kAlbedo = {"albedo", KeyKind::colour, [](Draft& d, const KeyValue& v) { d.material.albedo = v.vector; }};
-inline constexpr Key kExponent = {"exponent", KeyKind::not_negative,
-                                  [](Draft& d, const KeyValue& v) { d.material.exponent = v.number; }, true};
+inline constexpr Key kExponent = {"exponent", KeyKind::not_negative, [](Draft& d, const KeyValue& v) { d.material.exponent = v.number; },
+                                  true};
 inline constexpr Key kRoughness = {"roughness", KeyKind::share, [](Draft& d, const KeyValue& v) {
                                      d.material.alpha_x = d.material.alpha_y = alpha_from_roughness(v.number);
                                      d.roughness = true;
@@ -76,7 +76,6 @@ inline constexpr Key kAlphaY = {"alpha_y", KeyKind::share, [](Draft& d, const Ke
                                   d.material.alpha_y = std::max(v.number, kSmallestAlpha);
                                   d.alpha_y = true;
                                 }};
-inline constexpr Key kTangent = {"tangent", KeyKind::direction,
-                                 [](Draft& d, const KeyValue& v) { d.material.tangent = v.vector; }};
+inline constexpr Key kTangent = {"tangent", KeyKind::direction, [](Draft& d, const KeyValue& v) { d.material.tangent = v.vector; }};
 
 }  // namespace steradian::lobes

@@ -98,8 +98,7 @@ std::optional<WidthProblem> check_width(const Draft& d) {
   if (d.alpha_x != d.alpha_y) return WidthProblem{d.alpha_x ? "alpha_y" : "alpha_x", "missing", {}};
   const int ways = d.roughness + d.alpha + d.alpha_x;
   const bool anisotropic = has_key(row_of(d.material.brdf).keys, "alpha_x");
-  if (ways == 0)
-    return WidthProblem{"alpha", "missing", anisotropic ? "or give roughness, or alpha_x and alpha_y" : "or give roughness"};
+  if (ways == 0) return WidthProblem{"alpha", "missing", anisotropic ? "or give roughness, or alpha_x and alpha_y" : "or give roughness"};
   if (ways > 1)
     return WidthProblem{"alpha", "the width is given twice",
                         anisotropic ? "one of: roughness; alpha; alpha_x and alpha_y" : "one of: roughness; alpha"};

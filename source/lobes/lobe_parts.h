@@ -32,11 +32,11 @@ struct Colours {
 // A direction l lies there in the direction of the solution w of x w_x + y w_y + z w_z = l + offset. The offset is zero,
 // or the view: w is then a half vector, and a distribution of any two widths is round about (0, 0, 1).
 struct LobeShape {
-  Vec3d peak;         // the l of w = (0, 0, 1)
-  Vec3d x, y, z;      // at most of length 1
+  Vec3d peak;     // the l of w = (0, 0, 1)
+  Vec3d x, y, z;  // at most of length 1
   Vec3d offset;
-  double width;       // angle from (0, 0, 1) [rad]
-  bool long_tailed;   // falls off as a power, not as a Gaussian
+  double width;      // angle from (0, 0, 1) [rad]
+  bool long_tailed;  // falls off as a power, not as a Gaussian
 };
 
 // About the normal, as wide as the hemisphere.
@@ -65,8 +65,6 @@ inline Vec3d from_kernel(const Vec3<Real<double>>& v) { return {v.x.v, v.y.v, v.
 inline double unshadowed_lobe(Real<double> distribution, Vec3d l, Vec3d v) {
   return Kernels<double>().microfacet_lobe_unshadowed(distribution, to_kernel(l), to_kernel(v)).v;
 }
-inline Vec3<Real<double>> half_vector(Vec3d l, Vec3d v) {
-  return Kernels<double>().microfacet_half_vector(to_kernel(l), to_kernel(v));
-}
+inline Vec3<Real<double>> half_vector(Vec3d l, Vec3d v) { return Kernels<double>().microfacet_half_vector(to_kernel(l), to_kernel(v)); }
 
 }  // namespace steradian::lobes

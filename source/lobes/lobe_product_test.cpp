@@ -67,8 +67,8 @@ TEST(ProductOfLobes, QuadratureKeepsItsBoundAndSamplingItsError) {
   for (int i = 0; i < 500; ++i) {
     const auto c = reference::random_configuration(random);
     const PreparedPolygon light = prepare_polygon(c.light);
-    const Material m = product(std::pow(10.0, random.uniform(0, 3)), std::pow(10.0, random.uniform(0, 3)),
-                               reference::random_view(random, c.at.normal));
+    const Material m =
+        product(std::pow(10.0, random.uniform(0, 3)), std::pow(10.0, random.uniform(0, 3)), reference::random_view(random, c.at.normal));
     const ReferenceResult rough = reference_radiance(light, c.at, m, {1e-5, 1e-8, 400'000});
     const ReferenceResult fine = reference_radiance(light, c.at, m, {1e-10, 1e-13, 400'000});
     EXPECT_LE(std::fabs(rough.radiance.x - fine.radiance.x), rough.bound + fine.bound) << i << " " << c.kind;
@@ -91,8 +91,8 @@ TEST(ProductOfLobes, TheMatchedLobeIsNear) {
   for (int i = 0; i < 1000; ++i) {
     const auto c = reference::random_configuration(random);
     const PreparedPolygon light = prepare_polygon(c.light);
-    const Material m = product(std::pow(10.0, random.uniform(0, 3)), std::pow(10.0, random.uniform(0, 3)),
-                               reference::random_view(random, c.at.normal));
+    const Material m =
+        product(std::pow(10.0, random.uniform(0, 3)), std::pow(10.0, random.uniform(0, 3)), reference::random_view(random, c.at.normal));
     const Vec3d mirror = mirrored(c.at);
     if (dot(mirror, m.axis) < 0.25) continue;
     const Vec3d peak = lobe_axis(m, c.at).axis;
@@ -104,7 +104,8 @@ TEST(ProductOfLobes, TheMatchedLobeIsNear) {
       options.method = Method::matched_lobe;
       options.precision = precision;
       const double error = (radiance(light, c.at, m, options).radiance.x - truth.radiance.x) / height;
-      EXPECT_LE(std::fabs(error), 0.04 + truth.bound / height) << c.kind << " " << m.exponent << " " << m.axis_exponent << " " << dot(mirror, m.axis);
+      EXPECT_LE(std::fabs(error), 0.04 + truth.bound / height)
+          << c.kind << " " << m.exponent << " " << m.axis_exponent << " " << dot(mirror, m.axis);
       worst = std::max(worst, std::fabs(error));
       squares += 0.5 * error * error;
     }

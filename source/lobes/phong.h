@@ -10,11 +10,8 @@ struct Phong {
   static constexpr Brdf kBrdf = Brdf::phong;
   static constexpr const char* kName = "phong";
   static constexpr Key kKeys[] = {
-      kExponent, kAlbedo,
-      {"foreshortening", KeyKind::flag, [](Draft& d, const KeyValue& v) { d.material.foreshortening = v.flag; }}};
-  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) {
-    return {mirrored(at), 1 / std::sqrt(m.exponent + 1)};
-  }
+      kExponent, kAlbedo, {"foreshortening", KeyKind::flag, [](Draft& d, const KeyValue& v) { d.material.foreshortening = v.flag; }}};
+  static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) { return {mirrored(at), 1 / std::sqrt(m.exponent + 1)}; }
 
   Phong(const Material& material, Vec3d view)
       : colours{material.albedo},

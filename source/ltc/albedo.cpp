@@ -43,9 +43,7 @@ double ggx_albedo(const Material& material, const ShadingPoint& at) {
   return table_albedo(ggx_compact_table(), std::sqrt(material.alpha_x), dot(unit.normal, unit.view));
 }
 
-double charlie_albedo(double alpha, double cosine) {
-  return table_albedo(charlie_compact_table(), std::sqrt(alpha), cosine);
-}
+double charlie_albedo(double alpha, double cosine) { return table_albedo(charlie_compact_table(), std::sqrt(alpha), cosine); }
 
 Material with_multiple_scattering(const Material& material, const ShadingPoint& at) {
   if (!material.multiple_scattering || material.brdf != Brdf::ggx) return material;

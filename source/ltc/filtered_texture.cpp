@@ -17,8 +17,8 @@ constexpr double kReach = 3;           // standard deviations that a blur reache
 // The coarsest level's standard deviation over the light's largest extent: there, weights over the light differ from one
 // another by exp(-1/8) at most.
 constexpr double kCoarsest = 2;
-constexpr double kMostAnisotropy = 4;    // of a look-up; a longer ellipse is read as a thicker one
-constexpr double kProbeSpacing = 1.5;    // standard deviations between the probes along it: ripple below 1e-3
+constexpr double kMostAnisotropy = 4;  // of a look-up; a longer ellipse is read as a thicker one
+constexpr double kProbeSpacing = 1.5;  // standard deviations between the probes along it: ripple below 1e-3
 constexpr float kLeastCoverage = 1e-6f;
 
 // Crossing number, over all contours: inside the outline and outside the holes.
@@ -26,9 +26,7 @@ bool covers(const std::vector<std::array<double, 2>>& v, const std::vector<std::
   bool inside = false;
   for (std::size_t c = 0; c + 1 < contours.size(); ++c)
     for (std::size_t i = contours[c], j = contours[c + 1] - 1; i < contours[c + 1]; j = i++)
-      if ((v[i][1] > y) != (v[j][1] > y) &&
-          x < (v[j][0] - v[i][0]) * (y - v[i][1]) / (v[j][1] - v[i][1]) + v[i][0])
-        inside = !inside;
+      if ((v[i][1] > y) != (v[j][1] > y) && x < (v[j][0] - v[i][0]) * (y - v[i][1]) / (v[j][1] - v[i][1]) + v[i][0]) inside = !inside;
   return inside;
 }
 

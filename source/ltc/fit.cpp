@@ -145,15 +145,20 @@ double ltc_cosine_at(int j, int n) {
   return std::max(1 - t * t, kSmallestCosine);
 }
 
-LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start,
-                 const FitOptions& options) {
+LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start, const FitOptions& options) {
   const Lobe lobe = family.at(roughness, cos_theta);
   const double alpha = alpha_from_roughness(roughness);
   const Nodes nodes = place_nodes(lobe, options.nodes);
   const Magnitudes magnitudes = integrate_magnitudes(lobe, options.magnitude_directions);
   if (!(magnitudes.albedo > kDarkest)) return dark_cell(start, family.frame, alpha, lobe.view);
   const std::vector<TestRectangle> lights = test_rectangles_near(lobe, options.lights, kLightSeed);
-  const Objective objective{nodes, family.frame, alpha, lobe.view, magnitudes.albedo, options.norm, lights,
+  const Objective objective{nodes,
+                            family.frame,
+                            alpha,
+                            lobe.view,
+                            magnitudes.albedo,
+                            options.norm,
+                            lights,
                             true_radiance(lobe, lights, options.light_directions)};
   std::vector<double> x = objective.variables(start);
   const auto minimise = [&](auto function, double step, int evaluations) {
@@ -188,8 +193,7 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
            ltc_above_horizon(objective.inverse(x.data())) > 0.05;
   };
   if (!sane())
-    return start == LtcShape{} ? dark_cell({}, family.frame, alpha, lobe.view)
-                               : fit_cell(family, roughness, cos_theta, {}, options);
+    return start == LtcShape{} ? dark_cell({}, family.frame, alpha, lobe.view) : fit_cell(family, roughness, cos_theta, {}, options);
 
   LtcCell cell;
   cell.shape = objective.shape(x.data());
@@ -227,8 +231,7 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   const int n = options.size;
   table.cells.resize(static_cast<std::size_t>(n * n));
   std::optional<tbb::global_control> limit;
-  if (options.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   tbb::parallel_for(0, n, [&](int i) {
     const std::vector<LtcCell> column = fit_column(family, i, n, options);
     for (int j = 0; j < n; ++j) table.cells[static_cast<std::size_t>(j * n + i)] = column[static_cast<std::size_t>(j)];

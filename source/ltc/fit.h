@@ -26,15 +26,15 @@ struct LtcCell {
 enum class FitNorm { l1 = 1, l2 = 2, l3 = 3 };
 
 struct FitOptions {
-  int size = 64;                // nodes along roughness and along sqrt(1 - cos theta)
+  int size = 64;  // nodes along roughness and along sqrt(1 - cos theta)
   FitNorm norm = FitNorm::l1;
-  int nodes = 32;               // quadrature nodes: nodes^2 on half of the hemisphere, in the lobe's own coordinates
+  int nodes = 32;                      // quadrature nodes: nodes^2 on half of the hemisphere, in the lobe's own coordinates
   int magnitude_directions = 1 << 14;  // quadrature points for albedo and grazing
-  int lights = 64;              // random rectangles of the second pass; 0: none
-  int light_directions = 4096;  // quadrature points for their true radiance
-  double lobe_share = 0.1;      // weight of the lobe's L1 beside the relative error on the lights
-  int threads = 0;              // 0: all
-  std::function<void()> cell_done;  // called after every cell, from any thread
+  int lights = 64;                     // random rectangles of the second pass; 0: none
+  int light_directions = 4096;         // quadrature points for their true radiance
+  double lobe_share = 0.1;             // weight of the lobe's L1 beside the relative error on the lights
+  int threads = 0;                     // 0: all
+  std::function<void()> cell_done;     // called after every cell, from any thread
 };
 
 // Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit: the last node stands
@@ -44,8 +44,7 @@ inline double ltc_roughness_at(int i, int n) { return static_cast<double>(i) / (
 double ltc_cosine_at(int j, int n);
 
 // The fit of one view, from a starting shape. Deterministic: same input, same bits.
-LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start,
-                 const FitOptions& options);
+LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start, const FitOptions& options);
 
 // Node (i, j) at j * size + i: roughness i, view j. Every column of one roughness starts at the normal view and
 // continues from view to view, so that columns are independent: the same bits on any number of threads.

@@ -19,8 +19,7 @@ constexpr double kSteepestCosine = 0.156434465040230869;  // of 81 degrees
 }  // namespace
 
 ReportOptions whole_grid() {
-  return {{0.05, 0.1, 0.15, 0.2, 0.27, 0.35, 0.43, 0.51, 0.6, 0.7, 0.8, 0.9, 1.0},
-          {0, 15, 30, 45, 55, 65, 73, 80, 85, 88}};
+  return {{0.05, 0.1, 0.15, 0.2, 0.27, 0.35, 0.43, 0.51, 0.6, 0.7, 0.8, 0.9, 1.0}, {0, 15, 30, 45, 55, 65, 73, 80, 85, 88}};
 }
 
 ReportOptions node_grid() {
@@ -161,8 +160,8 @@ std::string describe(const Report& whole, const Report& nodes, const std::vector
   add("\nlobe L1, mean over the views, and over those up to 81 degrees\n"
       "roughness  at nodes  between   ratio  at nodes  between   ratio\n");
   for (const BetweenNodes& b : between)
-    add("%9.3f  %8.4f  %7.4f  %6.3f  %8.4f  %7.4f  %6.3f\n", b.roughness, b.at_nodes, b.between, b.between / b.at_nodes,
-        b.steep_at_nodes, b.steep_between, b.steep_between / b.steep_at_nodes);
+    add("%9.3f  %8.4f  %7.4f  %6.3f  %8.4f  %7.4f  %6.3f\n", b.roughness, b.at_nodes, b.between, b.between / b.at_nodes, b.steep_at_nodes,
+        b.steep_between, b.steep_between / b.steep_at_nodes);
   return text;
 }
 

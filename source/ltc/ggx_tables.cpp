@@ -36,8 +36,7 @@ std::vector<std::array<float, N>> unpacked(const unsigned* words, std::size_t co
 
 const ClassicTable& ggx_classic_table() {
   static const ClassicTable table = {ltc_ggx_size, grouped<4>(ltc_ggx_matrix, ltc_ggx_size * ltc_ggx_size),
-                                     grouped<4>(ltc_ggx_magnitude, ltc_ggx_size * ltc_ggx_size),
-                                     ClassicNormalisation::middle};
+                                     grouped<4>(ltc_ggx_magnitude, ltc_ggx_size * ltc_ggx_size), ClassicNormalisation::middle};
   return table;
 }
 

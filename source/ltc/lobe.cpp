@@ -23,9 +23,7 @@ Lobe with_grazing_fresnel(const Lobe& lobe) {
 
 const std::vector<LobeFamily>& lobe_families() {
   const auto by_alpha = [](Lobe (*lobe)(double, Vec3d)) {
-    return [lobe](double roughness, double cos_theta) {
-      return lobe(alpha_from_roughness(roughness), view_from_cosine(cos_theta));
-    };
+    return [lobe](double roughness, double cos_theta) { return lobe(alpha_from_roughness(roughness), view_from_cosine(cos_theta)); };
   };
   static const std::vector<LobeFamily> families = {
       {"ggx", LobeFrame::mirror, by_alpha(ggx_lobe)},
@@ -34,9 +32,7 @@ const std::vector<LobeFamily>& lobe_families() {
       {"disney-diffuse", LobeFrame::normal,
        [](double roughness, double cos_theta) { return disney_diffuse_lobe(roughness, view_from_cosine(cos_theta)); }},
       {"oren-nayar", LobeFrame::normal,
-       [](double roughness, double cos_theta) {
-         return oren_nayar_lobe(roughness * 0.5 * std::numbers::pi, view_from_cosine(cos_theta));
-       }},
+       [](double roughness, double cos_theta) { return oren_nayar_lobe(roughness * 0.5 * std::numbers::pi, view_from_cosine(cos_theta)); }},
   };
   return families;
 }

@@ -64,8 +64,8 @@ double walk(const PreparedPolygon& light, const LtcInverse& inverse, bool revers
   return static_cast<double>(k.ltc_integral(state, Mask<S>(reversed)).v);
 }
 
-// Signed fan about a direction above both horizons, over arcs that are cut into short ones. The density is homogeneous of degree -3, so that the
-// chords' triangles serve as well as the sphere's, and it is smooth on all of the upper half space.
+// Signed fan about a direction above both horizons, over arcs that are cut into short ones. The density is homogeneous of degree -3, so
+// that the chords' triangles serve as well as the sphere's, and it is smooth on all of the upper half space.
 double quadrature(const PreparedPolygon& light, const LtcInverse& m) {
   static const Rule rule(40);
   const Vec3d planes[] = {{0, 0, 1}, normalized(Vec3d{m.zx, 0, m.zz})};

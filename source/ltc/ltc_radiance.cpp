@@ -22,11 +22,11 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
   const auto shading = integrals::shading_from<S>(cosine > 0 ? shapes::lit_side(light, at.position) : 0, view);
   const double alpha = std::max(material.alpha_x, kSmallestAlpha);
   const auto by = [&](auto integral, Vec3d f0, Vec3d f90) {
-    return integrals::radiance_of<S>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral), f0, f90, light.radiance);
+    return integrals::radiance_of<S>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral), f0, f90,
+                                     light.radiance);
   };
   switch (method) {
-    case LtcMethod::representative_point:
-      return by(integrals::RepresentativePoint<S>(material.alpha_x), material.f0, material.f90);
+    case LtcMethod::representative_point: return by(integrals::RepresentativePoint<S>(material.alpha_x), material.f0, material.f90);
     case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
     case LtcMethod::clipless:
       return by(integrals::CliplessLtc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
@@ -37,8 +37,7 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
 
 void require_service(LtcMethod method, const Material& material) {
   if (!serves(method, material))
-    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing",
-                "use the method closed-form or reference");
+    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form or reference");
 }
 
 }  // namespace
@@ -52,8 +51,7 @@ Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const Shading
   return radiance<double>(method, light, at, with_multiple_scattering(material, at));
 }
 
-Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at,
-                         const Material& material) {
+Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
   require_service(method, material);
   return radiance<float>(method, light, at, with_multiple_scattering(material, at));
 }

@@ -65,7 +65,8 @@ TEST(RepresentativePoint, IsTheReferenceForASmallLightOnARoughSurface) {
     // The fall (alpha/alpha')^2; the distribution's steepest logarithmic slope 2/alpha over half the radius; shadowing's
     // is below 1/l_z. A tenth more for the second order: radius/alpha is at most 0.03.
     const double v_dot_h = dot(view, normalized(view + to));
-    const double bound = 1.1 * (2 * std::sqrt(solid_angle / (4 * kPi * v_dot_h)) / m.alpha_x + radius / m.alpha_x + radius / (to.z - radius));
+    const double bound =
+        1.1 * (2 * std::sqrt(solid_angle / (4 * kPi * v_dot_h)) / m.alpha_x + radius / m.alpha_x + radius / (to.z - radius));
     EXPECT_NEAR(found / expected, 1, bound) << "roughness " << std::sqrt(m.alpha_x) << " l_z " << to.z << " v_z " << view.z;
     worst = std::max(worst, std::fabs(found / expected - 1));
   }

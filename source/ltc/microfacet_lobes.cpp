@@ -48,9 +48,7 @@ Lobe beckmann_lobe(double alpha, Vec3d v) {
     const double d = Kernels<double>{}.beckmann_distribution(to_kernel(normalized(l + v)), alpha, alpha).v;
     return d / (4 * v.z * (1 + lambda_v + lambda(l.z)));
   };
-  lobe.sample = [=](double a, double b) {
-    return lobes::sample_reflection(v, lobes::sample_beckmann_half_vector(alpha, alpha, b, a));
-  };
+  lobe.sample = [=](double a, double b) { return lobes::sample_reflection(v, lobes::sample_beckmann_half_vector(alpha, alpha, b, a)); };
   lobe.pdf = [=](Vec3d l) {
     const Vec3d h = normalized(l + v);
     return lobes::pdf_reflection(v, h, lobes::pdf_beckmann_half_vector(alpha, alpha, h));

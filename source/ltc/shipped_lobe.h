@@ -43,8 +43,8 @@ integrals::LtcLobe<S> compact_lobe(const CompactTable& table, double alpha, Real
   const auto e = interpolate<T>(table.shapes, stencil<T>(at.x, at.y, table.shape_size));
   const auto f = interpolate<T>(table.magnitudes, stencil<T>(at.x, at.y, table.magnitude_size));
   const bool mirror = table.frame == LobeFrame::mirror;
-  return {Kernels<S>().ltc_from_compact({rounded<S>(e.x), rounded<S>(e.y), rounded<S>(e.z), rounded<S>(e.w)},
-                                        mirror ? alpha : 1.0, mirror ? view : vec3(0.0, 0.0, 1.0)),
+  return {Kernels<S>().ltc_from_compact({rounded<S>(e.x), rounded<S>(e.y), rounded<S>(e.z), rounded<S>(e.w)}, mirror ? alpha : 1.0,
+                                        mirror ? view : vec3(0.0, 0.0, 1.0)),
           rounded<S>(f.x), rounded<S>(f.y)};
 }
 

@@ -17,8 +17,7 @@ Stencil<double> stencil_at(double roughness, double cos_theta, int n) {
 
 // Values on a coarse grid whose bilinear interpolation is nearest to the fine values, in the sense of weighted least
 // squares: normal equations by Cholesky's decomposition.
-std::vector<double> fit_coarse(const std::vector<double>& fine, const std::vector<double>& importance, int n,
-                               int coarse) {
+std::vector<double> fit_coarse(const std::vector<double>& fine, const std::vector<double>& importance, int n, int coarse) {
   const auto count = static_cast<std::size_t>(coarse * coarse);
   std::vector<double> matrix(count * count), x(count);
   const auto at = [&](std::size_t row, std::size_t column) -> double& { return matrix[row * count + column]; };
@@ -112,9 +111,7 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
   const auto width_y = [](const LtcCell& c, double) { return 1 / (c.shape.e11 * c.shape.e11); };
   const auto shear = [](const LtcCell&, double alpha) { return std::max(alpha * alpha, 1e-4); };
   const auto shape = [&](std::size_t c) { return [&table, c](std::size_t k) -> float& { return table.shapes[k][c]; }; };
-  const auto magnitude = [&](std::size_t c) {
-    return [&table, c](std::size_t k) -> float& { return table.magnitudes[k][c]; };
-  };
+  const auto magnitude = [&](std::size_t c) { return [&table, c](std::size_t k) -> float& { return table.magnitudes[k][c]; }; };
   resample([](const LtcCell& c) { return c.shape.e00; }, width_x, sizes.shape, shape(0));
   resample([](const LtcCell& c) { return c.shape.e11; }, width_y, sizes.shape, shape(1));
   resample([](const LtcCell& c) { return c.shape.e02; }, width_x, sizes.shape, shape(2));

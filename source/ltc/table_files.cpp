@@ -50,7 +50,7 @@ std::string dds(const Texels& texels, int size) {
   for (int i = 0; i < 11; ++i) append_little_endian(bytes, 0);
   for (std::uint32_t x : {32u, 0x4u, 0x30315844u, 0u, 0u, 0u, 0u, 0u}) append_little_endian(bytes, x);  // "DX10"
   for (std::uint32_t x : {0x1000u, 0u, 0u, 0u, 0u}) append_little_endian(bytes, x);                     // a texture
-  for (std::uint32_t x : {10u, 3u, 0u, 1u, 0u}) append_little_endian(bytes, x);  // half float, two-dimensional, one
+  for (std::uint32_t x : {10u, 3u, 0u, 1u, 0u}) append_little_endian(bytes, x);                         // half float, two-dimensional, one
   for (const auto& texel : texels)
     for (float x : texel) {
       const std::uint16_t half = half_from_float(x);
@@ -67,8 +67,8 @@ std::string exr(const Texels& texels, int size) {
   for (std::size_t c = 0; c < 4; ++c) {
     header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
     const float* base = texels.data()->data() + c;  // OpenEXR wants a non-const pointer also where it only reads
-    frame.insert(names[c], Imf::Slice(Imf::FLOAT, const_cast<char*>(reinterpret_cast<const char*>(base)),
-                                      sizeof(texels[0]), sizeof(texels[0]) * static_cast<std::size_t>(size)));
+    frame.insert(names[c], Imf::Slice(Imf::FLOAT, const_cast<char*>(reinterpret_cast<const char*>(base)), sizeof(texels[0]),
+                                      sizeof(texels[0]) * static_cast<std::size_t>(size)));
   }
   Imf::StdOSStream stream;
   {
@@ -130,8 +130,8 @@ std::vector<std::string> half_words(const std::vector<std::array<float, N>>& val
 }
 
 std::string preamble(const std::string& lobe, const std::string& what, const std::string& command) {
-  return "// Linearly transformed cosines of the lobe " + lobe + ": " + what + "\n// Made by: steradian fit --lobe " + lobe +
-         " " + command + "\n// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n";
+  return "// Linearly transformed cosines of the lobe " + lobe + ": " + what + "\n// Made by: steradian fit --lobe " + lobe + " " +
+         command + "\n// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n";
 }
 
 const char* const kClassicText =
@@ -148,9 +148,7 @@ std::string c_array(const std::string& type, const std::string& name, const std:
   return "static const " + type + " " + name + "[" + std::to_string(items.size()) + "] = {\n" + lines(items, "    ") + "};\n";
 }
 
-std::string c_size(const std::string& name, int size) {
-  return "enum { " + name + "_size = " + std::to_string(size) + " };\n";
-}
+std::string c_size(const std::string& name, int size) { return "enum { " + name + "_size = " + std::to_string(size) + " };\n"; }
 
 std::string glsl_array(const std::string& type, const std::string& name, const std::vector<std::string>& items) {
   const std::string full = type + "[" + std::to_string(items.size()) + "]";
@@ -162,8 +160,8 @@ std::string glsl_size(const std::string& name, int size) { return "const int " +
 std::vector<std::string> vec4s(const Texels& texels) {
   std::vector<std::string> items;
   for (const auto& t : texels)
-    items.push_back("vec4(" + float_literal(t[0]) + ", " + float_literal(t[1]) + ", " + float_literal(t[2]) + ", " +
-                    float_literal(t[3]) + ")");
+    items.push_back("vec4(" + float_literal(t[0]) + ", " + float_literal(t[1]) + ", " + float_literal(t[2]) + ", " + float_literal(t[3]) +
+                    ")");
   return items;
 }
 
@@ -216,14 +214,16 @@ std::vector<TableFile> classic_files(const ClassicTable& table, const std::strin
     return {{numbered(path, "_1"), exr(table.matrix, table.size)}, {numbered(path, "_2"), exr(table.magnitude, table.size)}};
   if (ending == ".h") {
     const auto literal = [](float x) { return float_literal(x) + "f"; };
-    return {{path, head + "#pragma once\n\n" + c_size(name, table.size) + c_array("float", name + "_matrix", formatted(table.matrix, literal)) +
+    return {{path, head + "#pragma once\n\n" + c_size(name, table.size) +
+                       c_array("float", name + "_matrix", formatted(table.matrix, literal)) +
                        c_array("float", name + "_magnitude", formatted(table.magnitude, literal))}};
   }
   if (ending == ".glsl")
     return {{path, head + "\n" + glsl_size(name, table.size) + glsl_array("vec4", name + "_matrix", vec4s(table.matrix)) +
                        glsl_array("vec4", name + "_magnitude", vec4s(table.magnitude))}};
   if (ending == ".json") {
-    nlohmann::ordered_json json = {{"lobe", lobe}, {"layout", "classic"}, {"size", table.size}, {"matrix", table.matrix}, {"magnitude", table.magnitude}};
+    nlohmann::ordered_json json = {
+        {"lobe", lobe}, {"layout", "classic"}, {"size", table.size}, {"matrix", table.matrix}, {"magnitude", table.magnitude}};
     return {{path, json.dump() + "\n"}};
   }
   refuse(path, "classic", ".dds, .exr, .h, .glsl or .json");
@@ -233,7 +233,8 @@ std::vector<TableFile> compact_files(const CompactTable& table, const std::strin
   const std::string ending = ending_of(path), name = "ltc_" + identifier(lobe);
   const std::string head = preamble(lobe, kCompactText, "--layout compact");
   const std::string mirror = table.frame == LobeFrame::mirror ? "mirror" : "normal";
-  const std::string frame = "// Stored about the " + mirror + (table.frame == LobeFrame::mirror ? " direction.\n" : ": pass alpha = 1 and view = (0, 0, 1).\n");
+  const std::string frame =
+      "// Stored about the " + mirror + (table.frame == LobeFrame::mirror ? " direction.\n" : ": pass alpha = 1 and view = (0, 0, 1).\n");
   if (ending == ".h")
     return {{path, head + frame + "#pragma once\n\n" + c_size(name + "_shape", table.shape_size) +
                        c_array("unsigned int", name + "_shape", half_words(table.shapes)) +
@@ -243,10 +244,15 @@ std::vector<TableFile> compact_files(const CompactTable& table, const std::strin
     return {{path, head + frame + "\n" + glsl_size(name + "_shape", table.shape_size) +
                        glsl_array("uint", name + "_shape", half_words(table.shapes)) +
                        glsl_size(name + "_magnitude", table.magnitude_size) +
-                       glsl_array("uint", name + "_magnitude", half_words(table.magnitudes)) +
-                       with_name(kGlslReader, identifier(lobe))}};
+                       glsl_array("uint", name + "_magnitude", half_words(table.magnitudes)) + with_name(kGlslReader, identifier(lobe))}};
   if (ending == ".json") {
-    nlohmann::ordered_json json = {{"lobe", lobe}, {"layout", "compact"}, {"frame", mirror}, {"shape_size", table.shape_size}, {"shape", table.shapes}, {"magnitude_size", table.magnitude_size}, {"magnitude", table.magnitudes}};
+    nlohmann::ordered_json json = {{"lobe", lobe},
+                                   {"layout", "compact"},
+                                   {"frame", mirror},
+                                   {"shape_size", table.shape_size},
+                                   {"shape", table.shapes},
+                                   {"magnitude_size", table.magnitude_size},
+                                   {"magnitude", table.magnitudes}};
     return {{path, json.dump() + "\n"}};
   }
   refuse(path, "compact", ".h, .glsl or .json: it is a plain array, not a texture");

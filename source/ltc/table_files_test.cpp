@@ -32,9 +32,9 @@ TEST(LtcFiles, DdsHoldsThePairInHalfFloats) {
     ASSERT_EQ(bytes.size(), 4u + 124 + 20 + 64 * 64 * 8);
     EXPECT_EQ(bytes.substr(0, 4), "DDS ");
     EXPECT_EQ(word(bytes, 4), 124u);
-    EXPECT_EQ(word(bytes, 12), 64u);   // height
-    EXPECT_EQ(word(bytes, 16), 64u);   // width
-    EXPECT_EQ(word(bytes, 76), 32u);   // size of the pixel format
+    EXPECT_EQ(word(bytes, 12), 64u);  // height
+    EXPECT_EQ(word(bytes, 16), 64u);  // width
+    EXPECT_EQ(word(bytes, 76), 32u);  // size of the pixel format
     EXPECT_EQ(bytes.substr(84, 4), "DX10");
     EXPECT_EQ(word(bytes, 128), 10u);  // R16G16B16A16_FLOAT
     const auto& texels = f == 0 ? table.matrix : table.magnitude;

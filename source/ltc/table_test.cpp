@@ -85,8 +85,7 @@ TEST(LtcTable, IsTheFittersOwn) {
       const auto& m = ggx_classic_table().matrix[static_cast<std::size_t>(j * 64 + i)];
       const double expected[4] = {cell.inverse.xx, cell.inverse.zx, cell.inverse.xz, cell.inverse.zz};
       // The optimiser stops at 1e-5 of its variables; compilers may lead it there by different steps.
-      for (std::size_t c = 0; c < 4; ++c)
-        EXPECT_NEAR(m[c], expected[c] / cell.inverse.yy, 1e-3) << i << " " << j << " entry " << c;
+      for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(m[c], expected[c] / cell.inverse.yy, 1e-3) << i << " " << j << " entry " << c;
       EXPECT_NEAR(ggx_classic_table().magnitude[static_cast<std::size_t>(j * 64 + i)][0], cell.n_a(), 1e-4);
       EXPECT_NEAR(ggx_classic_table().magnitude[static_cast<std::size_t>(j * 64 + i)][1], cell.f_a(), 1e-4);
     }
@@ -135,8 +134,8 @@ TEST(LtcTable, KeepsTheErrorThatIsClaimed) {
   EXPECT_LE(compact_rough, 1.05 * classic_rough);
   const double classic_smooth = relative_error(classic, 0, 0.09), compact_smooth = relative_error(compact, 0, 0.09);
   EXPECT_LT(compact_smooth, classic_smooth);
-  std::printf("relative error r >= 0.1: classic %.4f compact %.4f; r = 0.05: classic %.4f compact %.4f\n", classic_rough,
-              compact_rough, classic_smooth, compact_smooth);
+  std::printf("relative error r >= 0.1: classic %.4f compact %.4f; r = 0.05: classic %.4f compact %.4f\n", classic_rough, compact_rough,
+              classic_smooth, compact_smooth);
 }
 
 TEST(LtcTable, CompactStaysWithinFourKilobytesAndHoldsNarrowLobesTogether) {

@@ -13,9 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Vec3d on_sphere(double z, double turn) {
-  return lobes::direction_at(z, std::sqrt(std::max(1 - z * z, 0.0)), turn);
-}
+Vec3d on_sphere(double z, double turn) { return lobes::direction_at(z, std::sqrt(std::max(1 - z * z, 0.0)), turn); }
 
 // The four planes of origin and edge: inside is the positive side of each.
 std::array<Vec3d, 4> side_planes(const TestRectangle& r) {
@@ -71,8 +69,7 @@ std::vector<double> true_radiance(const Lobe& lobe, const std::vector<TestRectan
     const Vec3d l = lobe.sample((i + 0.5) / directions, 0.5 * (b - std::floor(b)));
     if (!(l.z > 0)) continue;
     const double f = lobe.evaluate(l) / lobe.pdf(l);
-    for (std::size_t k = 0; k < planes.size(); ++k)
-      sum[k] += f * (inside(planes[k], l) + inside(planes[k], {l.x, -l.y, l.z}));
+    for (std::size_t k = 0; k < planes.size(); ++k) sum[k] += f * (inside(planes[k], l) + inside(planes[k], {l.x, -l.y, l.z}));
   }
   for (double& s : sum) s /= 2.0 * directions;
   return sum;

@@ -6,12 +6,12 @@
 namespace steradian {
 namespace {
 
-constexpr int kMostCells = 128;     // a side
-constexpr int kMostSplits = 600;    // of one look
+constexpr int kMostCells = 128;   // a side
+constexpr int kMostSplits = 600;  // of one look
 // Of what the bounds of all cells sum to, as a share of the mean. They add up as if every cell were off by all of its bound, and the same
 // way: measured, the mean is off by less than a tenth of it (docs/ltc.md, "Textured lights").
 constexpr double kTolerance = 0.15;
-constexpr int kDeepest = 6;         // halvings below the smallest cells: an eighth of their side
+constexpr int kDeepest = 6;  // halvings below the smallest cells: an eighth of their side
 
 double luminance(Vec3d v) { return (v.x + v.y + v.z) / 3; }
 double length2(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]; }
@@ -115,7 +115,8 @@ TextureTree::Cell TextureTree::half_of(const Cell& cell, double side, const Plan
   half.depth = cell.depth + 1;
   half.along_a = half.along_b = {};
   half.deviation *= 0.7;
-  const double x = std::clamp((half.center[0] - t.left) / t.spacing, 0.0, t.width - 1.0), y = std::clamp((half.center[1] - t.bottom) / t.spacing, 0.0, t.height - 1.0);
+  const double x = std::clamp((half.center[0] - t.left) / t.spacing, 0.0, t.width - 1.0),
+               y = std::clamp((half.center[1] - t.bottom) / t.spacing, 0.0, t.height - 1.0);
   const int i = std::min(static_cast<int>(x), std::max(t.width - 2, 0)), j = std::min(static_cast<int>(y), std::max(t.height - 2, 0));
   std::array<double, 4> sum{};
   for (int b = 0; b < 2; ++b)

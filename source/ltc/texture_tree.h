@@ -56,7 +56,7 @@ class TextureTree {
   bool resolves(const View& view) const;
 
   std::vector<Cell> cells_;
-  double finest_ = 0;  // deviation of the smallest cells
+  double finest_ = 0;               // deviation of the smallest cells
   std::array<double, 4> bounds_{};  // left, right, bottom, top
 };
 

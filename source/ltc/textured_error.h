@@ -16,8 +16,8 @@ struct NamedImage {
 const std::vector<NamedImage>& test_textures();
 
 struct TexturedErrorRow {
-  double roughness = 0;      // of GGX with F = 1; 0: a diffuse surface
-  double distance = 0;       // of the light's centre, in its sides
+  double roughness = 0;       // of GGX with F = 1; 0: a diffuse surface
+  double distance = 0;        // of the light's centre, in its sides
   std::vector<double> error;  // relative L2 of the radiance over all setups, by texture
   std::vector<double> mean;   // of the light's mean radiance in place of the look-up
   std::vector<double> bias;   // sum over sum, less 1

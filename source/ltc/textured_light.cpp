@@ -19,8 +19,8 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
               const K::mat3& frame, const K::LtcMatrix& m, const std::optional<K::GgxView>& ggx = std::nullopt) {
   K k;
   const auto turned = [&](Vec3d v) { return transform_transposed(frame, integrals::to_kernel<double>(v)); };
-  if (const auto mean = tree.mean_under({m, ggx, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())},
-                                        texture.finest()))
+  if (const auto mean = tree.mean_under(
+          {m, ggx, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())}, texture.finest()))
     return *mean;
   // Any view serves: the lobe is where its matrix says.
   const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
@@ -48,9 +48,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
   for (const TextureGaussian& part : kMixture) {
     const auto g = k.ltc_texture_gaussian(ellipse, part.width, widest);
     const auto place = k.ltc_texture_place(g, aside, slope, shape);
-    const auto under = [&](double px, double py) {
-      return texture.under({px, py, g.major.x.v, g.major.y.v, g.minor.v});
-    };
+    const auto under = [&](double px, double py) { return texture.under({px, py, g.major.x.v, g.major.y.v, g.minor.v}); };
     // Its share of the light is that of where the lobe looks; only its centroid is moved.
     const FilteredTexture::Sum here = under(x, y), there = under(centroid[0] + place.x.v, centroid[1] + place.y.v);
     const bool off = !(there.rgbw[3] > kLeastCoverage);

@@ -217,8 +217,8 @@ TEST(FilteredTexture, ConstantStaysConstantEverywhere) {
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
     const double sigma = std::exp(random.uniform(-6, 3));
-    const Vec3f seen = texture.radiance(
-        texture.under({random.uniform(-3, 3), random.uniform(-3, 3), 5 * sigma, sigma * random.uniform(-1, 1), sigma}));
+    const Vec3f seen =
+        texture.radiance(texture.under({random.uniform(-3, 3), random.uniform(-3, 3), 5 * sigma, sigma * random.uniform(-1, 1), sigma}));
     EXPECT_NEAR(seen.x, expected, 2e-6f) << sigma;  // sums of up to 200 terms of one sign, divided
   }
 }

@@ -31,8 +31,7 @@ inline LobeAndLight adversarial_quad(reference::Random& random) {
   const Vec3d towards = normalized(about_r.to_world({away * std::cos(azimuth), away * std::sin(azimuth), 1}));
   const double tilt = random.uniform(0, 80 * M_PI / 180), turn = 2 * M_PI * random.uniform();
   const Frame about_light = Frame::from_normal(towards);
-  const Vec3d plane = about_light.to_world(
-      {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), -std::cos(tilt)});
+  const Vec3d plane = about_light.to_world({std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), -std::cos(tilt)});
   const double size = std::fmin(width * std::pow(10.0, random.uniform(-0.7, 1.3)), 3.0);
   c.light.vertices = reference::random_star(random, Frame::from_normal(plane), towards, size, 4, 0.3);
   return c;

@@ -7,8 +7,8 @@ namespace {
 
 using K = Kernels<double>;
 
-constexpr int kDeepest = 30;             // halvings; a piece is then below rounding
-constexpr double kTolerance = 1e-14;     // of one piece; a quadrilateral has some dozens
+constexpr int kDeepest = 30;          // halvings; a piece is then below rounding
+constexpr double kTolerance = 1e-14;  // of one piece; a quadrilateral has some dozens
 
 K::MomentIntegrands sum_of(K::MomentIntegrands a, K::MomentIntegrands b) {
   a.moment += b.moment;
@@ -16,8 +16,7 @@ K::MomentIntegrands sum_of(K::MomentIntegrands a, K::MomentIntegrands b) {
   return a;
 }
 
-K::MomentIntegrands refine(const K::MomentQuadrature& q, double low, double high, K::MomentIntegrands whole,
-                           int depth) {
+K::MomentIntegrands refine(const K::MomentQuadrature& q, double low, double high, K::MomentIntegrands whole, int depth) {
   K k;
   const double mid = 0.5 * (low + high);
   const auto left = k.moment_quadrature_piece(q, low, mid), right = k.moment_quadrature_piece(q, mid, high);

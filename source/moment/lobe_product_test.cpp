@@ -25,12 +25,11 @@ template <class F>
 double over_triangle(Vec3d a, Vec3d b, Vec3d c, int depth, const F& f) {
   if (depth > 0) {
     const Vec3d ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
-    return over_triangle(a, ab, ca, depth - 1, f) + over_triangle(ab, b, bc, depth - 1, f) +
-           over_triangle(ca, bc, c, depth - 1, f) + over_triangle(ab, bc, ca, depth - 1, f);
+    return over_triangle(a, ab, ca, depth - 1, f) + over_triangle(ab, b, bc, depth - 1, f) + over_triangle(ca, bc, c, depth - 1, f) +
+           over_triangle(ab, bc, ca, depth - 1, f);
   }
   // Radon's rule with seven nodes.
-  constexpr double kA = 0.059715871789769820, kB = 0.79742698535308732, kWa = 0.13239415278850618,
-                   kWb = 0.12593918054482715;
+  constexpr double kA = 0.059715871789769820, kB = 0.79742698535308732, kWa = 0.13239415278850618, kWb = 0.12593918054482715;
   const Vec3d normal = cross(b - a, c - a);
   const auto at = [&](double u, double v, double w) {
     const Vec3d p = a * u + b * v + c * w;
@@ -145,16 +144,16 @@ TEST(DoubleAxis, KernelsInConstantTimeAreClose) {
     const K::vec3 up(0.0, 0.0, 1.0);
     const integrals::PhongLobe<double> lobe(n - 1, 0);
     const int low = n < 8;
-    const double sum = integrals::sum_over_edges<double>(
-                           integrals::contours_in<double>(light, frame, c.at.position),
-                           [&](const K::vec3& a, const K::vec3& b) {
-                             const auto edge = k.moment_edge(a, b, r);
-                             const auto cosines = k.moment_cosine_front(edge, n, low);
-                             const double half_circle = integrate_front(edge, n - 1).power.v;
-                             worst_cosines = std::max(worst_cosines, std::fabs(cosines.v - half_circle) * std::sqrt(n));
-                             const auto share = lobe.share<Method::series, Quality::normal>(a, b, r);
-                             return k.moment_double_axis_share(a, b, r, up, share, cosines);
-                           }).v;
+    const double sum =
+        integrals::sum_over_edges<double>(integrals::contours_in<double>(light, frame, c.at.position), [&](const K::vec3& a,
+                                                                                                           const K::vec3& b) {
+          const auto edge = k.moment_edge(a, b, r);
+          const auto cosines = k.moment_cosine_front(edge, n, low);
+          const double half_circle = integrate_front(edge, n - 1).power.v;
+          worst_cosines = std::max(worst_cosines, std::fabs(cosines.v - half_circle) * std::sqrt(n));
+          const auto share = lobe.share<Method::series, Quality::normal>(a, b, r);
+          return k.moment_double_axis_share(a, b, r, up, share, cosines);
+        }).v;
     if (light.side_of(c.at.position) == 0) continue;
     const double value = light.side_of(c.at.position) > 0 ? sum / (n + 2) : 0;
     worst = std::max(worst, std::fabs(value - exact) * (n + 2) / (2 * std::numbers::pi));
@@ -209,8 +208,8 @@ TEST(LobeProduct, TwoLobesAsOne) {
     double n1, n2, degrees;
     double integral, isotropic, anisotropic;  // bounds: the specification's measured errors, doubled for other quads
   };
-  const Row rows[] = {{1, 10, 30, .006, .0014, .0016},  {1, 10, 60, .06, .07, .062},    {1, 100, 30, .001, .0005, .0003},
-                      {1, 100, 80, .052, .072, .06},    {10, 10, 60, .026, .022, .0075}, {10, 100, 60, .005, .02, .009},
+  const Row rows[] = {{1, 10, 30, .006, .0014, .0016},    {1, 10, 60, .06, .07, .062},       {1, 100, 30, .001, .0005, .0003},
+                      {1, 100, 80, .052, .072, .06},      {10, 10, 60, .026, .022, .0075},   {10, 100, 60, .005, .02, .009},
                       {100, 100, 30, .001, .0095, .0006}, {100, 100, 60, .0026, .019, .001}, {100, 1000, 80, .0017, .07, .007}};
   K k;
   std::printf("| n1, n2, degrees | integral SG | ours | quads SG | isotropic | anisotropic |\n|---|---|---|---|---|---|\n");
@@ -266,8 +265,8 @@ TEST(LobeProduct, TwoLobesAsOne) {
       worst_one = std::max(worst_one, error(about_one, one.scale.v, one.exponent.v));
       worst_stretched = std::max(worst_stretched, error(about_stretched, stretched.scale.v, stretched.exponent.v));
     }
-    std::printf("| %g, %g, %g | %+.3g %% | %+.2g %% | %.3g %% | %.2g %% | %.2g %% |\n", row.n1, row.n2, row.degrees,
-                100 * (sg / full - 1), 100 * (ours / full - 1), 100 * worst_sg, 100 * worst_one, 100 * worst_stretched);
+    std::printf("| %g, %g, %g | %+.3g %% | %+.2g %% | %.3g %% | %.2g %% | %.2g %% |\n", row.n1, row.n2, row.degrees, 100 * (sg / full - 1),
+                100 * (ours / full - 1), 100 * worst_sg, 100 * worst_one, 100 * worst_stretched);
     EXPECT_LT(std::fabs(ours / full - 1), row.integral);
     EXPECT_LT(worst_one, row.isotropic);
     EXPECT_LT(worst_stretched, row.anisotropic);

@@ -18,14 +18,13 @@ void check(const Material& material, const PhongOptions& options) {
   if (!(material.exponent >= 0) || !std::isfinite(material.exponent))
     throw Error("exponent", "must be 0 or more, here is " + std::to_string(material.exponent));
   const Method m = options.method;
-  if (m != Method::exact && m != Method::arvo && m != Method::lorentzian && m != Method::pearson && m != Method::ellipsoid && m != Method::series)
+  if (m != Method::exact && m != Method::arvo && m != Method::lorentzian && m != Method::pearson && m != Method::ellipsoid &&
+      m != Method::series)
     throw Error("method", std::string(name_of(m)) + " does not serve brdf phong");
   if (material.foreshortening && m != Method::exact && m != Method::arvo && m != Method::series)
     throw Error("method", std::string(name_of(m)) + " does not serve phong with foreshortening");
-  if (options.method == Method::arvo &&
-      (material.exponent != std::floor(material.exponent) || material.exponent > 1e9))
-    throw Error("exponent", "arvo needs an integer, here is " + std::to_string(material.exponent),
-                "use exact or series for others");
+  if (options.method == Method::arvo && (material.exponent != std::floor(material.exponent) || material.exponent > 1e9))
+    throw Error("exponent", "arvo needs an integer, here is " + std::to_string(material.exponent), "use exact or series for others");
 }
 
 using integrals::to_kernel;
@@ -45,8 +44,7 @@ double exact_foreshortened_share(const auto& a, const auto& b, const auto& axis,
   Kernels<double> k;
   const auto edge = k.moment_edge(a, b, axis);
   const auto front = integrate_front(edge, std::max(n, kNearlyFlat) - 1);
-  return (n + 1) / (n + 2) *
-         integrals::ForeshortenedLobe<double>::double_axis_share(edge, a, b, axis, front.moment, front.power).v;
+  return (n + 1) / (n + 2) * integrals::ForeshortenedLobe<double>::double_axis_share(edge, a, b, axis, front.moment, front.power).v;
 }
 
 // Radiance of albedo 1 under radiance 1.
@@ -76,14 +74,12 @@ S radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material&
 
 }  // namespace
 
-Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
-                     const PhongOptions& options) {
+Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material, const PhongOptions& options) {
   check(material, options);
   return light.radiance * material.albedo * radiance<double>(light, at, material, options);
 }
 
-Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
-                           const PhongOptions& options) {
+Vec3f phong_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material, const PhongOptions& options) {
   check(material, options);
   return static_cast<Vec3f>(light.radiance * material.albedo) * radiance<float>(light, at, material, options);
 }
@@ -93,13 +89,14 @@ double axial_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, 
   if (side == 0) return 0;
   const Frame frame = Frame::from_normal(normal);
   const auto r = to_kernel<double>(frame.to_local(axis));
-  const double sum = integrals::sum_over_edges<double>(integrals::contours_in<double>(light, frame, position),
-                                                       [&](const auto& a, const auto& b) { return exact_share(a, b, r, n); }).v;
+  const double sum =
+      integrals::sum_over_edges<double>(integrals::contours_in<double>(light, frame, position), [&](const auto& a, const auto& b) {
+        return exact_share(a, b, r, n);
+      }).v;
   return std::clamp(side * sum, 0.0, 2 * std::numbers::pi) / (n + 1);
 }
 
-double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other,
-                          double n) {
+double double_axis_moment(const PreparedPolygon& light, Vec3d position, Vec3d normal, Vec3d axis, Vec3d other, double n) {
   const int side = shapes::lit_side(light, position);
   if (side == 0) return 0;
   const Frame frame = Frame::from_normal(normal);

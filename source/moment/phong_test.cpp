@@ -63,14 +63,12 @@ TEST(PhongExact, AgreesWithQuadratureOverTheSphere) {
     const PreparedPolygon light = prepare_polygon(c.light);
     const double n = i % 13 == 12 ? std::exp(random.uniform(0, std::log(10000.0))) : kExponents[i % 13];
     if (i % 4 != 0 && !light.vertices.empty()) {  // aim the lobe at the light
-      const Vec3d to_light = normalized(light.vertices[random.bits() % light.vertices.size()] * 0.7 +
-                                        light.centroid * 0.3 - c.at.position);
+      const Vec3d to_light = normalized(light.vertices[random.bits() % light.vertices.size()] * 0.7 + light.centroid * 0.3 - c.at.position);
       if (dot(to_light, c.at.normal) > 1e-3) c.at.view = moment::view_mirrored_to(to_light, c.at.normal);
     }
     const double exact = exact_of(light, c.at, n);
     const ReferenceResult r = reference_radiance(light, c.at, phong(n), {1e-12, 1e-12, 1'000'000});
-    EXPECT_LE(std::fabs(exact - r.radiance.x), 1e-10 + r.bound)
-        << i << ": " << c.kind << ", n = " << n << ", exact " << exact;
+    EXPECT_LE(std::fabs(exact - r.radiance.x), 1e-10 + r.bound) << i << ": " << c.kind << ", n = " << n << ", exact " << exact;
     if (r.bound < 1e-10) errors.add(exact - r.radiance.x, n), ++judged;
     lit += exact > 1e-3;
   }
@@ -101,8 +99,7 @@ TEST(PhongExact, GivesTheWholeLobeUnderAVeryLargeLight) {
   big.vertices = {{-1e6, 1e6, 1}, {1e6, 1e6, 1}, {1e6, -1e6, 1}, {-1e6, -1e6, 1}};  // shines down
   const PreparedPolygon light = prepare_polygon(big);
   // What the light lacks is a band of 1e-6 above the horizon, where the lobe is 0.
-  for (double n : kExponents)
-    EXPECT_NEAR(exact_of(light, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, n), 1, 1e-11) << "n = " << n;
+  for (double n : kExponents) EXPECT_NEAR(exact_of(light, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, n), 1, 1e-11) << "n = " << n;
 }
 
 TEST(PhongExact, IsAdditiveWhenAPolygonIsCut) {

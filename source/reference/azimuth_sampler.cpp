@@ -115,8 +115,8 @@ AzimuthSampler::Sweep AzimuthSampler::sweep(const Slice& slice, Vec3d across) co
 Vec3d AzimuthSampler::sample(double u, double v) const {
   if (!(total_ > 0)) return {};
   const double share = u * total_;
-  auto slice = std::upper_bound(slices_.begin(), slices_.end(), share,
-                                [](double s, const Slice& candidate) { return s < candidate.share; });
+  auto slice =
+      std::upper_bound(slices_.begin(), slices_.end(), share, [](double s, const Slice& candidate) { return s < candidate.share; });
   if (slice == slices_.end()) --slice;
   const double before = slice == slices_.begin() ? 0 : std::prev(slice)->share;
 

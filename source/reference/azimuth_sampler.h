@@ -39,7 +39,7 @@ class AzimuthSampler {
     Vec3d a, normal;
     double begin, end, sign;
   };
-  struct Slice {  // between two neighbouring ends of sides
+  struct Slice {               // between two neighbouring ends of sides
     double begin, end, share;  // share: of all slices up to this one's end
     std::size_t first, last;   // its pieces in pieces_
   };

@@ -79,8 +79,7 @@ double gauss_3x3(const F& f, const Rectangle& r) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       sum += kWeights[i] * kWeights[j] *
-             f(0.5 * (r.x0 + r.x1) + 0.5 * (r.x1 - r.x0) * (i - 1) * kNode,
-               0.5 * (r.y0 + r.y1) + 0.5 * (r.y1 - r.y0) * (j - 1) * kNode);
+             f(0.5 * (r.x0 + r.x1) + 0.5 * (r.x1 - r.x0) * (i - 1) * kNode, 0.5 * (r.y0 + r.y1) + 0.5 * (r.y1 - r.y0) * (j - 1) * kNode);
   return sum * (r.x1 - r.x0) * (r.y1 - r.y0);
 }
 
@@ -123,8 +122,8 @@ Chi2Result chi2_test(const std::function<Vec3d(double, double)>& sample, const s
   double integration_error = 0;
   for (int ring = 0; ring < options.rings; ++ring)
     for (int column = 0; column < options.columns; ++column) {
-      const Rectangle r{double(column) / options.columns, double(column + 1) / options.columns,
-                        double(ring) / options.rings, double(ring + 1) / options.rings};
+      const Rectangle r{double(column) / options.columns, double(column + 1) / options.columns, double(ring) / options.rings,
+                        double(ring + 1) / options.rings};
       // A tenth of a sample: far below the deviation of any cell that is not pooled.
       const Integral p = integrate(density, r, 0, 0.1 / options.samples, 0);
       result.expected_total += p.value;
@@ -175,8 +174,8 @@ Chi2Result chi2_test(const std::function<Vec3d(double, double)>& sample, const s
   result.freedom = std::max(used - 1, 1);
   result.p_value = chi2_p_value(result.statistic, result.freedom);
   result.evidence = "p = " + std::to_string(result.p_value) + ", chi2 = " + std::to_string(result.statistic) + " with " +
-                    std::to_string(result.freedom) + " degrees of freedom, density integrates to " +
-                    std::to_string(result.expected_total) + "; " + result.evidence;
+                    std::to_string(result.freedom) + " degrees of freedom, density integrates to " + std::to_string(result.expected_total) +
+                    "; " + result.evidence;
   return result;
 }
 

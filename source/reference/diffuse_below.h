@@ -16,7 +16,6 @@ struct DiffuseBelowErrors {
   double constant = 0;  // the weight 1 - F0 in every direction
 };
 
-
 // The walk of kernels/polygon.glsl, and what is made of its irradiance vector.
 inline double diffuse_below(const PreparedPolygon& light, const ShadingPoint& at, double loss) {
   Kernels<double> k;

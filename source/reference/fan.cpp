@@ -10,14 +10,11 @@ namespace {
 // How often the arcs run around an axis, counted by azimuth.
 int winding_about(const std::vector<Arc>& arcs, Vec3d axis) {
   double turn = 0;
-  for (const Arc& arc : arcs)
-    turn += std::atan2(dot(axis, cross(arc.a, arc.b)), dot(arc.a, arc.b) - dot(axis, arc.a) * dot(axis, arc.b));
+  for (const Arc& arc : arcs) turn += std::atan2(dot(axis, cross(arc.a, arc.b)), dot(arc.a, arc.b) - dot(axis, arc.a) * dot(axis, arc.b));
   return static_cast<int>(std::lround(turn / (2 * std::numbers::pi)));
 }
 
-Vec3d arc_point(const Arc& arc, double tau) {
-  return arc.a * std::cos(tau) + cross(arc.normal, arc.a) * std::sin(tau);
-}
+Vec3d arc_point(const Arc& arc, double tau) { return arc.a * std::cos(tau) + cross(arc.normal, arc.a) * std::sin(tau); }
 
 }  // namespace
 
@@ -48,8 +45,7 @@ Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) 
 
   // At the peak the lobe falls off on the scale of its width. Off it a power law slows down, and a Gaussian of width w
   // falls as exp(-distance theta / w^2). Beyond 40 widths nothing of it is left in double.
-  theta_scale_ = shape.long_tailed ? std::hypot(shape.width, distance)
-                                   : shape.width / (1 + std::min(distance / shape.width, 40.0));
+  theta_scale_ = shape.long_tailed ? std::hypot(shape.width, distance) : shape.width / (1 + std::min(distance / shape.width, 40.0));
   for (const Arc& arc : region.arcs) add_triangles(arc);
 }
 
@@ -78,9 +74,7 @@ std::vector<double> Fan::crossings(const Arc& arc, const Frame& axis) const {
 
 // Roughly: it only says where to begin.
 double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
-  const auto closeness = [&](double tau) {
-    return dot(normalized(to_lobe_space(arc_point(arc, tau) + shape_.offset)), to);
-  };
+  const auto closeness = [&](double tau) { return dot(normalized(to_lobe_space(arc_point(arc, tau) + shape_.offset)), to); };
   constexpr int kProbes = 12;
   std::vector<double> probes = crossings(arc, Frame::from_normal(to));
   for (int i = 0; i <= kProbes; ++i) probes.push_back(arc.angle * i / kProbes);

@@ -31,8 +31,7 @@ inline Vec3d random_view(Random& random, Vec3d normal) {
 }
 
 // A star-shaped outline about (0, 0) in a frame: jagged where the radius varies, convex-ish where it does not.
-inline std::vector<Vec3d> random_star(Random& random, const Frame& frame, Vec3d centre, double size, int vertices,
-                                      double smallest_radius) {
+inline std::vector<Vec3d> random_star(Random& random, const Frame& frame, Vec3d centre, double size, int vertices, double smallest_radius) {
   std::vector<Vec3d> outline;
   for (int i = 0; i < vertices; ++i) {
     const double phi = 2 * std::numbers::pi * (i + 0.8 * random.uniform()) / vertices;
@@ -84,8 +83,8 @@ inline Material random_material(Random& random) {
 
 inline std::string describe(const Configuration& c, const Material& m) {
   return c.kind + (c.light.two_sided ? " two-sided " : " ") + name_of(m.brdf) + " n=" + std::to_string(m.exponent) +
-         " alpha=" + std::to_string(m.alpha_x) + "," + std::to_string(m.alpha_y) +
-         " v_z=" + std::to_string(dot(c.at.view, c.at.normal)) + (m.shadowing ? " smith" : " unshadowed");
+         " alpha=" + std::to_string(m.alpha_x) + "," + std::to_string(m.alpha_y) + " v_z=" + std::to_string(dot(c.at.view, c.at.normal)) +
+         (m.shadowing ? " smith" : " unshadowed");
 }
 
 }  // namespace steradian::reference

@@ -80,9 +80,7 @@ class Cubature {
   }
 
  private:
-  double weighted(LobeValue v) const {
-    return std::fabs(v.plain) * factors_.plain + std::fabs(v.fresnel) * factors_.fresnel;
-  }
+  double weighted(LobeValue v) const { return std::fabs(v.plain) * factors_.plain + std::fabs(v.fresnel) * factors_.fresnel; }
 
   void push(const Cell& cell) {
     heap_.push_back(cell);
@@ -157,8 +155,7 @@ class Cubature {
     cell.value = kronrod * area;
     const auto weighted_error = [&](LobeValue other) {
       const LobeValue d = (kronrod - other) * area;
-      return weighted({error_estimate(std::fabs(d.plain), variation.plain),
-                       error_estimate(std::fabs(d.fresnel), variation.fresnel)});
+      return weighted({error_estimate(std::fabs(d.plain), variation.plain), error_estimate(std::fabs(d.fresnel), variation.fresnel)});
     };
     cell.error_u = weighted_error(gauss_u);
     cell.error_v = weighted_error(gauss_v);

@@ -69,7 +69,8 @@ TEST(Reference, BoundHoldsForEveryLobe) {
     const ReferenceResult rough = reference_radiance(light, c.at, m, {1e-5, 1e-8, 400'000});
     const ReferenceResult fine = reference_radiance(light, c.at, m, {1e-11, 1e-14, 400'000});
     const double error = largest(rough.radiance - fine.radiance);
-    EXPECT_LE(error, rough.bound + fine.bound) << i << ": " << describe(c, m) << ", value " << fine.radiance.x << " fine bound " << fine.bound;
+    EXPECT_LE(error, rough.bound + fine.bound) << i << ": " << describe(c, m) << ", value " << fine.radiance.x << " fine bound "
+                                               << fine.bound;
     EXPECT_GE(rough.radiance.x, -rough.bound) << i << ": " << describe(c, m);
     lit += fine.radiance.x > 1e-6;
     ++tried;
@@ -157,8 +158,7 @@ TEST(Reference, FresnelIsLinearInItsReflectances) {
       return reference_radiance(light, c.at, m);
     };
     const auto off = at(1, 1), none = at(0, 1), some = at(0.3, 0.9);
-    EXPECT_NEAR(some.radiance.x, 0.3 * (off.radiance.x - none.radiance.x) + 0.9 * none.radiance.x,
-                some.bound + off.bound + none.bound);
+    EXPECT_NEAR(some.radiance.x, 0.3 * (off.radiance.x - none.radiance.x) + 0.9 * none.radiance.x, some.bound + off.bound + none.bound);
   }
 }
 
@@ -219,8 +219,8 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
       ++random_ones;
     }
     // Sidak: 300 tests that fail together once in 1,000 have each a level of 3.3e-6: 4.65 standard errors.
-    EXPECT_LE(std::fabs(z), 4.65) << i << ": " << describe(c, m) << ", exact " << exact << ", sampled "
-                                  << largest(s.radiance) << " +- " << s.standard_error;
+    EXPECT_LE(std::fabs(z), 4.65) << i << ": " << describe(c, m) << ", exact " << exact << ", sampled " << largest(s.radiance) << " +- "
+                                  << s.standard_error;
   }
   // And the errors are not only small enough, they are as large as said: sum of squares of normals.
   const double p = reference::chi2_p_value(squares, random_ones);

@@ -49,8 +49,7 @@ SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const Sha
   region.assign_above_horizon(light, at.position, frame);
   AzimuthSampler sampler;
   // For Lambert the projected solid angle is the integrand. Phong has no foreshortening: even directions suit any lobe.
-  sampler.prepare(region, material.brdf == Brdf::lambert ? SphericalMeasure::projected_solid_angle
-                                                         : SphericalMeasure::solid_angle);
+  sampler.prepare(region, material.brdf == Brdf::lambert ? SphericalMeasure::projected_solid_angle : SphericalMeasure::solid_angle);
   if (!(sampler.measure() > 0)) return {};
 
   Random random(options.seed);
@@ -77,8 +76,8 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
   return estimate(nullptr, light, at, material, options);
 }
 
-SampledResult reference::sampled_radiance_past(const std::function<bool(Vec3d)>& sees, const PreparedPolygon& light,
-                                               const ShadingPoint& at, const Material& material, const SampledOptions& options) {
+SampledResult reference::sampled_radiance_past(const std::function<bool(Vec3d)>& sees, const PreparedPolygon& light, const ShadingPoint& at,
+                                               const Material& material, const SampledOptions& options) {
   return estimate(&sees, light, at, material, options);
 }
 

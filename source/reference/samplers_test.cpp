@@ -43,14 +43,14 @@ TEST(Chi2, UpperGammaHasItsKnownValues) {
   // Half a unit of freedom more: Q(a + 1, x) = Q(a, x) + x^a e^-x / Gamma(a + 1).
   for (double a : {40.5, 150.0})
     for (double x : {20.0, 41.0, 150.0, 180.0})
-      EXPECT_NEAR(regularized_upper_gamma(a + 1, x),
-                  regularized_upper_gamma(a, x) + std::exp(a * std::log(x) - x - std::lgamma(a + 1)), 1e-12);
+      EXPECT_NEAR(regularized_upper_gamma(a + 1, x), regularized_upper_gamma(a, x) + std::exp(a * std::log(x) - x - std::lgamma(a + 1)),
+                  1e-12);
 }
 
 TEST(Chi2, FindsAWrongDensity) {
   // A cosine sampled, a slightly narrower lobe claimed.
-  const auto r = chi2_test([](double u, double v) { return sample_cosine_hemisphere(u, v); },
-                           [](Vec3d l) { return pdf_cosine_power(1.1, l.z); }, {});
+  const auto r =
+      chi2_test([](double u, double v) { return sample_cosine_hemisphere(u, v); }, [](Vec3d l) { return pdf_cosine_power(1.1, l.z); }, {});
   EXPECT_LT(r.p_value, kLevel) << r.evidence;
 }
 
@@ -69,21 +69,18 @@ TEST(Samplers, HalfVectorsHoldTheirDensity) {
     Chi2Options options;
     options.width = width_for(1 / std::sqrt(n + 1));
     expect_density_holds([=](double u, double v) { return sample_blinn_phong_half_vector(n, u, v); },
-                         [=](Vec3d h) { return pdf_blinn_phong_half_vector(n, h); }, options,
-                         "blinn-phong " + std::to_string(n));
+                         [=](Vec3d h) { return pdf_blinn_phong_half_vector(n, h); }, options, "blinn-phong " + std::to_string(n));
   }
   for (double ax : {0.01, 0.3, 1.0})
     for (double ratio : {1.0, 4.0}) {
       Chi2Options options;
       options.width = width_for(ax);
       expect_density_holds([=](double u, double v) { return sample_beckmann_half_vector(ax, ratio * ax, u, v); },
-                           [=](Vec3d h) { return pdf_beckmann_half_vector(ax, ratio * ax, h); }, options,
-                           "beckmann " + std::to_string(ax));
+                           [=](Vec3d h) { return pdf_beckmann_half_vector(ax, ratio * ax, h); }, options, "beckmann " + std::to_string(ax));
       for (double vz : {1.0, 0.6, 0.05})
-        expect_density_holds(
-            [=](double u, double v) { return sample_ggx_visible_normal(view_at(vz), ax, ratio * ax, u, v); },
-            [=](Vec3d h) { return pdf_ggx_visible_normal(view_at(vz), ax, ratio * ax, h); }, options,
-            "ggx " + std::to_string(ax) + " v_z " + std::to_string(vz));
+        expect_density_holds([=](double u, double v) { return sample_ggx_visible_normal(view_at(vz), ax, ratio * ax, u, v); },
+                             [=](Vec3d h) { return pdf_ggx_visible_normal(view_at(vz), ax, ratio * ax, h); }, options,
+                             "ggx " + std::to_string(ax) + " v_z " + std::to_string(vz));
     }
 }
 
@@ -99,8 +96,8 @@ TEST(Samplers, LobesHoldTheirDensity) {
       Chi2Options options;
       options.axis = lobe.shape().peak;
       options.width = 1;
-      expect_density_holds([&](double u, double v) { return lobe.sample(u, v); }, [&](Vec3d l) { return lobe.pdf(l); },
-                           options, std::string(row.name) + " v_z " + std::to_string(vz));
+      expect_density_holds([&](double u, double v) { return lobe.sample(u, v); }, [&](Vec3d l) { return lobe.pdf(l); }, options,
+                           std::string(row.name) + " v_z " + std::to_string(vz));
     }
 }
 
@@ -111,8 +108,7 @@ TEST(Samplers, PolygonsAreSampledEvenlyInBothMeasures) {
     SphericalRegion region;
     region.assign_above_horizon(prepare_polygon(c.light), c.at.position, Frame::from_normal(c.at.normal));
     AzimuthSampler sampler;
-    const auto measure =
-        tested % 2 == 0 ? SphericalMeasure::solid_angle : SphericalMeasure::projected_solid_angle;
+    const auto measure = tested % 2 == 0 ? SphericalMeasure::solid_angle : SphericalMeasure::projected_solid_angle;
     sampler.prepare(region, measure);
     // Of lights that nearly touch the point only slivers may be left above the horizon, which cells cannot resolve.
     if (!(sampler.measure() > 0) || c.kind == "near") continue;
@@ -123,8 +119,8 @@ TEST(Samplers, PolygonsAreSampledEvenlyInBothMeasures) {
     options.columns = 12;
     options.axis = sampler.sample(0.5, 0.5);
     options.width = std::sqrt(sampler.measure());
-    expect_density_holds([&](double u, double v) { return sampler.sample(u, v); },
-                         [&](Vec3d l) { return sampler.pdf(l); }, options, c.kind + " light " + std::to_string(i));
+    expect_density_holds([&](double u, double v) { return sampler.sample(u, v); }, [&](Vec3d l) { return sampler.pdf(l); }, options,
+                         c.kind + " light " + std::to_string(i));
   }
 }
 
@@ -195,8 +191,8 @@ TEST(Samplers, SphericalRectangleHoldsItsDensityAndSolidAngle) {
     options.samples = 30'000;
     options.axis = normalized(corner + x * 0.5 + y * 0.5);
     options.width = std::sqrt(rectangle.solid_angle());
-    expect_density_holds([&](double u, double v) { return rectangle.sample(u, v); },
-                         [&](Vec3d l) { return rectangle.pdf(l); }, options, "rectangle " + std::to_string(i));
+    expect_density_holds([&](double u, double v) { return rectangle.sample(u, v); }, [&](Vec3d l) { return rectangle.pdf(l); }, options,
+                         "rectangle " + std::to_string(i));
   }
 }
 

@@ -59,8 +59,7 @@ void add_arc(Vec3d p, Vec3d q, std::vector<Arc>& arcs) {
 
 }  // namespace
 
-void SphericalRegion::assign(const PreparedPolygon& light, Vec3d position, const Frame& frame, const Vec3d* planes,
-                             int plane_count) {
+void SphericalRegion::assign(const PreparedPolygon& light, Vec3d position, const Frame& frame, const Vec3d* planes, int plane_count) {
   arcs.clear();
   magnification = 1;
   const int side = light.side_of(position);
@@ -72,8 +71,7 @@ void SphericalRegion::assign(const PreparedPolygon& light, Vec3d position, const
     for (std::size_t i = light.contours[c]; i < light.contours[c + 1]; ++i) {
       const Vec3d v = light.vertices[i] - position;
       const double distance = length(v);
-      if (distance > 0)
-        magnification = std::max(magnification, (length(position) + length(light.vertices[i])) / distance);
+      if (distance > 0) magnification = std::max(magnification, (length(position) + length(light.vertices[i])) / distance);
       contour_.push_back(frame.to_local(v));
     }
     if (contour_.size() == 2) {

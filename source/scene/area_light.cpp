@@ -13,8 +13,7 @@ constexpr double kPi = 3.14159265358979324;
 double luminance(Vec3d rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
 PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vertices) {
-  if (vertices < 3)
-    throw Error("", "a polygon needs at least 3 vertices, asked for " + std::to_string(vertices));
+  if (vertices < 3) throw Error("", "a polygon needs at least 3 vertices, asked for " + std::to_string(vertices));
   // The inscribed K-gon has the share sin(d) / d of the ellipse's area, d = 2 pi / K.
   const double step = 2 * kPi / vertices;
   const double out = std::sqrt(step / std::sin(step));
@@ -22,8 +21,7 @@ PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vert
   light.radiance = radiance;
   light.vertices.reserve(static_cast<std::size_t>(vertices));
   for (int k = 0; k < vertices; ++k)
-    light.vertices.push_back(ellipse.center + ellipse.x * (out * std::cos(k * step)) +
-                             ellipse.y * (out * std::sin(k * step)));
+    light.vertices.push_back(ellipse.center + ellipse.x * (out * std::cos(k * step)) + ellipse.y * (out * std::sin(k * step)));
   return light;
 }
 
@@ -32,16 +30,14 @@ std::optional<Ellipse> silhouette(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d
   if (!(std::fabs(determinant) > 0)) return {};
   // Into the space where the ellipsoid is the unit sphere: the inverse of the columns x, y, z.
   const Vec3d to_point = position - center;
-  const Vec3d p =
-      Vec3d{dot(cross(y, z), to_point), dot(cross(z, x), to_point), dot(cross(x, y), to_point)} / determinant;
+  const Vec3d p = Vec3d{dot(cross(y, z), to_point), dot(cross(z, x), to_point), dot(cross(x, y), to_point)} / determinant;
   const double distance = length(p);
   if (!(distance > 1) || !std::isfinite(distance)) return {};
   // A point at distance d sees the circle of radius sqrt(1 - 1/d^2) in the plane at height 1/d.
   const Frame frame = Frame::from_normal(p / distance);
   const double radius = std::sqrt((1 - 1 / distance) * (1 + 1 / distance));
   const auto to_world = [&](Vec3d v) { return x * v.x + y * v.y + z * v.z; };
-  Ellipse result{center + to_world(frame.z / distance), to_world(frame.x * radius),
-                 to_world(frame.y * radius)};
+  Ellipse result{center + to_world(frame.z / distance), to_world(frame.x * radius), to_world(frame.y * radius)};
   if (determinant < 0) result.x = -result.x;
   return result;
 }
@@ -64,8 +60,8 @@ PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int verti
 
 Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& images, Vec3d p) {
   const Vec3d r = p - texture.origin;
-  const Vec4f t = sample_texture(images, texture.use, {static_cast<float>(dot(r, texture.du) + texture.u0),
-                                                       static_cast<float>(dot(r, texture.dv) + texture.v0)});
+  const Vec4f t = sample_texture(
+      images, texture.use, {static_cast<float>(dot(r, texture.du) + texture.u0), static_cast<float>(dot(r, texture.dv) + texture.v0)});
   return texture.factor * static_cast<Vec3d>(Vec3f{t.x, t.y, t.z});
 }
 

@@ -13,8 +13,7 @@ constexpr double kPi = std::numbers::pi;
 
 TEST(AreaLight, GivesAnEllipseAPolygonOfItsArea) {
   for (const int k : {3, 8, 64}) {
-    const PreparedPolygon p =
-        prepare_polygon(equal_area_polygon({{1, 2, 3}, {2, 0, 0}, {0.5, 1, 0}}, {1, 1, 1}, k));
+    const PreparedPolygon p = prepare_polygon(equal_area_polygon({{1, 2, 3}, {2, 0, 0}, {0.5, 1, 0}}, {1, 1, 1}, k));
     EXPECT_NEAR(p.area, 2 * kPi, 1e-12) << k;
     EXPECT_NEAR(p.normal.z, 1, 1e-12);
   }
@@ -32,11 +31,9 @@ TEST(AreaLight, GivesASphereTheSolidAngleItHas) {
     const double s = 0.5 / distance, exact = 2 * kPi * s * s / (1 + std::sqrt(1 - s * s));
     // The K-gon's solid angle differs from the cone's by O(1/K^4) at equal area near the centre and O(1/K^2)
     // at most.
-    const double polygon =
-        polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 64)), position);
+    const double polygon = polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 64)), position);
     EXPECT_NEAR(polygon / exact, 1, (2 * kPi / 64) * (2 * kPi / 64)) << distance;
-    const double finer =
-        polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 640)), position);
+    const double finer = polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 640)), position);
     EXPECT_LE(std::fabs(finer / exact - 1), std::fabs(polygon / exact - 1) / 50 + 1e-9) << distance;
   }
   EXPECT_TRUE(polygon_seen_from(light, light.center + Vec3d{0.1, 0, 0}).vertices.empty()) << "from inside";
@@ -53,9 +50,7 @@ TEST(AreaLight, OutlinesAnEllipsoidByRaysThatTouchIt) {
     const double det = dot(cross(x, y), z);
     if (std::fabs(det) < 0.05) continue;
     const auto outline = silhouette(center, x, y, z, position);
-    const auto to_unit = [&](Vec3d v) {
-      return Vec3d{dot(cross(y, z), v), dot(cross(z, x), v), dot(cross(x, y), v)} / det;
-    };
+    const auto to_unit = [&](Vec3d v) { return Vec3d{dot(cross(y, z), v), dot(cross(z, x), v), dot(cross(x, y), v)} / det; };
     const Vec3d p = to_unit(position - center);
     ASSERT_EQ(outline.has_value(), length(p) > 1);
     if (!outline) continue;
@@ -63,8 +58,7 @@ TEST(AreaLight, OutlinesAnEllipsoidByRaysThatTouchIt) {
     EXPECT_GT(dot(cross(outline->x, outline->y), position - outline->center), 0) << "faces the point";
     for (int k = 0; k < 8; ++k) {
       const double t = k * kPi / 4;
-      const Vec3d d =
-          to_unit(outline->center + outline->x * std::cos(t) + outline->y * std::sin(t) - position);
+      const Vec3d d = to_unit(outline->center + outline->x * std::cos(t) + outline->y * std::sin(t) - position);
       const double half_b = dot(p, d), a = dot(d, d), c = dot(p, p) - 1;
       // Error budget: each product is rounded a few times, magnified by the inverse of the axes' determinant
       // (< 20).

@@ -12,9 +12,9 @@ namespace steradian {
 // pole or a seam twice get them equal but for rounding.
 struct MeshPart {
   std::vector<std::size_t> triangles;
-  bool closed = false;   // every edge is walked once each way
-  double volume = 0;     // of a closed part [m^3]: negative where its triangles face inwards
-  Vec3d low, high;       // bounds
+  bool closed = false;  // every edge is walked once each way
+  double volume = 0;    // of a closed part [m^3]: negative where its triangles face inwards
+  Vec3d low, high;      // bounds
 };
 
 // The parts of a list of triangles, in the order of their first triangles. Triangles with two equal corners belong to none.

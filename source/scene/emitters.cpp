@@ -75,8 +75,7 @@ Vec3d mean_texel(const Scene& scene, const TextureUse& use, Vec2f a, Vec2f b, Ve
   Vec3d sum{};
   const auto add = [&](double i, double j) {
     const auto u = static_cast<float>(i / n), v = static_cast<float>(j / n), w = 1 - u - v;
-    const Vec4f s =
-        sample_texture(scene.images, use, {a.x * w + b.x * u + c.x * v, a.y * w + b.y * u + c.y * v});
+    const Vec4f s = sample_texture(scene.images, use, {a.x * w + b.x * u + c.x * v, a.y * w + b.y * u + c.y * v});
     sum += static_cast<Vec3d>(Vec3f{s.x, s.y, s.z});
   };
   for (int i = 0; i < n; ++i)
@@ -87,8 +86,7 @@ Vec3d mean_texel(const Scene& scene, const TextureUse& use, Vec2f a, Vec2f b, Ve
   return sum / (static_cast<double>(n) * n);
 }
 
-Vec3d mean_radiance(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m,
-                    const std::vector<std::size_t>& triangles) {
+Vec3d mean_radiance(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m, const std::vector<std::size_t>& triangles) {
   const Vec3d factor = static_cast<Vec3d>(m.emissive);
   if (!m.emissive_texture.present()) return factor;
   const int set = m.emissive_texture.texcoord;
@@ -97,17 +95,14 @@ Vec3d mean_radiance(const Scene& scene, const Mesh& mesh, const SurfaceMaterial&
   for (const std::size_t t : triangles) {
     const Triangle p = world_triangle(mesh, t);
     const double area = length(cross(p[1] - p[0], p[2] - p[0]));
-    sum += mean_texel(scene, m.emissive_texture, texcoord(mesh, set, t, 0), texcoord(mesh, set, t, 1),
-                      texcoord(mesh, set, t, 2)) *
-           area;
+    sum += mean_texel(scene, m.emissive_texture, texcoord(mesh, set, t, 0), texcoord(mesh, set, t, 1), texcoord(mesh, set, t, 2)) * area;
     total += area;
   }
   return total > 0 ? factor * (sum / total) : Vec3d{};
 }
 
 // At worst every triangle becomes a light, and each is averaged over as many texels as it covers.
-void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m, Budget& budget,
-                     const std::string& path) {
+void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m, Budget& budget, const std::string& path) {
   const std::string place = path + ": the emissive mesh \"" + mesh.name + "\"";
   constexpr std::uint64_t kWelding = 400;  // bytes that merging keeps of a triangle
   budget.take_memory(place, "the lights of its emissive triangles", mesh.triangle_count() * (sizeof(AreaLight) + kWelding));
@@ -117,8 +112,8 @@ void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial
   const Image& image = scene.images[static_cast<std::size_t>(m.emissive_texture.image)];
   std::uint64_t samples = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto side = static_cast<std::uint64_t>(samples_per_side(
-        image, m.emissive_texture, texcoord(mesh, set, t, 0), texcoord(mesh, set, t, 1), texcoord(mesh, set, t, 2)));
+    const auto side = static_cast<std::uint64_t>(
+        samples_per_side(image, m.emissive_texture, texcoord(mesh, set, t, 0), texcoord(mesh, set, t, 1), texcoord(mesh, set, t, 2)));
     samples += side * side;
   }
   budget.take_work(place, "the means of its emissive texture", kStepsPerSample * samples);
@@ -145,8 +140,7 @@ AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) 
   light.polygon.two_sided = m.double_sided;
   if (m.emissive_texture.present()) {
     const UvMap map = uv_map(mesh, m.emissive_texture.texcoord, polygon.triangles.front());
-    light.texture = LightTexture{
-        m.emissive_texture, map.origin, map.du, map.dv, map.u0, map.v0, static_cast<Vec3d>(m.emissive)};
+    light.texture = LightTexture{m.emissive_texture, map.origin, map.du, map.dv, map.u0, map.v0, static_cast<Vec3d>(m.emissive)};
   }
   light.polygon.vertices = std::move(polygon.outline);
   light.polygon.holes = std::move(polygon.holes);
@@ -241,8 +235,8 @@ std::vector<AreaLight> as_spheres(const Scene& scene, const Mesh& mesh, const st
 }
 
 // The polygons that a mesh's triangles merge to, as lights.
-std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& triangles,
-                         const std::vector<MeshPart>& parts, const std::vector<Shines>& shines) {
+std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& triangles, const std::vector<MeshPart>& parts,
+                         const std::vector<Shines>& shines) {
   const TextureUse& texture = scene.materials[static_cast<std::size_t>(mesh.material)].emissive_texture;
   MergedPolygons merged = merge_coplanar(triangles, [&](std::size_t a, std::size_t b) {
     return !texture.present() || continues(uv_map(mesh, texture.texcoord, a), mesh, texture.texcoord, b);
@@ -253,8 +247,7 @@ std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& 
   for (MergedPolygon& polygon : merged.polygons) {
     const Shines where = of_triangle[polygon.triangles.front()];
     if (where == Shines::outwards_and_faces_inwards) turn_outwards(polygon);
-    for (const std::size_t t : polygon.triangles)
-      mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
+    for (const std::size_t t : polygon.triangles) mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
     AreaLight light = to_light(scene, mesh, std::move(polygon));
     if (where != Shines::as_the_file_says) light.polygon.two_sided = false;
     scene.area_lights.push_back(std::move(light));
@@ -285,8 +278,7 @@ std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path) 
     }
     mesh.casts_shadow = false;  // its facets lie on both sides of the sphere
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      for (const std::size_t t : parts[i].triangles)
-        mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
+      for (const std::size_t t : parts[i].triangles) mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
       scene.area_lights.push_back(std::move(spheres[i]));
     }
   }
@@ -298,9 +290,8 @@ KeptLights keep_strongest(Scene& scene, std::size_t most) {
   const std::size_t n = scene.area_lights.size();
   std::vector<std::size_t> ranked(n);
   std::iota(ranked.begin(), ranked.end(), std::size_t{0});
-  std::stable_sort(ranked.begin(), ranked.end(), [&](std::size_t a, std::size_t b) {
-    return scene.area_lights[a].power > scene.area_lights[b].power;
-  });
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [&](std::size_t a, std::size_t b) { return scene.area_lights[a].power > scene.area_lights[b].power; });
   std::vector<bool> keep(n, false);
   double all = 0, kept = 0;
   for (std::size_t i = 0; i < n; ++i) {

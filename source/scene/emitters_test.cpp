@@ -34,8 +34,8 @@ Mesh ball(int segments, int rings, Vec3d x, Vec3d y, Vec3d z, Vec3d center) {
 Mesh box(Vec3d low, Vec3d high) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back(static_cast<Vec3f>(
-        Vec3d{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z}));
+    mesh.positions.push_back(
+        static_cast<Vec3f>(Vec3d{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z}));
   for (const std::uint32_t q : {0x0264u, 0x1573u, 0x0451u, 0x2376u, 0x0132u, 0x4675u}) {
     const std::uint32_t a = q >> 12, b = q >> 8 & 7, c = q >> 4 & 7, d = q & 7;
     mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});

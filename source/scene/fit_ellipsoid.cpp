@@ -92,8 +92,7 @@ std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, c
 
   const double size = local.scale * std::sqrt(share);
   if (dot(axis[0], cross(axis[1], axis[2])) < 0) axis[2] = -axis[2];
-  return Ellipsoid{local.center + at * local.scale, axis[0] * (half[0] * size), axis[1] * (half[1] * size),
-                   axis[2] * (half[2] * size)};
+  return Ellipsoid{local.center + at * local.scale, axis[0] * (half[0] * size), axis[1] * (half[1] * size), axis[2] * (half[2] * size)};
 }
 
 std::optional<Ellipse> fit_ellipse(const std::vector<Vec3d>& outline) {
@@ -101,8 +100,7 @@ std::optional<Ellipse> fit_ellipse(const std::vector<Vec3d>& outline) {
   const Normalised local = normalise(outline);
   if (!(local.scale > 0) || !std::isfinite(local.scale)) return {};
   Vec3d area{};
-  for (std::size_t i = 0; i < outline.size(); ++i)
-    area += cross(local(outline[i]), local(outline[(i + 1) % outline.size()])) / 2;
+  for (std::size_t i = 0; i < outline.size(); ++i) area += cross(local(outline[i]), local(outline[(i + 1) % outline.size()])) / 2;
   if (!(length(area) > 0)) return {};
   const Frame frame = Frame::from_normal(normalized(area));
 

@@ -26,10 +26,8 @@ void measure_bounds(Scene& scene) {
       const Vec3d v = static_cast<Vec3d>(p);
       if (!any) scene.bounds_min = scene.bounds_max = v;
       any = true;
-      scene.bounds_min = {std::min(scene.bounds_min.x, v.x), std::min(scene.bounds_min.y, v.y),
-                          std::min(scene.bounds_min.z, v.z)};
-      scene.bounds_max = {std::max(scene.bounds_max.x, v.x), std::max(scene.bounds_max.y, v.y),
-                          std::max(scene.bounds_max.z, v.z)};
+      scene.bounds_min = {std::min(scene.bounds_min.x, v.x), std::min(scene.bounds_min.y, v.y), std::min(scene.bounds_min.z, v.z)};
+      scene.bounds_max = {std::max(scene.bounds_max.x, v.x), std::max(scene.bounds_max.y, v.y), std::max(scene.bounds_max.z, v.z)};
     }
 }
 
@@ -59,8 +57,7 @@ AreaLight square_light(const Scene& scene, const char* name, Vec3d towards, doub
   light.name = name;
   light.center = sphere.center + to_light * (3 * r);
   const Vec3d x = frame.x * r, y = frame.y * r;
-  light.polygon.vertices = {light.center - x - y, light.center + x - y, light.center + x + y,
-                            light.center - x + y};
+  light.polygon.vertices = {light.center - x - y, light.center + x - y, light.center + x + y, light.center - x + y};
   const double radiance = irradiance * 9 / 4;
   light.polygon.radiance = {radiance, radiance, radiance};
   light.power = luminance(light.polygon.radiance) * 4 * r * r;

@@ -17,16 +17,12 @@ enum Component { kByte = 5120, kUnsignedByte, kShort, kUnsignedShort, kUnsignedI
 std::size_t bytes_of(int component) {
   switch (component) {
     case kByte:
-    case kUnsignedByte:
-      return 1;
+    case kUnsignedByte: return 1;
     case kShort:
-    case kUnsignedShort:
-      return 2;
+    case kUnsignedShort: return 2;
     case kUnsignedInt:
-    case kFloat:
-      return 4;
-    default:
-      return 0;
+    case kFloat: return 4;
+    default: return 0;
   }
 }
 
@@ -62,26 +58,23 @@ int component_type(const JsonCursor& owner) {
 }
 
 // The elements of `count` claims in a bufferView, after checking that the view holds them all.
-Elements checked_elements(const GltfDocument& document, const JsonCursor& owner, std::size_t count,
-                          std::size_t element_bytes, bool strided) {
+Elements checked_elements(const GltfDocument& document, const JsonCursor& owner, std::size_t count, std::size_t element_bytes,
+                          bool strided) {
   const int view = owner.at("bufferView").as_index(document.count("bufferViews"), "bufferView");
   const auto bytes = view_bytes(document, view);
   std::size_t stride = element_bytes;
   if (strided) {
     const JsonCursor view_json = document.object("bufferViews", view);
-    stride = static_cast<std::size_t>(
-        view_json.integer("byteStride", static_cast<std::int64_t>(element_bytes), 1, 252));
+    stride = static_cast<std::size_t>(view_json.integer("byteStride", static_cast<std::int64_t>(element_bytes), 1, 252));
     if (stride < element_bytes)
       view_json.at("byteStride")
-          .fail("is " + std::to_string(stride) + ", less than an element's " + std::to_string(element_bytes) +
-                " bytes");
+          .fail("is " + std::to_string(stride) + ", less than an element's " + std::to_string(element_bytes) + " bytes");
   }
   const auto offset = static_cast<std::size_t>(owner.integer("byteOffset", 0, 0, kMaxInteger));
   const std::size_t needed = count == 0 ? 0 : stride * (count - 1) + element_bytes;
   if (offset > bytes.size() || needed > bytes.size() - offset)
-    owner.fail("count " + std::to_string(count) + " at offset " + std::to_string(offset) + " needs " +
-                   std::to_string(needed) + " bytes, bufferView " + std::to_string(view) + " has " +
-                   std::to_string(bytes.size()),
+    owner.fail("count " + std::to_string(count) + " at offset " + std::to_string(offset) + " needs " + std::to_string(needed) +
+                   " bytes, bufferView " + std::to_string(view) + " has " + std::to_string(bytes.size()),
                "the file is broken; export it again");
   return {bytes.data() + offset, stride};
 }
@@ -97,11 +90,9 @@ Layout layout_of(const JsonCursor& accessor) {
 }
 
 Elements dense_elements(const GltfDocument& document, const JsonCursor& accessor, const Layout& layout) {
-  if (accessor.has("bufferView"))
-    return checked_elements(document, accessor, layout.count, layout.element_bytes, true);
+  if (accessor.has("bufferView")) return checked_elements(document, accessor, layout.count, layout.element_bytes, true);
   if (layout.count > kMaxZeros)
-    accessor.fail("count " + std::to_string(layout.count) + " without a bufferView, more than " +
-                  std::to_string(kMaxZeros) + " zeros");
+    accessor.fail("count " + std::to_string(layout.count) + " without a bufferView, more than " + std::to_string(kMaxZeros) + " zeros");
   return {};
 }
 
@@ -118,8 +109,7 @@ double component_value(const std::uint8_t* p, const Layout& layout) {
       const double x = load<std::int8_t>(p);
       return layout.normalized ? std::max(x / 127, -1.0) : x;
     }
-    case kUnsignedByte:
-      return layout.normalized ? *p / 255.0 : *p;
+    case kUnsignedByte: return layout.normalized ? *p / 255.0 : *p;
     case kShort: {
       const double x = load<std::int16_t>(p);
       return layout.normalized ? std::max(x / 32767, -1.0) : x;
@@ -128,10 +118,8 @@ double component_value(const std::uint8_t* p, const Layout& layout) {
       const double x = load<std::uint16_t>(p);
       return layout.normalized ? x / 65535 : x;
     }
-    case kUnsignedInt:
-      return load<std::uint32_t>(p);
-    default:
-      return load<float>(p);
+    case kUnsignedInt: return load<std::uint32_t>(p);
+    default: return load<float>(p);
   }
 }
 
@@ -152,8 +140,7 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
   if (!sparse) return result;
   const auto count = static_cast<std::size_t>(sparse->at("count").as_integer(1, kMaxInteger));
   if (count > layout.count)
-    sparse->at("count").fail("is " + std::to_string(count) + ", more than the accessor's " +
-                             std::to_string(layout.count));
+    sparse->at("count").fail("is " + std::to_string(count) + ", more than the accessor's " + std::to_string(layout.count));
   const JsonCursor indices = sparse->at("indices");
   const int component = component_type(indices);
   if (component != kUnsignedByte && component != kUnsignedShort && component != kUnsignedInt)
@@ -164,8 +151,7 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t index = unsigned_value(where.data + i * where.stride, component);
     if (index >= layout.count)
-      indices.fail("element " + std::to_string(i) + " is " + std::to_string(index) + ", the accessor has " +
-                   std::to_string(layout.count));
+      indices.fail("element " + std::to_string(i) + " is " + std::to_string(index) + ", the accessor has " + std::to_string(layout.count));
     result.indices.push_back(index);
   }
   return result;
@@ -189,8 +175,7 @@ std::size_t checked_count(const GltfDocument& document, int index) {
 
 namespace {
 
-FloatArray read_some_floats(const GltfDocument& document, int index, std::string_view types, NotFinite not_finite,
-                            std::size_t most) {
+FloatArray read_some_floats(const GltfDocument& document, int index, std::string_view types, NotFinite not_finite, std::size_t most) {
   const JsonCursor accessor = document.object("accessors", index);
   const Layout layout = allowed_layout(accessor, types);
   const Elements dense = dense_elements(document, accessor, layout);
@@ -205,8 +190,7 @@ FloatArray read_some_floats(const GltfDocument& document, int index, std::string
     for (std::size_t c = 0; c < components; ++c) {
       const double x = component_value(p + c * bytes_of(layout.component), layout);
       if (!std::isfinite(x) && not_finite == NotFinite::refuse)
-        accessor.fail("element " + std::to_string(element) + " is not finite",
-                      "the file is broken; export it again");
+        accessor.fail("element " + std::to_string(element) + " is not finite", "the file is broken; export it again");
       result.values[element * components + c] = std::isfinite(x) ? static_cast<float>(x) : 0.0f;
     }
   };
@@ -230,8 +214,7 @@ FloatArray read_first_floats(const GltfDocument& document, int accessor, std::st
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int index, std::string_view types) {
   const JsonCursor accessor = document.object("accessors", index);
   const Layout layout = allowed_layout(accessor, types);
-  if (layout.component != kUnsignedByte && layout.component != kUnsignedShort &&
-      layout.component != kUnsignedInt)
+  if (layout.component != kUnsignedByte && layout.component != kUnsignedShort && layout.component != kUnsignedInt)
     accessor.at("componentType").fail("must be an unsigned integer type");
   const Elements dense = dense_elements(document, accessor, layout);
   const Sparse sparse = read_sparse(document, accessor, layout);
@@ -244,8 +227,7 @@ std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int index
   };
   if (dense.data)
     for (std::size_t i = 0; i < layout.count; ++i) store(i, dense.data + i * dense.stride);
-  for (std::size_t i = 0; i < sparse.indices.size(); ++i)
-    store(sparse.indices[i], sparse.values.data + i * sparse.values.stride);
+  for (std::size_t i = 0; i < sparse.indices.size(); ++i) store(sparse.indices[i], sparse.values.data + i * sparse.values.stride);
   return result;
 }
 

@@ -21,8 +21,7 @@ std::size_t checked_count(const GltfDocument& document, int accessor);
 // ones as [0, 1] or [-1, 1]. A value that is not finite is an Error where `finite` says so, else it becomes
 // 0.
 enum class NotFinite { refuse, zero };
-FloatArray read_floats(const GltfDocument& document, int accessor, std::string_view types,
-                       NotFinite finite = NotFinite::refuse);
+FloatArray read_floats(const GltfDocument& document, int accessor, std::string_view types, NotFinite finite = NotFinite::refuse);
 
 // The first `most` elements only, or all where there are fewer.
 FloatArray read_first_floats(const GltfDocument& document, int accessor, std::string_view types, std::size_t most);

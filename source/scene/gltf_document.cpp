@@ -11,8 +11,7 @@ namespace {
 constexpr int kMaxDepth = 200;
 
 std::uint32_t little_endian_32(const std::uint8_t* p) {
-  return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 |
-         std::uint32_t{p[3]} << 24;
+  return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 | std::uint32_t{p[3]} << 24;
 }
 
 // What the parsed text will take, counted by its punctuation: a value has 16 bytes in an array that grows by doubling, an
@@ -79,24 +78,17 @@ struct Container {
   std::optional<std::span<const std::uint8_t>> binary;
 };
 
-bool is_glb(std::span<const std::uint8_t> file) {
-  return file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0;
-}
+bool is_glb(std::span<const std::uint8_t> file) { return file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0; }
 
 Container split_glb(std::span<const std::uint8_t> file, const std::string& path) {
   const char* hint = "the file may be truncated; export it again";
-  if (file.size() < 20)
-    throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
+  if (file.size() < 20) throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
   const std::uint32_t version = little_endian_32(file.data() + 4);
   if (version != 2)
-    throw Error(path, "header: version " + std::to_string(version) + " of the format, only 2 is read",
-                "convert it to glTF 2.0");
+    throw Error(path, "header: version " + std::to_string(version) + " of the format, only 2 is read", "convert it to glTF 2.0");
   const std::uint32_t length = little_endian_32(file.data() + 8);
   if (length > file.size() || length < 20)
-    throw Error(path,
-                "header: length " + std::to_string(length) + ", the file has " + std::to_string(file.size()) +
-                    " bytes",
-                hint);
+    throw Error(path, "header: length " + std::to_string(length) + ", the file has " + std::to_string(file.size()) + " bytes", hint);
 
   Container container;
   std::size_t at = 12;
@@ -107,9 +99,7 @@ Container split_glb(std::span<const std::uint8_t> file, const std::string& path)
     const std::uint32_t type = little_endian_32(file.data() + at + 4);
     at += 8;
     if (size > length - at)
-      throw Error(place,
-                  "claims " + std::to_string(size) + " bytes, " + std::to_string(length - at) + " are left",
-                  hint);
+      throw Error(place, "claims " + std::to_string(size) + " bytes, " + std::to_string(length - at) + " are left", hint);
     constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
     if (chunk == 0) {
       if (type != kJson) throw Error(place, "the first chunk must be JSON", hint);
@@ -192,8 +182,7 @@ void read_buffers(GltfDocument& document, std::optional<std::span<const std::uin
 void check_version(const JsonCursor& root) {
   const JsonCursor asset = root.at("asset");
   const std::string version = asset.at("version").as_text();
-  if (version.substr(0, 2) != "2.")
-    asset.at("version").fail("glTF " + version + ", only 2.x is read", "convert it to glTF 2.0");
+  if (version.substr(0, 2) != "2.") asset.at("version").fail("glTF " + version + ", only 2.x is read", "convert it to glTF 2.0");
 }
 
 }  // namespace
@@ -204,8 +193,7 @@ std::size_t GltfDocument::count(const char* array) const {
 }
 
 JsonCursor GltfDocument::object(const char* array, int index) const {
-  return {json[array][static_cast<std::size_t>(index)],
-          path + ": " + array + "[" + std::to_string(index) + "]"};
+  return {json[array][static_cast<std::size_t>(index)], path + ": " + array + "[" + std::to_string(index) + "]"};
 }
 
 std::span<const std::uint8_t> read_uri(const GltfDocument& document, const JsonCursor& uri) {
@@ -218,8 +206,7 @@ std::span<const std::uint8_t> read_uri(const GltfDocument& document, const JsonC
     sources.budget.take_memory(uri.place(), "its decoded bytes", text.size() * 3 / 4);
     return sources.decoded.emplace_back(base64_decoded(std::string_view(text).substr(comma + 1), uri.place()));
   }
-  if (text.find("://") != std::string::npos)
-    uri.fail("files from the network are not read", "put the file beside the scene");
+  if (text.find("://") != std::string::npos) uri.fail("files from the network are not read", "put the file beside the scene");
   const std::string name = percent_decoded(text);
   if (name.empty() || name.find('\0') != std::string::npos) uri.fail("is not a file name");
   const std::string path = (std::filesystem::path(document.path).parent_path() / name).lexically_normal().string();
@@ -236,8 +223,8 @@ std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffe
   const auto length = static_cast<std::size_t>(view.at("byteLength").as_integer(1, kMax));
   const std::span<const std::uint8_t> bytes = document.buffers[static_cast<std::size_t>(buffer)];
   if (offset > bytes.size() || length > bytes.size() - offset)
-    view.fail("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) + " of buffer " +
-                  std::to_string(buffer) + ", which has " + std::to_string(bytes.size()),
+    view.fail("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) + " of buffer " + std::to_string(buffer) +
+                  ", which has " + std::to_string(bytes.size()),
               "the file is broken; export it again");
   return bytes.subspan(offset, length);
 }
@@ -256,10 +243,9 @@ GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& pa
   const JsonCursor root = document.root();
   if (!document.json.is_object()) root.fail("the document must be a JSON object");
   check_version(root);
-  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
-                            "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
-    for (const JsonCursor& element : root.elements(array))
-      element.text("name", "");  // objects, names strings
+  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
+                            "samplers", "scenes", "skins", "textures"})
+    for (const JsonCursor& element : root.elements(array)) element.text("name", "");  // objects, names strings
   read_buffers(document, container.binary);
   return document;
 }

@@ -66,8 +66,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     const auto rect = json.find("rect");
     const double aspect = rect ? rect->number("aspect", 1, 0, 1e9) : 1;
     const Ellipse e = flat_axes(world, half * aspect, half);
-    light.polygon.vertices = {e.center - e.x - e.y, e.center + e.x - e.y, e.center + e.x + e.y,
-                              e.center - e.x + e.y};
+    light.polygon.vertices = {e.center - e.x - e.y, e.center + e.x - e.y, e.center + e.x + e.y, e.center - e.x + e.y};
     light.center = e.center;
     area = 4 * length(cross(e.x, e.y));
   } else if (type == "disk") {
@@ -119,8 +118,7 @@ Mesh flat_mesh(const PolygonLight& polygon) {
   const auto& v = polygon.vertices;
   for (std::size_t i = 1; i + 1 < v.size(); ++i) {
     area += cross(v[i] - v[0], v[i + 1] - v[0]);
-    mesh.indices.insert(mesh.indices.end(),
-                        {0u, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 1)});
+    mesh.indices.insert(mesh.indices.end(), {0u, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 1)});
   }
   for (const Vec3d& p : v) mesh.positions.push_back(static_cast<Vec3f>(p));
   mesh.normals.assign(v.size(), static_cast<Vec3f>(normalized(area)));
@@ -140,14 +138,12 @@ Mesh ellipsoid_mesh(const AreaLight& light) {
     }
   for (std::uint32_t j = 0; j < kDown; ++j)
     for (std::uint32_t i = 0; i < kAround; ++i) {
-      const std::uint32_t a = j * kAround + i, b = j * kAround + (i + 1) % kAround, c = a + kAround,
-                          d = b + kAround;
+      const std::uint32_t a = j * kAround + i, b = j * kAround + (i + 1) % kAround, c = a + kAround, d = b + kAround;
       if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, c, b});
       if (j + 1 < kDown) mesh.indices.insert(mesh.indices.end(), {b, c, d});
     }
   if (m.determinant() < 0)
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-      std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
   return mesh;
 }
 
@@ -188,50 +184,46 @@ void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene
   for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor&, const JsonCursor& node, const Affine&) {
     document.budget().take_memory(node.place(), "its light's mesh", kLargestLightMesh);
   });
-  for_each_light(document, nodes, "EXT_lights_area",
-                 [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
-                   AreaLight light = read_area_light(json, node, world);
-                   if (light.power > 0) {
-                     Mesh mesh = mesh_of_light(light);
-                     for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
-                     mesh.material = static_cast<int>(scene.materials.size());
-                     mesh.triangle_lights.assign(mesh.triangle_count(),
-                                                 static_cast<std::int32_t>(scene.area_lights.size()));
-                     scene.materials.push_back(material_of_light(light));
-                     scene.meshes.push_back(std::move(mesh));
-                   }
-                   scene.area_lights.push_back(std::move(light));
-                 });
+  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+    AreaLight light = read_area_light(json, node, world);
+    if (light.power > 0) {
+      Mesh mesh = mesh_of_light(light);
+      for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
+      mesh.material = static_cast<int>(scene.materials.size());
+      mesh.triangle_lights.assign(mesh.triangle_count(), static_cast<std::int32_t>(scene.area_lights.size()));
+      scene.materials.push_back(material_of_light(light));
+      scene.meshes.push_back(std::move(mesh));
+    }
+    scene.area_lights.push_back(std::move(light));
+  });
 }
 
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes) {
   std::vector<PunctualLight> result;
-  for_each_light(document, nodes, "KHR_lights_punctual",
-                 [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
-                   PunctualLight light;
-                   light.name = json.text("name", node.text("name", ""));
-                   const std::string type = json.at("type").as_text();
-                   if (type == "spot")
-                     light.kind = PunctualKind::spot;
-                   else if (type == "directional")
-                     light.kind = PunctualKind::directional;
-                   else if (type != "point")
-                     json.at("type").fail("\"" + type + "\" is not a light",
-                                          "known are point, spot and directional");
-                   light.position = world.t;
-                   check_reach(node, light.position, "the light");
-                   light.direction = normalized(world.vector({0, 0, -1}));
-                   light.intensity = read_emission(json);
-                   light.range = json.number("range", kInfinity, 1e-30, kInfinity);
-                   if (const auto spot = json.find("spot")) {
-                     const double outer = spot->number("outerConeAngle", kPi / 4, 1e-9, kPi / 2 + 1e-6);
-                     const double inner = spot->number("innerConeAngle", 0, 0, kPi / 2);
-                     if (inner >= outer) spot->fail("innerConeAngle must be less than outerConeAngle");
-                     light.cos_inner = std::cos(inner);
-                     light.cos_outer = std::fmax(std::cos(outer), 0.0);
-                   }
-                   result.push_back(light);
-                 });
+  for_each_light(document, nodes, "KHR_lights_punctual", [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+    PunctualLight light;
+    light.name = json.text("name", node.text("name", ""));
+    const std::string type = json.at("type").as_text();
+    if (type == "spot")
+      light.kind = PunctualKind::spot;
+    else if (type == "directional")
+      light.kind = PunctualKind::directional;
+    else if (type != "point")
+      json.at("type").fail("\"" + type + "\" is not a light", "known are point, spot and directional");
+    light.position = world.t;
+    check_reach(node, light.position, "the light");
+    light.direction = normalized(world.vector({0, 0, -1}));
+    light.intensity = read_emission(json);
+    light.range = json.number("range", kInfinity, 1e-30, kInfinity);
+    if (const auto spot = json.find("spot")) {
+      const double outer = spot->number("outerConeAngle", kPi / 4, 1e-9, kPi / 2 + 1e-6);
+      const double inner = spot->number("innerConeAngle", 0, 0, kPi / 2);
+      if (inner >= outer) spot->fail("innerConeAngle must be less than outerConeAngle");
+      light.cos_inner = std::cos(inner);
+      light.cos_outer = std::fmax(std::cos(outer), 0.0);
+    }
+    result.push_back(light);
+  });
   return result;
 }
 

@@ -24,8 +24,7 @@ void read_base(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& texture
       const auto c = base->as_numbers<4>();
       for (const double x : c)
         if (x < 0 || x > 1) base->fail("components must be from 0 to 1");
-      m.base_color = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
-                      static_cast<float>(c[3])};
+      m.base_color = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]), static_cast<float>(c[3])};
     }
     m.base_color_texture = textures.use(*pbr, "baseColorTexture", ColorSpace::srgb);
     m.metallic = factor(*pbr, "metallicFactor", 1);
@@ -153,8 +152,7 @@ Material read_lobe(const JsonCursor& lobe) {
   std::string known;
   for (const lobes::Key& key : row.keys) known += (known.empty() ? "" : " ") + std::string(key.name);
   for (const auto& [key, value] : lobe.value().items())
-    if (key != "brdf" && !lobes::has_key(row.keys, key))
-      lobe.fail("\"" + key + "\" is not a key of " + row.name, "known are " + known);
+    if (key != "brdf" && !lobes::has_key(row.keys, key)) lobe.fail("\"" + key + "\" is not a key of " + row.name, "known are " + known);
   for (const lobes::Key& key : row.keys) {
     if (key.required) lobe.at(key.name);
     if (lobe.has(key.name)) key.set(draft, read_key(lobe, key));
@@ -164,8 +162,7 @@ Material read_lobe(const JsonCursor& lobe) {
   return draft.material;
 }
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures,
-                                            Warnings& warnings) {
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings) {
   std::vector<SurfaceMaterial> result;
   for (const JsonCursor& json : document.root().elements("materials")) {
     SurfaceMaterial m;

@@ -8,8 +8,7 @@
 
 namespace steradian {
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures,
-                                            Warnings& warnings);
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings);
 
 // A lobe as `steradian eval` takes it: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
 Material read_lobe(const JsonCursor& lobe);

@@ -20,9 +20,7 @@ struct Context {
   Warnings& warnings;
   std::size_t accessors;
 
-  int attribute(const JsonCursor& attributes, const char* name) const {
-    return attributes.index(name, accessors, "accessor");
-  }
+  int attribute(const JsonCursor& attributes, const char* name) const { return attributes.index(name, accessors, "accessor"); }
 };
 
 // Triangles of a list, strip or fan of `count` corners; every second one of a strip is turned so that all
@@ -41,17 +39,15 @@ std::vector<std::uint32_t> triangulated(const std::vector<std::uint32_t>& corner
   return result;
 }
 
-std::vector<std::uint32_t> read_indices(const Context& c, const JsonCursor& primitive, std::size_t vertices,
-                                        int mode) {
+std::vector<std::uint32_t> read_indices(const Context& c, const JsonCursor& primitive, std::size_t vertices, int mode) {
   std::vector<std::uint32_t> corners;
   const int accessor = primitive.index("indices", c.accessors, "accessor");
   if (accessor >= 0) {
     corners = read_unsigned(c.document, accessor, "SCALAR");
     for (std::size_t i = 0; i < corners.size(); ++i)
       if (corners[i] >= vertices)
-        primitive.at("indices").fail("accessor " + std::to_string(accessor) + ", element " +
-                                         std::to_string(i) + " is " + std::to_string(corners[i]) +
-                                         ", the primitive has " + std::to_string(vertices) + " vertices",
+        primitive.at("indices").fail("accessor " + std::to_string(accessor) + ", element " + std::to_string(i) + " is " +
+                                         std::to_string(corners[i]) + ", the primitive has " + std::to_string(vertices) + " vertices",
                                      "the file is broken; export it again");
   } else {
     corners.resize(vertices);
@@ -62,20 +58,18 @@ std::vector<std::uint32_t> read_indices(const Context& c, const JsonCursor& prim
   return triangulated(corners, mode);
 }
 
-FloatArray read_attribute(const Context& c, const JsonCursor& attributes, const char* name, const char* types,
-                          std::size_t vertices, NotFinite not_finite = NotFinite::refuse) {
+FloatArray read_attribute(const Context& c, const JsonCursor& attributes, const char* name, const char* types, std::size_t vertices,
+                          NotFinite not_finite = NotFinite::refuse) {
   const int accessor = c.attribute(attributes, name);
   if (accessor < 0) return {};
   FloatArray result = read_floats(c.document, accessor, types, not_finite);
   if (result.count != vertices)
-    attributes.at(name).fail("accessor " + std::to_string(accessor) + " has " + std::to_string(result.count) +
-                             " elements, POSITION has " + std::to_string(vertices));
+    attributes.at(name).fail("accessor " + std::to_string(accessor) + " has " + std::to_string(result.count) + " elements, POSITION has " +
+                             std::to_string(vertices));
   return result;
 }
 
-Vec3f vec3_at(const FloatArray& a, std::size_t i) {
-  return {a.values[3 * i], a.values[3 * i + 1], a.values[3 * i + 2]};
-}
+Vec3f vec3_at(const FloatArray& a, std::size_t i) { return {a.values[3 * i], a.values[3 * i + 1], a.values[3 * i + 2]}; }
 
 std::vector<Vec3f> vec3_array(const FloatArray& a) {
   std::vector<Vec3f> result(a.count);
@@ -83,16 +77,14 @@ std::vector<Vec3f> vec3_array(const FloatArray& a) {
   return result;
 }
 
-void add_morph_targets(const Context& c, Mesh& mesh, const JsonCursor& primitive,
-                       const std::vector<double>& weights) {
+void add_morph_targets(const Context& c, Mesh& mesh, const JsonCursor& primitive, const std::vector<double>& weights) {
   const auto targets = primitive.elements("targets");
   for (std::size_t t = 0; t < targets.size() && t < weights.size(); ++t) {
     if (weights[t] == 0) continue;
     c.document.budget().take_work(targets[t].place(), "its morph targets", kStepsPerMorphedVertex * mesh.positions.size());
     const auto add = [&](const char* name, std::vector<Vec3f>& to) {
       const FloatArray delta = read_attribute(c, targets[t], name, "VEC3", mesh.positions.size());
-      for (std::size_t i = 0; i < delta.count && i < to.size(); ++i)
-        to[i] += vec3_at(delta, i) * static_cast<float>(weights[t]);
+      for (std::size_t i = 0; i < delta.count && i < to.size(); ++i) to[i] += vec3_at(delta, i) * static_cast<float>(weights[t]);
     };
     add("POSITION", mesh.positions);
     add("NORMAL", mesh.normals);
@@ -101,8 +93,7 @@ void add_morph_targets(const Context& c, Mesh& mesh, const JsonCursor& primitive
 
 std::vector<double> morph_weights(const JsonCursor& node, const JsonCursor& mesh) {
   std::vector<double> weights;
-  for (const JsonCursor& w : (node.has("weights") ? node : mesh).elements("weights"))
-    weights.push_back(w.as_number());
+  for (const JsonCursor& w : (node.has("weights") ? node : mesh).elements("weights")) weights.push_back(w.as_number());
   return weights;
 }
 
@@ -118,13 +109,12 @@ Mesh read_local(const Context& c, const JsonCursor& primitive, const std::vector
   if (!mesh.normals.empty()) {
     const FloatArray tangents = read_attribute(c, attributes, "TANGENT", "VEC4", n, NotFinite::zero);
     for (std::size_t i = 0; i < tangents.count; ++i)
-      mesh.tangents.push_back({tangents.values[4 * i], tangents.values[4 * i + 1], tangents.values[4 * i + 2],
-                               tangents.values[4 * i + 3] < 0 ? -1.0f : 1.0f});
+      mesh.tangents.push_back(
+          {tangents.values[4 * i], tangents.values[4 * i + 1], tangents.values[4 * i + 2], tangents.values[4 * i + 3] < 0 ? -1.0f : 1.0f});
   }
   for (int set = 0; set < 2; ++set) {
     const FloatArray uv = read_attribute(c, attributes, set == 0 ? "TEXCOORD_0" : "TEXCOORD_1", "VEC2", n);
-    for (std::size_t i = 0; i < uv.count; ++i)
-      mesh.texcoords[set].push_back({uv.values[2 * i], uv.values[2 * i + 1]});
+    for (std::size_t i = 0; i < uv.count; ++i) mesh.texcoords[set].push_back({uv.values[2 * i], uv.values[2 * i + 1]});
   }
   const FloatArray colors = read_attribute(c, attributes, "COLOR_0", "VEC3 VEC4", n);
   for (std::size_t i = 0; i < colors.count; ++i) {
@@ -144,20 +134,17 @@ void to_world(Mesh& mesh, const JsonCursor& node, TransformOf transform_of) {
     const Vec3d p = m.point(static_cast<Vec3d>(mesh.positions[i]));
     if (!within_reach(p)) check_reach(node, p, "vertex " + std::to_string(i));
     mesh.positions[i] = static_cast<Vec3f>(p);
-    if (!mesh.normals.empty())
-      mesh.normals[i] = static_cast<Vec3f>(m.normal(normalized(static_cast<Vec3d>(mesh.normals[i]))));
+    if (!mesh.normals.empty()) mesh.normals[i] = static_cast<Vec3f>(m.normal(normalized(static_cast<Vec3d>(mesh.normals[i]))));
     if (!mesh.tangents.empty()) {
       Vec4f& t = mesh.tangents[i];
       const Vec3d v = normalized(m.vector(static_cast<Vec3d>(Vec3f{t.x, t.y, t.z})));
-      t = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
-           m.determinant() < 0 ? -t.w : t.w};
+      t = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), m.determinant() < 0 ? -t.w : t.w};
     }
   }
 }
 
 void turn_triangles(Mesh& mesh) {
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
 
 bool has_broken_tangents(const Mesh& mesh) {
@@ -185,8 +172,8 @@ void complete(Mesh& mesh, const SurfaceMaterial& material, Warnings& warnings) {
 
 void check_texture_sets(const SurfaceMaterial& m, const Mesh& mesh, Warnings& warnings) {
   for (const TextureUse* use :
-       {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
-        &m.emissive_texture, &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
+       {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture, &m.emissive_texture,
+        &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
         &m.clearcoat_normal_texture, &m.specular_texture, &m.specular_color_texture, &m.anisotropy_texture})
     if (use->present() && mesh.texcoords[use->texcoord].empty())
       return warnings.count("meshes with textures lack their coordinates; (0, 0) is used", "mesh \"" + mesh.name + "\"");
@@ -257,8 +244,7 @@ std::vector<Placement> take_placements(const Context& c, const GltfNodes& nodes,
     const int skin = node.index("skin", c.document.count("skins"), "skin");
     if (mesh < 0) continue;
     auto known = meshes.find(mesh);
-    if (known == meshes.end())
-      known = meshes.emplace(mesh, usable_mesh(c, c.document.object("meshes", mesh), materials)).first;
+    if (known == meshes.end()) known = meshes.emplace(mesh, usable_mesh(c, c.document.object("meshes", mesh), materials)).first;
     if (known->second.primitives.empty()) continue;
     c.document.budget().take_memory(node.place(), "the vertices and triangles of its mesh", known->second.bytes);
     result.push_back({node, &visible.world, mesh, skin});
@@ -268,8 +254,8 @@ std::vector<Placement> take_placements(const Context& c, const GltfNodes& nodes,
 
 }  // namespace
 
-std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nodes,
-                              std::vector<SurfaceMaterial>& materials, Warnings& warnings) {
+std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials,
+                              Warnings& warnings) {
   const Context c{document, warnings, document.count("accessors")};
   const std::size_t given_materials = materials.size();
   std::unordered_map<int, UsableMesh> meshes;

@@ -9,19 +9,16 @@ namespace {
 
 Affine matrix_of(const JsonCursor& matrix) {
   const auto m = matrix.as_numbers<16>();
-  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
-    matrix.fail("the last row must be 0 0 0 1 (the matrix is given by columns)");
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) matrix.fail("the last row must be 0 0 0 1 (the matrix is given by columns)");
   const Affine a{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-  if (a.determinant() == 0)
-    matrix.fail("the matrix cannot be inverted", "use \"scale\" to flatten or hide a node");
+  if (a.determinant() == 0) matrix.fail("the matrix cannot be inverted", "use \"scale\" to flatten or hide a node");
   return a;
 }
 
 Affine rotation_of(const JsonCursor& rotation) {
   const auto q = rotation.as_numbers<4>();
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(norm > 0.5 && norm < 2))
-    rotation.fail("must be a unit quaternion, its length is " + std::to_string(norm));
+  if (!(norm > 0.5 && norm < 2)) rotation.fail("must be a unit quaternion, its length is " + std::to_string(norm));
   const double x = q[0] / norm, y = q[1] / norm, z = q[2] / norm, w = q[3] / norm;
   return {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
           {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
@@ -32,8 +29,7 @@ Affine rotation_of(const JsonCursor& rotation) {
 Affine local_transform(const JsonCursor& node) {
   if (const auto matrix = node.find("matrix")) {
     for (const char* other : {"translation", "rotation", "scale"})
-      if (node.has(other))
-        node.fail(std::string("has both \"matrix\" and \"") + other + "\"", "use one of them");
+      if (node.has(other)) node.fail(std::string("has both \"matrix\" and \"") + other + "\"", "use one of them");
     return matrix_of(*matrix);
   }
   const auto rotation = node.find("rotation");
@@ -53,8 +49,7 @@ std::vector<int> read_parents(const JsonElements& nodes, std::vector<std::vector
       const int c = child.as_index(nodes.size(), "node");
       int& of_child = parent[static_cast<std::size_t>(c)];
       if (of_child >= 0)
-        child.fail("node " + std::to_string(c) + " is already a child of node " + std::to_string(of_child),
-                   "a node has one parent");
+        child.fail("node " + std::to_string(c) + " is already a child of node " + std::to_string(of_child), "a node has one parent");
       of_child = static_cast<int>(i);
       children[i].push_back(c);
     }
@@ -75,8 +70,7 @@ std::vector<int> scene_roots(const GltfDocument& document, const std::vector<int
   for (const JsonCursor& node : document.object("scenes", scene < 0 ? 0 : scene).elements("nodes")) {
     const int n = node.as_index(parent.size(), "node");
     if (parent[static_cast<std::size_t>(n)] >= 0)
-      node.fail("node " + std::to_string(n) + " is a child of node " +
-                    std::to_string(parent[static_cast<std::size_t>(n)]),
+      node.fail("node " + std::to_string(n) + " is a child of node " + std::to_string(parent[static_cast<std::size_t>(n)]),
                 "a scene lists root nodes");
     if (listed[static_cast<std::size_t>(n)]) node.fail("node " + std::to_string(n) + " is listed twice");
     listed[static_cast<std::size_t>(n)] = true;
@@ -120,8 +114,7 @@ GltfNodes read_nodes(const GltfDocument& document) {
     result.world[i] = local_transform(nodes[i]);
     if (parent[i] >= 0) result.world[i] = result.world[static_cast<std::size_t>(parent[i])] * result.world[i];
     const Affine& w = result.world[i];
-    if (!is_finite(w.x) || !is_finite(w.y) || !is_finite(w.z) || !is_finite(w.t) ||
-        !std::isfinite(w.determinant()))
+    if (!is_finite(w.x) || !is_finite(w.y) || !is_finite(w.z) || !is_finite(w.t) || !std::isfinite(w.determinant()))
       nodes[i].fail("the transform leaves the range of numbers");
   }
 

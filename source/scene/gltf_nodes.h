@@ -25,9 +25,7 @@ struct GltfNodes {
 // distance from the origin nothing can be rendered.
 inline constexpr double kFarthest = 1e15;
 
-inline bool within_reach(Vec3d p) {
-  return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
-}
+inline bool within_reach(Vec3d p) { return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest; }
 
 // Throws Error with the node's name for a point that is not within reach. what: "vertex 3".
 void check_reach(const JsonCursor& node, Vec3d point, const std::string& what);

@@ -15,7 +15,6 @@ Skin read_skin(const GltfDocument& document, const GltfNodes& nodes, int skin);
 
 // The matrix of each vertex from JOINTS_0 and WEIGHTS_0 (weights are normalised; all zero: the first
 // joint's).
-std::vector<Affine> blend_joints(const GltfDocument& document, const Skin& skin, const JsonCursor& attributes,
-                                 std::size_t vertices);
+std::vector<Affine> blend_joints(const GltfDocument& document, const Skin& skin, const JsonCursor& attributes, std::size_t vertices);
 
 }  // namespace steradian

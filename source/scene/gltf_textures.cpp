@@ -15,26 +15,17 @@ constexpr std::size_t kMaxImageTexels = std::size_t{1} << 26;  // 8192 x 8192
 Wrap wrap_of(const JsonCursor& sampler, const char* key) {
   constexpr std::int64_t kClamp = 33071, kMirrored = 33648, kRepeat = 10497;
   switch (sampler.integer(key, kRepeat, 0, 65535)) {
-    case kClamp:
-      return Wrap::clamp_to_edge;
-    case kMirrored:
-      return Wrap::mirrored_repeat;
-    case kRepeat:
-      return Wrap::repeat;
-    default:
-      sampler.at(key).fail(sampler.at(key).value().dump() + " is not a wrap mode",
-                           "10497 repeats, 33071 clamps, 33648 mirrors");
+    case kClamp: return Wrap::clamp_to_edge;
+    case kMirrored: return Wrap::mirrored_repeat;
+    case kRepeat: return Wrap::repeat;
+    default: sampler.at(key).fail(sampler.at(key).value().dump() + " is not a wrap mode", "10497 repeats, 33071 clamps, 33648 mirrors");
   }
 }
 
 }  // namespace
 
 GltfTextures::GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings)
-    : document_(document),
-      images_(images),
-      warnings_(warnings),
-      loaded_(document.count("images"), kNotLoaded),
-      texels_left_(kMaxTexels) {}
+    : document_(document), images_(images), warnings_(warnings), loaded_(document.count("images"), kNotLoaded), texels_left_(kMaxTexels) {}
 
 void GltfTextures::apply_sampler(TextureUse& use, const JsonCursor& sampler) const {
   use.wrap_u = wrap_of(sampler, "wrapS");
@@ -78,14 +69,10 @@ int GltfTextures::load_image(int gltf_image) {
     image.fail("has neither \"uri\" nor \"bufferView\"");
   }
   switch (format_of(bytes)) {
-    case ImageFormat::known_but_not_read:
-      warnings_.not_supported("textures in KTX, WebP or DDS");
-      return kNotRead;
-    case ImageFormat::unknown:
-      throw Error(place, "the picture is neither PNG nor JPEG", "save it as PNG");
+    case ImageFormat::known_but_not_read: warnings_.not_supported("textures in KTX, WebP or DDS"); return kNotRead;
+    case ImageFormat::unknown: throw Error(place, "the picture is neither PNG nor JPEG", "save it as PNG");
     case ImageFormat::png:
-    case ImageFormat::jpeg:
-      break;
+    case ImageFormat::jpeg: break;
   }
   if (!type.empty() && type != (format_of(bytes) == ImageFormat::png ? "image/png" : "image/jpeg"))
     warnings_.count("a picture's mimeType is not what its bytes are", place);
@@ -111,13 +98,11 @@ TextureUse GltfTextures::use(const JsonCursor& owner, const char* key, ColorSpac
   const JsonCursor texture = document_.object("textures", index);
   result.texcoord = static_cast<int>(info->integer("texCoord", 0, 0, 1 << 20));
   const std::string name = key;
-  const double scale =
-      name.ends_with("ormalTexture") ? info->number("scale", 1) : info->number("strength", 1);
+  const double scale = name.ends_with("ormalTexture") ? info->number("scale", 1) : info->number("strength", 1);
   result.scale = static_cast<float>(scale);
   if (const int sampler = texture.index("sampler", document_.count("samplers"), "sampler"); sampler >= 0)
     apply_sampler(result, document_.object("samplers", sampler));
-  if (const auto transform = find_extension(*info, "KHR_texture_transform"))
-    apply_transform(result, *transform);
+  if (const auto transform = find_extension(*info, "KHR_texture_transform")) apply_transform(result, *transform);
   const int image = texture.index("source", document_.count("images"), "image");
   if (image < 0) {
     warnings_.not_supported("textures without a PNG or JPEG source");

@@ -10,14 +10,14 @@
 namespace steradian {
 
 class GltfTextures {
-public:
+ public:
   GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings);
 
   // The texture that member `key` of `owner` refers to; not present() where there is none or its format is
   // not read.
   TextureUse use(const JsonCursor& owner, const char* key, ColorSpace space);
 
-private:
+ private:
   int scene_image(int gltf_image);
   int load_image(int gltf_image);
   void apply_sampler(TextureUse& use, const JsonCursor& sampler) const;

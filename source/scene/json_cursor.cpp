@@ -19,9 +19,8 @@ std::string shown(double x) {
 }  // namespace
 
 void JsonCursor::wrong_type(const char* wanted) const {
-  fail(
-      std::string("must be ") + wanted + ", is " +
-      (value_->is_number() ? "the number " + value_->dump() : std::string("of type ") + value_->type_name()));
+  fail(std::string("must be ") + wanted + ", is " +
+       (value_->is_number() ? "the number " + value_->dump() : std::string("of type ") + value_->type_name()));
 }
 
 std::optional<JsonCursor> JsonCursor::find(std::string_view key) const {
@@ -85,15 +84,13 @@ double JsonCursor::number(std::string_view key, double otherwise, double low, do
   if (!member) return otherwise;
   const double x = member->as_number();
   if (x < low || x > high)
-    member->fail("is " + shown(x) + ", must be " +
-                 (high == std::numeric_limits<double>::infinity()
-                      ? "at least " + shown(low)
-                      : "from " + shown(low) + " to " + shown(high)));
+    member->fail(
+        "is " + shown(x) + ", must be " +
+        (high == std::numeric_limits<double>::infinity() ? "at least " + shown(low) : "from " + shown(low) + " to " + shown(high)));
   return x;
 }
 
-std::int64_t JsonCursor::integer(std::string_view key, std::int64_t otherwise, std::int64_t low,
-                                 std::int64_t high) const {
+std::int64_t JsonCursor::integer(std::string_view key, std::int64_t otherwise, std::int64_t low, std::int64_t high) const {
   const auto member = find(key);
   return member ? member->as_integer(low, high) : otherwise;
 }

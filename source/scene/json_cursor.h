@@ -18,26 +18,23 @@ namespace steradian {
 class JsonElements;
 
 class JsonCursor {
-public:
+ public:
   // place: "scene.gltf" for the root; members append ": key", ".key" and "[i]".
   JsonCursor(const nlohmann::json& value, std::string place) : value_(&value), place_(std::move(place)) {}
 
   const nlohmann::json& value() const { return *value_; }
   const std::string& place() const { return place_; }
-  [[noreturn]] void fail(const std::string& problem, const std::string& hint = {}) const {
-    throw Error(place_, problem, hint);
-  }
+  [[noreturn]] void fail(const std::string& problem, const std::string& hint = {}) const { throw Error(place_, problem, hint); }
 
   // Members. All but `is_object` throw where this is no object or the member is of another type than asked
   // for.
   bool has(std::string_view key) const { return find(key).has_value(); }
   std::optional<JsonCursor> find(std::string_view key) const;
-  JsonCursor at(std::string_view key) const;                     // required
-  JsonElements elements(std::string_view key) const;             // none where it is absent
-  double number(std::string_view key, double otherwise) const;   // finite
+  JsonCursor at(std::string_view key) const;                    // required
+  JsonElements elements(std::string_view key) const;            // none where it is absent
+  double number(std::string_view key, double otherwise) const;  // finite
   double number(std::string_view key, double otherwise, double low, double high) const;
-  std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t low,
-                       std::int64_t high) const;
+  std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t low, std::int64_t high) const;
   bool flag(std::string_view key, bool otherwise) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   Vec3d vector(std::string_view key, Vec3d otherwise) const;
@@ -53,7 +50,7 @@ public:
   template <std::size_t N>
   std::array<double, N> as_numbers() const;
 
-private:
+ private:
   [[noreturn]] void wrong_type(const char* wanted) const;
 
   const nlohmann::json* value_;
@@ -62,7 +59,7 @@ private:
 
 // The elements of an array. A cursor is made when it is asked for: an array may have millions, and few are looked at twice.
 class JsonElements {
-public:
+ public:
   JsonElements() = default;
   JsonElements(const nlohmann::json& array, std::string place) : array_(&array), place_(std::move(place)) {}
 
@@ -71,20 +68,20 @@ public:
   JsonCursor operator[](std::size_t i) const { return {(*array_)[i], place_ + "[" + std::to_string(i) + "]"}; }
 
   class Iterator {
-  public:
+   public:
     Iterator(const JsonElements& elements, std::size_t i) : elements_(&elements), i_(i) {}
     JsonCursor operator*() const { return (*elements_)[i_]; }
     Iterator& operator++() { return ++i_, *this; }
     bool operator!=(const Iterator& other) const { return i_ != other.i_; }
 
-  private:
+   private:
     const JsonElements* elements_;
     std::size_t i_;
   };
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
 
-private:
+ private:
   const nlohmann::json* array_ = nullptr;
   std::string place_;
 };

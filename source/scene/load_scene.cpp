@@ -15,10 +15,9 @@ namespace steradian {
 namespace {
 
 bool is_supported(const std::string& extension) {
-  for (const char* known :
-       {"EXT_lights_area", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_sheen",
-        "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-        "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"})
+  for (const char* known : {"EXT_lights_area", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
+                            "KHR_materials_sheen", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+                            "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"})
     if (extension == known) return true;
   return false;
 }
@@ -26,8 +25,7 @@ bool is_supported(const std::string& extension) {
 void check_extensions(const JsonCursor& root, Warnings& warnings) {
   for (const JsonCursor& name : root.elements("extensionsRequired"))
     if (!is_supported(name.as_text()))
-      name.fail("the file requires " + name.as_text() + ", which is not supported",
-                "export it without this extension");
+      name.fail("the file requires " + name.as_text() + ", which is not supported", "export it without this extension");
   for (const JsonCursor& name : root.elements("extensionsUsed"))
     if (!is_supported(name.as_text())) warnings.not_supported(name.as_text());
 }
@@ -44,8 +42,7 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
       warnings.not_supported("orthographic cameras");
       continue;
     }
-    if (type != "perspective")
-      json.at("type").fail("\"" + type + "\" is not a camera", "known are perspective and orthographic");
+    if (type != "perspective") json.at("type").fail("\"" + type + "\" is not a camera", "known are perspective and orthographic");
     const JsonCursor perspective = json.at("perspective");
     perspective.at("yfov");
     Camera camera;
@@ -62,20 +59,16 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
   return result;
 }
 
-std::string counted(std::size_t n, const std::string& what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
+std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
-void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, const LoadOptions& options,
-                          Warnings& warnings) {
+void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, const LoadOptions& options, Warnings& warnings) {
   if (without_area > 0) warnings.say(counted(without_area, "emissive triangle") + " without area dropped");
-  if (kept.without_power > 0)
-    warnings.say(counted(kept.without_power, "area light") + " without area or radiance dropped");
+  if (kept.without_power > 0) warnings.say(counted(kept.without_power, "area light") + " without area or radiance dropped");
   if (kept.too_many > 0) {
     char share[32];
     std::snprintf(share, sizeof share, "%.2f", 100 * (1 - kept.share));
-    warnings.say("the " + counted(kept.too_many, "weakest area light") + " dropped, " + share +
-                 " % of all their power; " + std::to_string(options.max_lights) + " are kept (max-lights)");
+    warnings.say("the " + counted(kept.too_many, "weakest area light") + " dropped, " + share + " % of all their power; " +
+                 std::to_string(options.max_lights) + " are kept (max-lights)");
   }
 }
 
@@ -104,8 +97,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   scene.punctual_lights = read_punctual_lights(document, nodes);
   add_area_lights(document, nodes, scene);
   const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
-  say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights)), without_area,
-                       options, warnings);
+  say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights)), without_area, options, warnings);
 
   measure_bounds(scene);
   check_extent(scene, document.path);
@@ -127,8 +119,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
 }
 
 LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {
-  if (options.max_lights < 1)
-    throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
+  if (options.max_lights < 1) throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
   try {
     return read_scene(read_gltf(file, path, budget), options);
   } catch (const std::bad_alloc&) {
@@ -138,8 +129,7 @@ LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, cons
 
 }  // namespace
 
-LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path,
-                                   const LoadOptions& options) {
+LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path, const LoadOptions& options) {
   Budget budget(options.limits);
   return read_within(budget, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, options);
 }

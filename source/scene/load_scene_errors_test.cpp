@@ -50,32 +50,23 @@ const std::vector<BadFile>& bad_files() {
       {"accessors_object", "accessors: must be an array", [](F& f) { f.json["accessors"] = json::object(); }},
       {"node_number", "nodes[0]: must be an object", [](F& f) { f.json["nodes"][0] = 5; }},
       {"name_number", "meshes[0].name: must be a string", [](F& f) { f.json["meshes"][0]["name"] = 5; }},
-      {"index_count_beyond_view",
-       "accessors[2]: count 1000 at offset 0 needs 2000 bytes, bufferView 2 has 12",
+      {"index_count_beyond_view", "accessors[2]: count 1000 at offset 0 needs 2000 bytes, bufferView 2 has 12",
        [](F& f) { f.json["accessors"][2]["count"] = 1000; }},
-      {"huge_count", "accessors[0]: count 900000000000000",
-       [](F& f) { f.json["accessors"][0]["count"] = 900000000000000; }},
+      {"huge_count", "accessors[0]: count 900000000000000", [](F& f) { f.json["accessors"][0]["count"] = 900000000000000; }},
       {"huge_count_without_view", "accessors[0]: count 1000000000 without a bufferView",
        [](F& f) {
          f.json["accessors"][0].erase("bufferView");
          f.json["accessors"][0]["count"] = 1000000000;
        }},
-      {"count_beyond_integers", "accessors[0].count: is 1e+300",
-       [](F& f) { f.json["accessors"][0]["count"] = 1e300; }},
+      {"count_beyond_integers", "accessors[0].count: is 1e+300", [](F& f) { f.json["accessors"][0]["count"] = 1e300; }},
       {"count_negative", "accessors[0].count: is -4", [](F& f) { f.json["accessors"][0]["count"] = -4; }},
-      {"count_fraction", "accessors[0].count: must be an integer",
-       [](F& f) { f.json["accessors"][0]["count"] = 3.5; }},
-      {"count_missing", "accessors[0]: \"count\" is missing",
-       [](F& f) { f.json["accessors"][0].erase("count"); }},
-      {"count_text", "accessors[0].count: must be a number, is of type string",
-       [](F& f) { f.json["accessors"][0]["count"] = "4"; }},
-      {"accessor_offset", "accessors[0]: count 4 at offset 4000",
-       [](F& f) { f.json["accessors"][0]["byteOffset"] = 4000; }},
+      {"count_fraction", "accessors[0].count: must be an integer", [](F& f) { f.json["accessors"][0]["count"] = 3.5; }},
+      {"count_missing", "accessors[0]: \"count\" is missing", [](F& f) { f.json["accessors"][0].erase("count"); }},
+      {"count_text", "accessors[0].count: must be a number, is of type string", [](F& f) { f.json["accessors"][0]["count"] = "4"; }},
+      {"accessor_offset", "accessors[0]: count 4 at offset 4000", [](F& f) { f.json["accessors"][0]["byteOffset"] = 4000; }},
       {"accessor_type", "accessors[0].type: \"VEC5\"", [](F& f) { f.json["accessors"][0]["type"] = "VEC5"; }},
-      {"position_vec2", "accessors[0].type: is VEC2, must be VEC3",
-       [](F& f) { f.json["accessors"][0]["type"] = "VEC2"; }},
-      {"component_type", "accessors[0].componentType: 5124",
-       [](F& f) { f.json["accessors"][0]["componentType"] = 5124; }},
+      {"position_vec2", "accessors[0].type: is VEC2, must be VEC3", [](F& f) { f.json["accessors"][0]["type"] = "VEC2"; }},
+      {"component_type", "accessors[0].componentType: 5124", [](F& f) { f.json["accessors"][0]["componentType"] = 5124; }},
       {"indices_float", "accessors[2].componentType: must be an unsigned integer",
        [](F& f) {
          f.primitive()["indices"] = f.add_floats({0, 1, 2}, "SCALAR");
@@ -86,14 +77,10 @@ const std::vector<BadFile>& bad_files() {
        [](F& f) { f.json["accessors"][0]["bufferView"] = 77; }},
       {"view_beyond_buffer", "bufferViews[0]: bytes 100000 to 100048 of buffer 0",
        [](F& f) { f.json["bufferViews"][0]["byteOffset"] = 100000; }},
-      {"view_length", "bufferViews[0]: bytes 0 to 4000000000000",
-       [](F& f) { f.json["bufferViews"][0]["byteLength"] = 4000000000000; }},
-      {"view_negative", "bufferViews[0].byteOffset: is -1",
-       [](F& f) { f.json["bufferViews"][0]["byteOffset"] = -1; }},
-      {"stride_small", "bufferViews[0].byteStride: is 4, less than",
-       [](F& f) { f.json["bufferViews"][0]["byteStride"] = 4; }},
-      {"missing_buffer", "bufferViews[0].buffer: buffer 3 does not exist",
-       [](F& f) { f.json["bufferViews"][0]["buffer"] = 3; }},
+      {"view_length", "bufferViews[0]: bytes 0 to 4000000000000", [](F& f) { f.json["bufferViews"][0]["byteLength"] = 4000000000000; }},
+      {"view_negative", "bufferViews[0].byteOffset: is -1", [](F& f) { f.json["bufferViews"][0]["byteOffset"] = -1; }},
+      {"stride_small", "bufferViews[0].byteStride: is 4, less than", [](F& f) { f.json["bufferViews"][0]["byteStride"] = 4; }},
+      {"missing_buffer", "bufferViews[0].buffer: buffer 3 does not exist", [](F& f) { f.json["bufferViews"][0]["buffer"] = 3; }},
       {"buffer_short", "buffers[0]: byteLength is 5000",
        [](F& f) {
          f.json["buffers"] = {{{"byteLength", 5000}, {"uri", "data:x;base64,AAAA"}}};
@@ -141,8 +128,7 @@ const std::vector<BadFile>& bad_files() {
          f.append("nodes", {{"children", {0}}});
          f.append("nodes", {{"children", {0}}});
        }},
-      {"missing_child", "nodes[0].children[0]: node 9 does not exist",
-       [](F& f) { f.node()["children"] = {9}; }},
+      {"missing_child", "nodes[0].children[0]: node 9 does not exist", [](F& f) { f.node()["children"] = {9}; }},
       {"child_as_root", "scenes[0].nodes[1]: node 0 is a child of node 1",
        [](F& f) {
          f.append("nodes", {{"children", {0}}});
@@ -153,20 +139,15 @@ const std::vector<BadFile>& bad_files() {
          f.json["scenes"] = {{{"nodes", {0, 0}}}};
        }},
       {"missing_scene", "scene: scene 4 does not exist", [](F& f) { f.json["scene"] = 4; }},
-      {"missing_mesh", "nodes[0].mesh: mesh 7 does not exist: the file has 1",
-       [](F& f) { f.node()["mesh"] = 7; }},
-      {"missing_accessor", "attributes.POSITION: accessor 12 does not exist",
-       [](F& f) { f.primitive()["attributes"]["POSITION"] = 12; }},
-      {"missing_indices", "meshes[0].primitives[0].indices: accessor 12",
-       [](F& f) { f.primitive()["indices"] = 12; }},
+      {"missing_mesh", "nodes[0].mesh: mesh 7 does not exist: the file has 1", [](F& f) { f.node()["mesh"] = 7; }},
+      {"missing_accessor", "attributes.POSITION: accessor 12 does not exist", [](F& f) { f.primitive()["attributes"]["POSITION"] = 12; }},
+      {"missing_indices", "meshes[0].primitives[0].indices: accessor 12", [](F& f) { f.primitive()["indices"] = 12; }},
       {"missing_material", "primitives[0].material: material 1 does not exist: the file has 0",
        [](F& f) { f.primitive()["material"] = 1; }},
       {"missing_skin", "nodes[0].skin: skin 0 does not exist", [](F& f) { f.node()["skin"] = 0; }},
       {"missing_camera", "nodes[0].camera: camera 0 does not exist", [](F& f) { f.node()["camera"] = 0; }},
-      {"no_primitives", "meshes[0]: \"primitives\" is missing",
-       [](F& f) { f.json["meshes"][0].erase("primitives"); }},
-      {"no_attributes", "primitives[0]: \"attributes\" is missing",
-       [](F& f) { f.primitive().erase("attributes"); }},
+      {"no_primitives", "meshes[0]: \"primitives\" is missing", [](F& f) { f.json["meshes"][0].erase("primitives"); }},
+      {"no_attributes", "primitives[0]: \"attributes\" is missing", [](F& f) { f.primitive().erase("attributes"); }},
       {"mode", "primitives[0].mode: is 9", [](F& f) { f.primitive()["mode"] = 9; }},
       {"index_beyond_vertices", "element 2 is 9, the primitive has 4 vertices",
        [](F& f) {
@@ -182,13 +163,11 @@ const std::vector<BadFile>& bad_files() {
        }},
       {"position_nan", "accessors[3]: element 1 is not finite",
        [](F& f) {
-         f.primitive()["attributes"]["POSITION"] =
-             f.add_floats({0, 0, 0, 1, NAN, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
+         f.primitive()["attributes"]["POSITION"] = f.add_floats({0, 0, 0, 1, NAN, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
        }},
       {"position_infinite", "accessors[3]: element 2 is not finite",
        [](F& f) {
-         f.primitive()["attributes"]["POSITION"] =
-             f.add_floats({0, 0, 0, 1, 0, 0, INFINITY, 1, 0, 0, 1, 0}, "VEC3");
+         f.primitive()["attributes"]["POSITION"] = f.add_floats({0, 0, 0, 1, 0, 0, INFINITY, 1, 0, 0, 1, 0}, "VEC3");
        }},
       {"position_leaves_range", "the farthest that can be rendered",
        [](F& f) {
@@ -236,10 +215,8 @@ const std::vector<BadFile>& bad_files() {
          use_texture(f, {{{"uri", "nowhere.png"}}});
        }},
       {"image_empty", "images[0]: has neither", [](F& f) { use_texture(f, json::array({json::object()})); }},
-      {"image_text", "images[0]: the picture is neither PNG nor JPEG",
-       [](F& f) { use_texture(f, image_of("hello")); }},
-      {"image_truncated", "images[0]: cannot read the PNG picture",
-       [](F& f) { use_texture(f, image_of(small_png().substr(0, 45))); }},
+      {"image_text", "images[0]: the picture is neither PNG nor JPEG", [](F& f) { use_texture(f, image_of("hello")); }},
+      {"image_truncated", "images[0]: cannot read the PNG picture", [](F& f) { use_texture(f, image_of(small_png().substr(0, 45))); }},
       {"image_huge", "images[0]: the picture claims 10000 x 9000 texels",
        [](F& f) {
          std::string png = small_png();
@@ -253,8 +230,7 @@ const std::vector<BadFile>& bad_files() {
          f.json["samplers"] = {{{"wrapS", 7}}};
          f.json["textures"][0]["sampler"] = 0;
        }},
-      {"roughness", "roughnessFactor: is 1.5, must be from 0",
-       [](F& f) { f.material()["pbrMetallicRoughness"]["roughnessFactor"] = 1.5; }},
+      {"roughness", "roughnessFactor: is 1.5, must be from 0", [](F& f) { f.material()["pbrMetallicRoughness"]["roughnessFactor"] = 1.5; }},
       {"base_color", "baseColorFactor: needs 4 numbers, has 3",
        [](F& f) {
          f.material()["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1};
@@ -265,8 +241,7 @@ const std::vector<BadFile>& bad_files() {
        }},
       {"alpha_mode", "alphaMode: \"GLASS\"", [](F& f) { f.material()["alphaMode"] = "GLASS"; }},
       {"double_sided", "doubleSided: must be true or false", [](F& f) { f.material()["doubleSided"] = 1; }},
-      {"extension_text", "KHR_materials_ior: must be an object",
-       [](F& f) { f.material()["extensions"]["KHR_materials_ior"] = "x"; }},
+      {"extension_text", "KHR_materials_ior: must be an object", [](F& f) { f.material()["extensions"]["KHR_materials_ior"] = "x"; }},
       {"lobe_name", "extras.steradian.brdf: \"plastic\" is not a lobe",
        [](F& f) {
          f.material()["extras"]["steradian"] = {{"brdf", "plastic"}};
@@ -283,8 +258,7 @@ const std::vector<BadFile>& bad_files() {
        [](F& f) {
          f.material()["extras"]["steradian"] = {{"brdf", "phong"}, {"exponent", -3}};
        }},
-      {"lobe_number", "extras.steradian: must be an object",
-       [](F& f) { f.material()["extras"]["steradian"] = 5; }},
+      {"lobe_number", "extras.steradian: must be an object", [](F& f) { f.material()["extras"]["steradian"] = 5; }},
       {"area_light_type", "lights[0].type: \"tube\" is not an area light",
        [](F& f) {
          use_area_light(f, {{"type", "tube"}});
@@ -322,28 +296,24 @@ const std::vector<BadFile>& bad_files() {
        }},
       {"sparse_count", "accessors[0].sparse.count: is 9, more than",
        [](F& f) {
-         f.json["accessors"][0]["sparse"] = {{"count", 9},
-                                             {"indices", {{"bufferView", 2}, {"componentType", 5123}}},
-                                             {"values", {{"bufferView", 0}}}};
+         f.json["accessors"][0]["sparse"] = {
+             {"count", 9}, {"indices", {{"bufferView", 2}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}};
        }},
       {"sparse_index", "sparse.indices: element 0 is 200",
        [](F& f) {
          const int v = f.add_view(std::vector<std::uint8_t>{200});
-         f.json["accessors"][0]["sparse"] = {{"count", 1},
-                                             {"indices", {{"bufferView", v}, {"componentType", 5121}}},
-                                             {"values", {{"bufferView", 0}}}};
+         f.json["accessors"][0]["sparse"] = {
+             {"count", 1}, {"indices", {{"bufferView", v}, {"componentType", 5121}}}, {"values", {{"bufferView", 0}}}};
        }},
       {"sparse_values", "sparse.values: count 2",
        [](F& f) {
          const int v = f.add_view(std::vector<std::uint8_t>{0, 1});
-         f.json["accessors"][0]["sparse"] = {{"count", 2},
-                                             {"indices", {{"bufferView", v}, {"componentType", 5121}}},
-                                             {"values", {{"bufferView", v}}}};
+         f.json["accessors"][0]["sparse"] = {
+             {"count", 2}, {"indices", {{"bufferView", v}, {"componentType", 5121}}}, {"values", {{"bufferView", v}}}};
        }},
       {"joint", "JOINTS_0: vertex 0 names joint 7, the skin has 1",
        [](F& f) {
-         f.primitive()["attributes"]["JOINTS_0"] =
-             f.add_accessor(std::vector<std::uint8_t>(16, 7), "VEC4", 5121, 4);
+         f.primitive()["attributes"]["JOINTS_0"] = f.add_accessor(std::vector<std::uint8_t>(16, 7), "VEC4", 5121, 4);
          f.primitive()["attributes"]["WEIGHTS_0"] = f.add_floats(std::vector<float>(16, 0.25f), "VEC4");
          f.node()["skin"] = 0;
          f.json["skins"] = {{{"joints", {0}}}};
@@ -387,9 +357,7 @@ TEST(LoadSceneErrors, NamesFileAndPlaceForBrokenContainers) {
   expect_error(write_test_file("chunk_type.glb", changed), "chunk 0: the first chunk must be JSON");
 }
 
-TEST(LoadSceneErrors, AsksForAtLeastOneLight) {
-  EXPECT_THROW(load_scene(GltfTestFile::square().write(), {.max_lights = 0}), Error);
-}
+TEST(LoadSceneErrors, AsksForAtLeastOneLight) { EXPECT_THROW(load_scene(GltfTestFile::square().write(), {.max_lights = 0}), Error); }
 
 // A file with a bit of everything, so that mutations reach every part of the reader.
 std::string rich_glb() {
@@ -401,9 +369,8 @@ std::string rich_glb() {
   use_area_light(f, {{"type", "sphere"}, {"size", 1}});
   f.node()["rotation"] = {0, 0, 0, 1};
   const int v = f.add_view(std::vector<std::uint8_t>{1});
-  f.json["accessors"][0]["sparse"] = {{"count", 1},
-                                      {"indices", {{"bufferView", v}, {"componentType", 5121}}},
-                                      {"values", {{"bufferView", 0}}}};
+  f.json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", v}, {"componentType", 5121}}}, {"values", {{"bufferView", 0}}}};
   return f.glb();
 }
 
@@ -420,26 +387,17 @@ TEST(LoadSceneErrors, LoadsOrRefusesMutatedFiles) {
     for (int c = 0; c < changes; ++c) {
       const std::size_t at = random() % bytes.size();
       switch (random() % 4) {
-        case 0:
-          bytes[at] = static_cast<char>(random());
-          break;
-        case 1:
-          bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
-          break;
-        case 2:
-          bytes[at] = "0123456789-.e[]{},\""[random() % 19];
-          break;
-        default:
-          bytes[at] = bytes[random() % bytes.size()];
-          break;
+        case 0: bytes[at] = static_cast<char>(random()); break;
+        case 1: bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8)); break;
+        case 2: bytes[at] = "0123456789-.e[]{},\""[random() % 19]; break;
+        default: bytes[at] = bytes[random() % bytes.size()]; break;
       }
     }
     if (random() % 50 == 0) bytes.resize(random() % bytes.size());
     try {
       const LoadedScene scene = load_scene_from_memory(bytes, path);
       for (const Mesh& mesh : scene.scene.meshes)
-        for (const std::uint32_t index : mesh.indices)
-          ASSERT_LT(index, mesh.positions.size()) << "mutation " << i;
+        for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.positions.size()) << "mutation " << i;
       ++loaded;
     } catch (const Error& e) {
       ASSERT_EQ(e.place().substr(0, path.size()), path) << "mutation " << i << ": " << e.what();

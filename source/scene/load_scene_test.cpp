@@ -12,9 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-LoadedScene load(const GltfTestFile& file, const LoadOptions& options = {}) {
-  return load_scene(file.write(), options);
-}
+LoadedScene load(const GltfTestFile& file, const LoadOptions& options = {}) { return load_scene(file.write(), options); }
 
 bool warns(const LoadedScene& loaded, const std::string& part) {
   for (const std::string& w : loaded.warnings)
@@ -23,19 +21,15 @@ bool warns(const LoadedScene& loaded, const std::string& part) {
 }
 
 void expect_near(Vec3d a, Vec3d b, double tolerance) {
-  EXPECT_LE(length(a - b), tolerance)
-      << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y << " " << b.z;
+  EXPECT_LE(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y << " " << b.z;
 }
-void expect_near(Vec3f a, Vec3d b, double tolerance = 1e-6) {
-  expect_near(static_cast<Vec3d>(a), b, tolerance);
-}
+void expect_near(Vec3f a, Vec3d b, double tolerance = 1e-6) { expect_near(static_cast<Vec3d>(a), b, tolerance); }
 
 // Area with the sign of agreement between the winding and the stored normals.
 double signed_area(const Mesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vec3f a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
-                c = mesh.positions[mesh.indices[i + 2]];
+    const Vec3f a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
     sum += static_cast<double>(dot(cross(b - a, c - a), mesh.normals[mesh.indices[i]])) / 2;
   }
   return sum;
@@ -63,8 +57,7 @@ TEST(LoadScene, ReadsBuffersFromFilesWithPercentCodedNames) {
 TEST(LoadScene, MakesTrianglesOfStripsAndFansThatFaceAlike) {
   for (const int mode : {5, 6}) {
     GltfTestFile f;
-    const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0},
-                             fan = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0};
+    const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}, fan = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0};
     f.add_mesh({{"POSITION", f.add_floats(mode == 5 ? strip : fan, "VEC3")}})["mode"] = mode;
     const LoadedScene loaded = load(f);
     EXPECT_EQ(loaded.scene.triangle_count(), 3u);
@@ -84,9 +77,7 @@ TEST(LoadScene, MultipliesTransformsDownTheTree) {
   GltfTestFile f = GltfTestFile::square();
   f.node()["translation"] = {1, 0, 0};
   const double h = std::sqrt(0.5);
-  f.append("nodes", {{"children", {0}},
-                     {"rotation", {0, h, 0, h}},
-                     {"scale", {2, 2, 2}}});  // a quarter turn about y: x to -z
+  f.append("nodes", {{"children", {0}}, {"rotation", {0, h, 0, h}}, {"scale", {2, 2, 2}}});  // a quarter turn about y: x to -z
   f.json["scenes"] = {{{"nodes", {1}}}};
   const LoadedScene loaded = load(f);
   expect_near(loaded.scene.meshes[0].positions[0], {0, 0, -2});
@@ -108,8 +99,7 @@ TEST(LoadScene, KeepsNormalsPerpendicularUnderUnevenScale) {
   GltfTestFile f;
   const double h = std::sqrt(0.5);
   const auto s = static_cast<float>(h);
-  const int p = f.add_floats({0, 0, 0, 0, 0, 1, 1, 1, 0}, "VEC3"),
-            n = f.add_floats({-s, s, 0, -s, s, 0, -s, s, 0}, "VEC3");
+  const int p = f.add_floats({0, 0, 0, 0, 0, 1, 1, 1, 0}, "VEC3"), n = f.add_floats({-s, s, 0, -s, s, 0, -s, s, 0}, "VEC3");
   f.add_mesh({{"POSITION", p}, {"NORMAL", n}});
   f.node()["scale"] = {4, 1, 1};
   expect_near(load(f).scene.meshes[0].normals[0], normalized(Vec3d{-1, 4, 0}));
@@ -117,13 +107,10 @@ TEST(LoadScene, KeepsNormalsPerpendicularUnderUnevenScale) {
 
 TEST(LoadScene, ReadsQuantizedAndStridedAttributes) {
   GltfTestFile f;
-  const std::vector<std::int16_t> values = {0, 0,  0, 77,    32767, 0,
-                                            0, 77, 0, 32767, 0,     77};  // 77: padding of the stride
+  const std::vector<std::int16_t> values = {0, 0, 0, 77, 32767, 0, 0, 77, 0, 32767, 0, 77};  // 77: padding of the stride
   f.add_view(values);
   f.json["bufferViews"][0]["byteStride"] = 8;
-  f.append(
-      "accessors",
-      {{"bufferView", 0}, {"componentType", 5122}, {"normalized", true}, {"count", 3}, {"type", "VEC3"}});
+  f.append("accessors", {{"bufferView", 0}, {"componentType", 5122}, {"normalized", true}, {"count", 3}, {"type", "VEC3"}});
   f.add_mesh({{"POSITION", 0}});
   f.json["extensionsRequired"] = {"KHR_mesh_quantization"};
   const LoadedScene loaded = load(f);
@@ -133,11 +120,9 @@ TEST(LoadScene, ReadsQuantizedAndStridedAttributes) {
 
 TEST(LoadScene, AppliesSparseReplacements) {
   GltfTestFile f = GltfTestFile::square();
-  const int indices = f.add_view(std::vector<std::uint8_t>{2}),
-            values = f.add_view(std::vector<float>{1, 2, 0});
-  f.json["accessors"][0]["sparse"] = {{"count", 1},
-                                      {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
-                                      {"values", {{"bufferView", values}}}};
+  const int indices = f.add_view(std::vector<std::uint8_t>{2}), values = f.add_view(std::vector<float>{1, 2, 0});
+  f.json["accessors"][0]["sparse"] = {
+      {"count", 1}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
   const LoadedScene loaded = load(f);
   EXPECT_NEAR(loaded.scene.bounds_max.y, 2, 1e-6);
 }
@@ -206,8 +191,7 @@ TEST(Texture, RotatesCounterClockwiseAsSeen) {
   GltfTestFile f = GltfTestFile::square();
   f.json["images"] = {{{"uri", "data:image/png;base64," + base64(small_png())}}};
   f.json["textures"] = {{{"source", 0}}};
-  f.material()["emissiveTexture"] = {
-      {"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", std::numbers::pi / 2}}}}}};
+  f.material()["emissiveTexture"] = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", std::numbers::pi / 2}}}}}};
   const Vec2f t = load(f).scene.materials[0].emissive_texture.transformed({1, 0});
   EXPECT_NEAR(static_cast<double>(t.x), 0, 1e-6);  // v points down: +u turns towards -v
   EXPECT_NEAR(static_cast<double>(t.y), -1, 1e-6);
@@ -256,9 +240,7 @@ TEST(LoadScene, ReadsLobesFromExtras) {
   f.append(
       "materials",
       {{"extras",
-        {{"steradian",
-          json::parse(
-              R"([{"brdf": "ggx", "roughness": 0.5, "shadowing": "none"}, {"brdf": "beckmann", "alpha": 0.1}])")}}}});
+        {{"steradian", json::parse(R"([{"brdf": "ggx", "roughness": 0.5, "shadowing": "none"}, {"brdf": "beckmann", "alpha": 0.1}])")}}}});
   const auto materials = load(f).scene.materials;
   ASSERT_EQ(materials[0].specular_override.size(), 1u);
   EXPECT_EQ(materials[0].specular_override[0].brdf, Brdf::phong);
@@ -282,8 +264,8 @@ TEST(LoadScene, ReadsVertexColors) {
 
 TEST(LoadScene, ReadsPunctualLights) {
   GltfTestFile f = GltfTestFile::square();
-  f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(
-      R"([{"type": "spot", "color": [1, 0.5, 0], "intensity": 10, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}}])");
+  f.json["extensions"]["KHR_lights_punctual"]["lights"] =
+      json::parse(R"([{"type": "spot", "color": [1, 0.5, 0], "intensity": 10, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}}])");
   f.append("nodes", {{"translation", {1, 2, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   const LoadedScene loaded = load(f);
   ASSERT_EQ(loaded.scene.punctual_lights.size(), 1u);
@@ -307,12 +289,9 @@ GltfTestFile with_area_light(const json& light, const json& node) {
 
 TEST(LoadScene, ReadsRectLightsThatShineAlongMinusZ) {
   for (const double mirror : {1.0, -1.0}) {
-    const LoadedScene loaded = load(with_area_light({{"type", "rect"},
-                                                     {"size", 2},
-                                                     {"rect", {{"aspect", 1.5}}},
-                                                     {"color", {1, 0.5, 0}},
-                                                     {"intensity", 10}},
-                                                    {{"translation", {0, 0, 9}}, {"scale", {mirror, 1, 1}}}));
+    const LoadedScene loaded =
+        load(with_area_light({{"type", "rect"}, {"size", 2}, {"rect", {{"aspect", 1.5}}}, {"color", {1, 0.5, 0}}, {"intensity", 10}},
+                             {{"translation", {0, 0, 9}}, {"scale", {mirror, 1, 1}}}));
     ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
     const AreaLight& light = loaded.scene.area_lights[0];
     const PreparedPolygon p = prepare_polygon(light.polygon);
@@ -338,8 +317,7 @@ TEST(LoadScene, ReadsDisksAndSpheresUnderUnevenScale) {
   EXPECT_NEAR(prepare_polygon(disk.scene.area_lights[0].polygon).area, 3 * std::numbers::pi, 1e-12);
   expect_near(prepare_polygon(disk.scene.area_lights[0].polygon).normal, {0, 0, -1}, 1e-12);
 
-  const LoadedScene sphere = load(
-      with_area_light({{"type", "sphere"}, {"size", 2}}, {{"scale", {3, 1, 1}}, {"translation", {0, 5, 0}}}));
+  const LoadedScene sphere = load(with_area_light({{"type", "sphere"}, {"size", 2}}, {{"scale", {3, 1, 1}}, {"translation", {0, 5, 0}}}));
   const AreaLight& light = sphere.scene.area_lights[0];
   EXPECT_EQ(light.shape, LightShape::sphere);
   expect_near(light.center, {0, 5, 0}, 0);
@@ -349,9 +327,9 @@ TEST(LoadScene, ReadsDisksAndSpheresUnderUnevenScale) {
 }
 
 TEST(LoadScene, ReadsCapsulesAlongX) {
-  const LoadedScene loaded = load(with_area_light(
-      {{"type", "capsule"}, {"size", 0.2}, {"capsule", {{"length", 3}}}, {"intensity", 2}},
-      {{"scale", {2, 4, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {0, 5, 0}}}));
+  const LoadedScene loaded =
+      load(with_area_light({{"type", "capsule"}, {"size", 0.2}, {"capsule", {{"length", 3}}}, {"intensity", 2}},
+                           {{"scale", {2, 4, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {0, 5, 0}}}));
   ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
   const AreaLight& light = loaded.scene.area_lights[0];
   EXPECT_EQ(light.shape, LightShape::capsule);
@@ -373,8 +351,7 @@ TEST(LoadScene, ReadsCapsulesAlongX) {
 
 TEST(LoadScene, MergesAnEmissiveSquareIntoOneLight) {
   GltfTestFile f = GltfTestFile::square();
-  f.material() = {{"emissiveFactor", {1, 1, 1}},
-                  {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}};
+  f.material() = {{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}};
   const Scene scene = load(f).scene;
   ASSERT_EQ(scene.area_lights.size(), 1u);
   EXPECT_EQ(scene.area_lights[0].polygon.vertices.size(), 4u);
@@ -440,8 +417,7 @@ TEST(LoadScene, ReadsCamerasAndFramesASceneWithoutOne) {
   EXPECT_GT(c.position.z, 0) << "from the front";
   EXPECT_LT(std::asin(std::sqrt(0.5) / length(to_center)), c.yfov / 2) << "sees the bounding sphere whole";
 
-  f.json["cameras"] = {
-      {{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+  f.json["cameras"] = {{{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
   f.append("nodes", {{"camera", 0}, {"translation", {0, 1, 5}}});
   const LoadedScene own = load(f);
   ASSERT_EQ(own.scene.cameras.size(), 1u);

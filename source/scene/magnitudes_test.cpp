@@ -65,8 +65,8 @@ double mean(const Picture& picture) {
   return sum;
 }
 
-constexpr double kMagnitudes[] = {1e-30, 1e-25, 1e-19, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1, 1e3, 1e6,
-                                  1e9,   1e12,  9e14,  2e15,  1e18,  1e19, 1e25, 1e30, 3e38};
+constexpr double kMagnitudes[] = {1e-30, 1e-25, 1e-19, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1,    1e3,
+                                  1e6,   1e9,   1e12,  9e14,  2e15,  1e18, 1e19, 1e25, 1e30, 3e38};
 
 }  // namespace
 

@@ -32,8 +32,7 @@ struct Welded {
 struct BitHash {
   std::size_t operator()(const std::array<std::uint64_t, 3>& k) const {
     std::uint64_t h = 0;
-    for (const std::uint64_t x : k)
-      h = (h ^ (x + 0x9E3779B97F4A7C15u + (h << 6) + (h >> 2))) * 0xBF58476D1CE4E5B9u;
+    for (const std::uint64_t x : k) h = (h ^ (x + 0x9E3779B97F4A7C15u + (h << 6) + (h >> 2))) * 0xBF58476D1CE4E5B9u;
     return static_cast<std::size_t>(h ^ (h >> 31));
   }
 };
@@ -46,8 +45,7 @@ Welded weld(const std::vector<Triangle>& triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
       // Adding zero makes -0 and 0 one corner.
       const Vec3d p = t[c] + Vec3d{0, 0, 0};
-      const std::array<std::uint64_t, 3> key{std::bit_cast<std::uint64_t>(p.x),
-                                             std::bit_cast<std::uint64_t>(p.y),
+      const std::array<std::uint64_t, 3> key{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
                                              std::bit_cast<std::uint64_t>(p.z)};
       const auto [it, fresh] = known.emplace(key, static_cast<Index>(result.points.size()));
       if (fresh) result.points.push_back(p);
@@ -64,9 +62,7 @@ constexpr std::size_t kShared = static_cast<std::size_t>(-1);  // a directed edg
 
 Vec3d face_vector(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
-double longest_edge(const Triangle& t) {
-  return std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
-}
+double longest_edge(const Triangle& t) { return std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])}); }
 
 bool has_area(const Triangle& t) {
   const double edge = longest_edge(t);
@@ -101,14 +97,12 @@ Contour without_straight_corners(const Contour& contour) {
 
 double signed_area(const Contour& contour, Vec3d normal) {
   Vec3d sum{};
-  for (std::size_t i = 1; i + 1 < contour.size(); ++i)
-    sum += cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
+  for (std::size_t i = 1; i + 1 < contour.size(); ++i) sum += cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
   return dot(sum, normal) / 2;
 }
 
 // The closed contours of a patch's boundary; none where a corner is met twice.
-std::optional<std::vector<Contour>> trace_boundary(const Welded& mesh,
-                                                   const std::vector<std::size_t>& patch) {
+std::optional<std::vector<Contour>> trace_boundary(const Welded& mesh, const std::vector<std::size_t>& patch) {
   std::map<std::pair<Index, Index>, int> edges;  // ordered: the result does not depend on a hash
   for (const std::size_t t : patch)
     for (std::size_t c = 0; c < 3; ++c)
@@ -137,8 +131,7 @@ std::optional<std::vector<Contour>> trace_boundary(const Welded& mesh,
 }
 
 // One outline, holes in it, and the area of the triangles: else the patch overlaps itself.
-std::optional<MergedPolygon> to_polygon(const Welded& mesh, const std::vector<Triangle>& triangles,
-                                        const std::vector<std::size_t>& patch) {
+std::optional<MergedPolygon> to_polygon(const Welded& mesh, const std::vector<Triangle>& triangles, const std::vector<std::size_t>& patch) {
   const auto contours = trace_boundary(mesh, patch);
   if (!contours) return {};
   const Vec3d normal = normalized(face_vector(triangles[patch.front()]));
@@ -168,8 +161,7 @@ std::optional<MergedPolygon> to_polygon(const Welded& mesh, const std::vector<Tr
 
 }  // namespace
 
-MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles,
-                              const std::function<bool(std::size_t, std::size_t)>& may_join) {
+MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std::function<bool(std::size_t, std::size_t)>& may_join) {
   const Welded mesh = weld(triangles);
   MergedPolygons result;
   std::vector<bool> taken(triangles.size(), false);
@@ -192,8 +184,7 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles,
     std::vector<std::size_t> patch{seed};
     for (std::size_t i = 0; i < patch.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto across =
-            owner.find(edge_key(mesh.corners[patch[i]][(c + 1) % 3], mesh.corners[patch[i]][c]));
+        const auto across = owner.find(edge_key(mesh.corners[patch[i]][(c + 1) % 3], mesh.corners[patch[i]][c]));
         if (across == owner.end() || across->second == kShared || taken[across->second]) continue;
         const std::size_t other = across->second;
         if (!coplanar(triangles[seed], triangles[other]) || !may_join(seed, other)) continue;
@@ -203,8 +194,7 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles,
     if (auto polygon = to_polygon(mesh, triangles, patch)) {
       result.polygons.push_back(std::move(*polygon));
     } else {
-      for (const std::size_t t : patch)
-        result.polygons.push_back({{triangles[t].begin(), triangles[t].end()}, {}, {t}});
+      for (const std::size_t t : patch) result.polygons.push_back({{triangles[t].begin(), triangles[t].end()}, {}, {t}});
     }
   }
   return result;

@@ -29,7 +29,6 @@ struct MergedPolygons {
 //
 // A patch whose outline is ambiguous (it touches itself in a corner, overlaps itself, has an edge of three
 // triangles) stays triangles: more edges, the same light.
-MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles,
-                              const std::function<bool(std::size_t, std::size_t)>& may_join);
+MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std::function<bool(std::size_t, std::size_t)>& may_join);
 
 }  // namespace steradian

@@ -14,9 +14,7 @@ MergedPolygons merge(const std::vector<Triangle>& t) {
   return merge_coplanar(t, [](std::size_t, std::size_t) { return true; });
 }
 
-double area_of(const MergedPolygon& p) {
-  return prepare_polygon({p.outline, p.holes, {1, 1, 1}, false}).area;
-}
+double area_of(const MergedPolygon& p) { return prepare_polygon({p.outline, p.holes, {1, 1, 1}, false}).area; }
 
 // n x n unit cells in z = 0 without those for which left_out(i, j) holds.
 template <class LeftOut>
@@ -25,8 +23,7 @@ std::vector<Triangle> grid(int n, LeftOut left_out) {
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       if (left_out(i, j)) continue;
-      const Vec3d a{1.0 * i, 1.0 * j, 0}, b{i + 1.0, 1.0 * j, 0}, c{i + 1.0, j + 1.0, 0},
-          d{1.0 * i, j + 1.0, 0};
+      const Vec3d a{1.0 * i, 1.0 * j, 0}, b{i + 1.0, 1.0 * j, 0}, c{i + 1.0, j + 1.0, 0}, d{1.0 * i, j + 1.0, 0};
       result.push_back({a, b, c});
       result.push_back({a, c, d});
     }
@@ -42,8 +39,7 @@ TEST(MergePolygons, MakesAGridOneRectangleWithFourCorners) {
 }
 
 TEST(MergePolygons, KeepsHoles) {
-  const auto merged =
-      merge(grid(7, [](int i, int j) { return (i == 2 && j == 2) || (i >= 4 && i <= 5 && j == 4); }));
+  const auto merged = merge(grid(7, [](int i, int j) { return (i == 2 && j == 2) || (i >= 4 && i <= 5 && j == 4); }));
   ASSERT_EQ(merged.polygons.size(), 1u);
   EXPECT_EQ(merged.polygons[0].outline.size(), 4u);
   EXPECT_EQ(merged.polygons[0].holes.size(), 2u);

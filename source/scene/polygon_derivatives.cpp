@@ -26,8 +26,7 @@ std::vector<std::size_t> stored_vertices(const PolygonLight& light, const Prepar
     while (kept.size() > 1 && contour[kept.front()] == contour[kept.back()]) kept.pop_back();
     if (kept.size() >= 3 && result.size() < prepared.vertices.size()) {
       const bool turned = !(prepared.vertices[result.size()] == contour[kept.front()]);
-      for (std::size_t i = 0; i < kept.size(); ++i)
-        result.push_back(offset + kept[turned ? kept.size() - 1 - i : i]);
+      for (std::size_t i = 0; i < kept.size(); ++i) result.push_back(offset + kept[turned ? kept.size() - 1 - i : i]);
     }
     offset += contour.size();
   };
@@ -88,8 +87,7 @@ VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d pos
 //   side      on which the light is seen
 //   integral  integral.template operator()<S>(outline, shading): an integrals::Part<S>
 template <class Integral>
-PartDerivatives by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
-                            const Integral& integral) {
+PartDerivatives by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame, const Integral& integral) {
   using S = Dual<6>;
   const auto shading = integrals::shading_from<S>(side, to_kernel<S>(frame.to_local(normalized(at.view))));
   std::vector<Vec3d> local;
@@ -182,8 +180,7 @@ LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec
   const PreparedPolygon light = prepare_polygon(stored);
   const int side = shapes::lit_side(light, position);
   if (side == 0) return no_light(stored);
-  return gather(stored, light, position, {}, polygon_solid_angle(light, position),
-                solid_angle_by_vertices(light, position, side), 1);
+  return gather(stored, light, position, {}, polygon_solid_angle(light, position), solid_angle_by_vertices(light, position, side), 1);
 }
 
 namespace {
@@ -198,16 +195,14 @@ RadianceDerivatives of_channels(const PolygonLight& stored, const PreparedPolygo
   const auto channels = [&](Vec3d p, Vec3d f) -> std::array<Vec3d, 3> {
     return {p * plain.x + f * fresnel.x, p * plain.y + f * fresnel.y, p * plain.z + f * fresnel.z};
   };
-  for (std::size_t i = 0; i < parts.plain.size(); ++i)
-    result.vertices[stored_index[i]] = channels(parts.plain[i], parts.fresnel[i]);
+  for (std::size_t i = 0; i < parts.plain.size(); ++i) result.vertices[stored_index[i]] = channels(parts.plain[i], parts.fresnel[i]);
   result.normal = channels(normal.plain, normal.fresnel);
   return result;
 }
 
 }  // namespace
 
-RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material,
-                                         Quality quality) {
+RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material, Quality quality) {
   const Material m = with_multiple_scattering(material, at);
   if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
@@ -257,8 +252,7 @@ RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLigh
   if (method != LtcMethod::classic && method != LtcMethod::compact)
     throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
   if (!serves(method, m) || m.brdf != Brdf::ggx)
-    throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing",
-                "use the method closed-form");
+    throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
   const PreparedPolygon light = prepare_polygon(stored);
   const int side = shapes::lit_side(light, at.position);
   if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));

@@ -59,18 +59,33 @@ void check_all(const LightDerivatives& got, const PolygonLight& light, Vec3d p, 
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < got.vertices.size(); ++i) {
       Vec3d derivative = got.vertices[i];
-      check("vertex", [&](double h) {
-        PolygonLight moved = light;
-        Vec3d& v = i < 3 ? moved.vertices[i] : moved.holes[0][i - 3];
-        component(v, axis) += h;
-        return value(moved, p, n);
-      }, component(derivative, axis));
+      check(
+          "vertex",
+          [&](double h) {
+            PolygonLight moved = light;
+            Vec3d& v = i < 3 ? moved.vertices[i] : moved.holes[0][i - 3];
+            component(v, axis) += h;
+            return value(moved, p, n);
+          },
+          component(derivative, axis));
     }
     Vec3d by_position = got.position, by_normal = got.normal;
-    check("position", [&](double h) { Vec3d q = p; component(q, axis) += h; return value(light, q, n); },
-          component(by_position, axis));
-    check("normal", [&](double h) { Vec3d m = n; component(m, axis) += h; return value(light, p, normalized(m)); },
-          component(by_normal, axis));
+    check(
+        "position",
+        [&](double h) {
+          Vec3d q = p;
+          component(q, axis) += h;
+          return value(light, q, n);
+        },
+        component(by_position, axis));
+    check(
+        "normal",
+        [&](double h) {
+          Vec3d m = n;
+          component(m, axis) += h;
+          return value(light, p, normalized(m));
+        },
+        component(by_normal, axis));
   }
 }
 
@@ -162,15 +177,17 @@ void check_radiance(const Material& material, const Radiance& radiance, const De
 TEST(PolygonDerivatives, OfPhongAndGgxAgreeWithCentralDifferences) {
   for (double exponent : {0.5, 4.0, 60.0}) {
     const Material phong{.brdf = Brdf::phong, .albedo = {0.5, 0.6, 0.7}, .exponent = exponent};
-    check_radiance(phong, [&](const PreparedPolygon& l, const ShadingPoint& at) { return phong_radiance(l, at, phong); },
-                   [&](const PolygonLight& l, const ShadingPoint& at) { return radiance_derivatives(l, at, phong); }, 0);
+    check_radiance(
+        phong, [&](const PreparedPolygon& l, const ShadingPoint& at) { return phong_radiance(l, at, phong); },
+        [&](const PolygonLight& l, const ShadingPoint& at) { return radiance_derivatives(l, at, phong); }, 0);
   }
   Material ggx{.brdf = Brdf::ggx};
   ggx.alpha_x = 0.3;
   ggx.alpha_y = 0.5;
   ggx.f0 = {0.04, 0.5, 0.9};
-  check_radiance(ggx, [&](const PreparedPolygon& l, const ShadingPoint& at) { return closed_form_radiance(l, at, ggx); },
-                 [&](const PolygonLight& l, const ShadingPoint& at) { return radiance_derivatives(l, at, ggx); }, 1e-8);
+  check_radiance(
+      ggx, [&](const PreparedPolygon& l, const ShadingPoint& at) { return closed_form_radiance(l, at, ggx); },
+      [&](const PolygonLight& l, const ShadingPoint& at) { return radiance_derivatives(l, at, ggx); }, 1e-8);
 }
 
 TEST(PolygonDerivatives, OfTransformedCosinesAgreeWithCentralDifferences) {
@@ -179,9 +196,9 @@ TEST(PolygonDerivatives, OfTransformedCosinesAgreeWithCentralDifferences) {
   for (LtcMethod method : {LtcMethod::classic, LtcMethod::compact})
     for (double alpha : {0.1, 0.5}) {
       ggx.alpha_x = ggx.alpha_y = alpha;
-      check_radiance(ggx, [&](const PreparedPolygon& l, const ShadingPoint& at) { return ltc_radiance(method, l, at, ggx); },
-                     [&](const PolygonLight& l, const ShadingPoint& at) { return ltc_radiance_derivatives(method, l, at, ggx); },
-                     0);
+      check_radiance(
+          ggx, [&](const PreparedPolygon& l, const ShadingPoint& at) { return ltc_radiance(method, l, at, ggx); },
+          [&](const PolygonLight& l, const ShadingPoint& at) { return ltc_radiance_derivatives(method, l, at, ggx); }, 0);
     }
   EXPECT_THROW(ltc_radiance_derivatives(LtcMethod::clipless, {}, {}, ggx), Error);
   ggx.alpha_y = 0.2;

@@ -17,8 +17,7 @@ using Contour = std::vector<Vec3d>;
 // Newell's normal: twice the area, about an origin of its own so that a small light far away keeps its digits.
 Vec3d area_vector(const Contour& contour) {
   Vec3d sum{};
-  for (std::size_t i = 1; i + 1 < contour.size(); ++i)
-    sum += cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
+  for (std::size_t i = 1; i + 1 < contour.size(); ++i) sum += cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
   return sum * 0.5;
 }
 
@@ -71,8 +70,7 @@ Contour without_repeats(const Contour& contour) {
 }
 
 void check_contour(const Contour& contour, const std::string& name) {
-  if (contour.size() < 3)
-    throw Error(name, "a polygon needs at least 3 vertices, here are " + std::to_string(contour.size()));
+  if (contour.size() < 3) throw Error(name, "a polygon needs at least 3 vertices, here are " + std::to_string(contour.size()));
   for (std::size_t i = 0; i < contour.size(); ++i)
     if (!is_finite(contour[i])) throw Error(name + "[" + std::to_string(i) + "]", "a coordinate is not finite");
 }
@@ -84,8 +82,7 @@ void check_plane(const Contour& contour, const std::string& name, Vec3d origin, 
     const double rounding = 2e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
     const double off = std::fabs(dot(v - origin, normal));
     if (off > tolerance + rounding)
-      throw Error(name + "[" + std::to_string(i) + "]",
-                  "the vertex is " + std::to_string(off) + " off the polygon's plane",
+      throw Error(name + "[" + std::to_string(i) + "]", "the vertex is " + std::to_string(off) + " off the polygon's plane",
                   "a light must be flat; split it into triangles");
   }
 }

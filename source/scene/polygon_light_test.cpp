@@ -62,12 +62,11 @@ TEST(PolygonIrradiance, OfAnInclinedRectangleIsTheLiteratures) {
         // c: cosine between the slope and the line back to the element. v: from there to the upper edge.
         const double c = -std::cos(phi), s = std::sin(phi), v = std::sqrt(a * a - 2 * a * c + 1);
         const double root = std::sqrt(b * b + s * s);
-        const double expected = (std::atan(b) + (a * c - 1) / v * std::atan(b / v) +
-                                 b * c / root * (std::atan((a - c) / root) + std::atan(c / root))) /
-                                (2 * kPi);
+        const double expected =
+            (std::atan(b) + (a * c - 1) / v * std::atan(b / v) + b * c / root * (std::atan((a - c) / root) + std::atan(c / root))) /
+            (2 * kPi);
         const double x = 1 + a * std::cos(phi), z = a * s;
-        EXPECT_NEAR(factor(polygon({{1, 0, 0}, {1, b, 0}, {x, b, z}, {x, 0, z}})), expected, 1e-12)
-            << phi << " " << a << " " << b;
+        EXPECT_NEAR(factor(polygon({{1, 0, 0}, {1, b, 0}, {x, b, z}, {x, 0, z}})), expected, 1e-12) << phi << " " << a << " " << b;
       }
 }
 
@@ -174,7 +173,8 @@ TEST(PreparedPolygon, TakesThinOutlines) {
       const Frame frame = Frame::from_normal(random_direction(random));
       const Vec3d centre = random_direction(random);
       PolygonLight light;
-      for (int k = 0; k < 12; ++k) light.vertices.push_back(centre + frame.x * std::cos(k * M_PI / 6) + frame.y * (width * std::sin(k * M_PI / 6)));
+      for (int k = 0; k < 12; ++k)
+        light.vertices.push_back(centre + frame.x * std::cos(k * M_PI / 6) + frame.y * (width * std::sin(k * M_PI / 6)));
       ASSERT_NO_THROW(EXPECT_FALSE(prepare_polygon(light).vertices.empty())) << width;
     }
 }

@@ -20,7 +20,7 @@ std::string bytes_of(const std::string& path) {
 std::string scenes() { return test::kSourceDir + "/scenes"; }
 
 class OwnScenes : public testing::Test {
-protected:
+ protected:
   void SetUp() override {
     folder_ = test_path("scenes");
     const std::string command = "python3 '" + scenes() + "/make_scenes.py' '" + folder_ + "'";
@@ -78,10 +78,9 @@ TEST_F(OwnScenes, HaveTrianglesThatFaceWhereTheirNormalsPoint) {
       std::size_t against = 0;
       for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const Vec3d a = static_cast<Vec3d>(mesh.positions[mesh.indices[i]]);
-        const Vec3d face = cross(static_cast<Vec3d>(mesh.positions[mesh.indices[i + 1]]) - a,
-                                 static_cast<Vec3d>(mesh.positions[mesh.indices[i + 2]]) - a);
-        const Vec3f n = mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] +
-                        mesh.normals[mesh.indices[i + 2]];
+        const Vec3d face =
+            cross(static_cast<Vec3d>(mesh.positions[mesh.indices[i + 1]]) - a, static_cast<Vec3d>(mesh.positions[mesh.indices[i + 2]]) - a);
+        const Vec3f n = mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] + mesh.normals[mesh.indices[i + 2]];
         against += dot(face, static_cast<Vec3d>(n)) < 0;
       }
       EXPECT_EQ(against, 0u) << name << ", " << mesh.name << ": of " << mesh.triangle_count();

@@ -32,8 +32,7 @@ void make_flat_normals(Mesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), Vec3f{0, 1, 0});  // stays where a triangle has no area
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Vec3d n = normalized(face_vector(mesh, t));
-    if (dot(n, n) > 0)
-      mesh.normals[3 * t] = mesh.normals[3 * t + 1] = mesh.normals[3 * t + 2] = static_cast<Vec3f>(n);
+    if (dot(n, n) > 0) mesh.normals[3 * t] = mesh.normals[3 * t + 1] = mesh.normals[3 * t + 2] = static_cast<Vec3f>(n);
   }
 }
 
@@ -56,17 +55,14 @@ void make_tangents(Mesh& mesh, int set) {
   std::vector<Vec3d> along_u(mesh.positions.size()), along_v(mesh.positions.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::uint32_t* i = mesh.indices.data() + 3 * t;
-    const Vec3d e1 = corner(mesh, 3 * t + 1) - corner(mesh, 3 * t),
-                e2 = corner(mesh, 3 * t + 2) - corner(mesh, 3 * t);
+    const Vec3d e1 = corner(mesh, 3 * t + 1) - corner(mesh, 3 * t), e2 = corner(mesh, 3 * t + 2) - corner(mesh, 3 * t);
     const double u1 = static_cast<double>(uv[i[1]].x) - static_cast<double>(uv[i[0]].x),
                  v1 = static_cast<double>(uv[i[1]].y) - static_cast<double>(uv[i[0]].y);
     const double u2 = static_cast<double>(uv[i[2]].x) - static_cast<double>(uv[i[0]].x),
                  v2 = static_cast<double>(uv[i[2]].y) - static_cast<double>(uv[i[0]].y);
-    const double sign =
-        u1 * v2 - u2 * v1 < 0 ? -1 : 1;  // the gradients up to a positive factor; larger faces weigh more
+    const double sign = u1 * v2 - u2 * v1 < 0 ? -1 : 1;  // the gradients up to a positive factor; larger faces weigh more
     const double area = length(cross(e1, e2));
-    const Vec3d du = normalized((e1 * v2 - e2 * v1) * sign) * area,
-                dv = normalized((e2 * u1 - e1 * u2) * sign) * area;
+    const Vec3d du = normalized((e1 * v2 - e2 * v1) * sign) * area, dv = normalized((e2 * u1 - e1 * u2) * sign) * area;
     for (int c = 0; c < 3; ++c) {
       along_u[i[c]] += du;
       along_v[i[c]] += dv;
@@ -78,8 +74,8 @@ void make_tangents(Mesh& mesh, int set) {
     const Frame frame = Frame::from_normal_and_tangent(n, along_u[i]);
     // v grows down the picture, a normal map's y points up it: the bitangent runs against v.
     const double w = dot(frame.y, along_v[i]) > 0 ? 1 : -1;
-    mesh.tangents[i] = {static_cast<float>(frame.x.x), static_cast<float>(frame.x.y),
-                        static_cast<float>(frame.x.z), static_cast<float>(-w)};
+    mesh.tangents[i] = {static_cast<float>(frame.x.x), static_cast<float>(frame.x.y), static_cast<float>(frame.x.z),
+                        static_cast<float>(-w)};
   }
 }
 

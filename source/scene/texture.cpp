@@ -18,12 +18,8 @@ std::array<float, 256> srgb_table() {
 int wrapped(double i, int n, Wrap wrap) {
   const double size = n;
   switch (wrap) {
-    case Wrap::clamp_to_edge:
-      i = std::fmin(std::fmax(i, 0.0), size - 1);
-      break;
-    case Wrap::repeat:
-      i -= size * std::floor(i / size);
-      break;
+    case Wrap::clamp_to_edge: i = std::fmin(std::fmax(i, 0.0), size - 1); break;
+    case Wrap::repeat: i -= size * std::floor(i / size); break;
     case Wrap::mirrored_repeat:
       i -= 2 * size * std::floor(i / (2 * size));
       if (i >= size) i = 2 * size - 1 - i;
@@ -35,11 +31,8 @@ int wrapped(double i, int n, Wrap wrap) {
 
 Vec4f texel(const Image& image, int x, int y, ColorSpace space) {
   const std::uint8_t* p =
-      image.rgba.data() +
-      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
-  const auto rgb = [&](int c) {
-    return space == ColorSpace::srgb ? linear_from_srgb8(p[c]) : static_cast<float>(p[c]) / 255.0f;
-  };
+      image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+  const auto rgb = [&](int c) { return space == ColorSpace::srgb ? linear_from_srgb8(p[c]) : static_cast<float>(p[c]) / 255.0f; };
   return {rgb(0), rgb(1), rgb(2), static_cast<float>(p[3]) / 255.0f};
 }
 
@@ -61,8 +54,7 @@ Vec4f sample_texture(const std::vector<Image>& images, const TextureUse& use, Ve
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return texel(image, 0, 0, use.color_space);
   const double x = static_cast<double>(uv.x) * image.width, y = static_cast<double>(uv.y) * image.height;
   const auto at = [&](double i, double j) {
-    return texel(image, wrapped(i, image.width, use.wrap_u), wrapped(j, image.height, use.wrap_v),
-                 use.color_space);
+    return texel(image, wrapped(i, image.width, use.wrap_u), wrapped(j, image.height, use.wrap_v), use.color_space);
   };
   if (use.filter == Filter::nearest) return at(std::floor(x), std::floor(y));
   // Texel centres lie at half-integers.

@@ -23,8 +23,7 @@ class Warnings {
 
   // A feature that is left out; all are named together in the last sentence.
   void not_supported(const std::string& feature) {
-    if (features_.insert(feature).second && features_.size() <= kMostNamed)
-      feature_list_ += (feature_list_.empty() ? "" : ", ") + feature;
+    if (features_.insert(feature).second && features_.size() <= kMostNamed) feature_list_ += (feature_list_.empty() ? "" : ", ") + feature;
   }
 
   // In the order in which their kinds were met.

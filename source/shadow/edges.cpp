@@ -80,7 +80,8 @@ EdgeMesh build_edges(const Scene& scene) {
   std::vector<Vec3d> positions;
   std::vector<std::uint32_t> indices;
   for (const Mesh& mesh : scene.meshes) {
-    if (mesh.is_light_shape || !mesh.casts_shadow || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask) continue;
+    if (mesh.is_light_shape || !mesh.casts_shadow || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask)
+      continue;
     const auto first = static_cast<std::uint32_t>(positions.size());
     for (const Vec3f p : mesh.positions) positions.push_back(static_cast<Vec3d>(p));
     for (const std::uint32_t i : mesh.indices) indices.push_back(first + i);

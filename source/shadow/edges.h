@@ -32,10 +32,10 @@ struct Edge {
 struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Plane> planes;                                // of the triangles
-  std::vector<Edge> edges;                                  // sorted by (v0, v1)
+  std::vector<Plane> planes;  // of the triangles
+  std::vector<Edge> edges;    // sorted by (v0, v1)
   std::vector<EdgeTriangle> edge_triangles;
-  std::vector<std::array<std::uint32_t, 3>> triangle_edges; // side i runs from corner i to corner i + 1
+  std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
 };
 
 // Nothing asks whether surfaces are closed, oriented or manifold. Equal positions become one vertex; triangles with two

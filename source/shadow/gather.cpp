@@ -67,7 +67,8 @@ bool Shaft::may_meet(const Vec3d* corners, int count) const {
 
 int Shaft::facing(const Plane& plane) const {
   const double middle = dot(plane.normal, center_) - plane.offset;
-  const double reach = std::fabs(dot(plane.normal, half_[0])) + std::fabs(dot(plane.normal, half_[1])) + std::fabs(dot(plane.normal, half_[2]));
+  const double reach =
+      std::fabs(dot(plane.normal, half_[0])) + std::fabs(dot(plane.normal, half_[1])) + std::fabs(dot(plane.normal, half_[2]));
   const double margin = reach + 1e-6 * (std::fabs(plane.offset) + length(plane.normal) * (length(center_) + 1e-3));
   return middle > margin ? 1 : middle < -margin ? -1 : 0;
 }
@@ -120,9 +121,8 @@ void EdgeTree::build(const EdgeMesh& mesh, std::uint32_t node, std::uint32_t beg
     return;
   }
   const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-    return coordinate(twice_middle(a), axis) < coordinate(twice_middle(b), axis);
-  });
+  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+                   [&](std::uint32_t a, std::uint32_t b) { return coordinate(twice_middle(a), axis) < coordinate(twice_middle(b), axis); });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].first = children;
   nodes_.resize(nodes_.size() + 2);

@@ -29,8 +29,8 @@ class Shaft {
     double offset;
   };
   std::array<Bound, 6> bounds_;
-  Vec3d center_;        // of the points' box, in the world
-  Vec3d half_[3];       // its half sides, as vectors
+  Vec3d center_;                         // of the points' box, in the world
+  Vec3d half_[3];                        // its half sides, as vectors
   int facing(const Plane& plane) const;  // 1 the front for all points, -1 the back, 0 either
 };
 

@@ -17,9 +17,9 @@ struct Corner {
 struct LightFrame {
   Vec3d origin;
   Frame axes;
-  double half_x = 0, half_y = 0;      // of the bounding rectangle
-  double box_x = 0, box_y = 0;        // a little larger: the outline must not touch the sides
-  double eta = 0;                     // only what has z < -eta blocks
+  double half_x = 0, half_y = 0;              // of the bounding rectangle
+  double box_x = 0, box_y = 0;                // a little larger: the outline must not touch the sides
+  double eta = 0;                             // only what has z < -eta blocks
   std::vector<std::vector<Corner>> contours;  // walk order: the light lies on the left
 
   Vec3d to_local(Vec3d p) const { return axes.to_local(p - origin); }

@@ -48,12 +48,11 @@ class Collector {
     const auto cell = [](const auto& v) { return static_cast<std::int32_t>(v.v); };
     const int side_a = cell(clipped.sides.x), side_b = cell(clipped.sides.y);
     add_cells(cell_of(side_a != 0 ? clip_id(source, index, 0) : id_a, cell(clipped.start.x), cell(clipped.start.y)),
-              cell_of(side_b != 0 ? clip_id(source, index, 1) : id_b, cell(clipped.end.x), cell(clipped.end.y)), side_a == 1,
-              side_b == 1, weight, source, index);
+              cell_of(side_b != 0 ? clip_id(source, index, 1) : id_b, cell(clipped.end.x), cell(clipped.end.y)), side_a == 1, side_b == 1,
+              weight, source, index);
   }
 
-  void add_cells(const Cell& a, const Cell& b, bool from_left, bool to_left, std::int32_t weight, Source source,
-                 std::uint32_t index) {
+  void add_cells(const Cell& a, const Cell& b, bool from_left, bool to_left, std::int32_t weight, Source source, std::uint32_t index) {
     if (from_left) result_.events.push_back({a.y, a.dy, weight});
     if (to_left) result_.events.push_back({b.y, b.dy, -weight});
     result_.segments.push_back({a, b, weight, source, index});
@@ -104,8 +103,7 @@ std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Sourc
     cells[i] = cell_of(clip_id(source, 0, end), at(xs[i], xs[j], frame.box_x), at(ys[i], ys[j], frame.box_y));
     (above_i ? enters : leaves) = i;
   }
-  if (enters >= 0 && leaves >= 0)
-    collector.add_cells(cells[enters], cells[leaves], enters == 3, leaves == 3, -kHidden, source, 0);
+  if (enters >= 0 && leaves >= 0) collector.add_cells(cells[enters], cells[leaves], enters == 3, leaves == 3, -kHidden, source, 0);
   return height[0] >= 0 ? 0 : kHidden;
 }
 
@@ -123,9 +121,7 @@ void SegmentSet::clear() {
   occluders = 0;
 }
 
-double offset_from_surface(Vec3d p) {
-  return 1e-5 + 4e-6 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-}
+double offset_from_surface(Vec3d p) { return 1e-5 + 4e-6 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame) {
   std::vector<std::uint32_t> result;
@@ -151,8 +147,7 @@ void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const 
     vertex_numbers_.push_back(mesh.edges[e].v1);
     for (std::uint32_t i = 0; i < mesh.edges[e].count; ++i) triangles.push_back(mesh.edge_triangles[mesh.edges[e].first + i].triangle);
   }
-  for (const std::uint32_t t : crossing)
-    vertex_numbers_.insert(vertex_numbers_.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  for (const std::uint32_t t : crossing) vertex_numbers_.insert(vertex_numbers_.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   const auto unique = [](std::vector<std::uint32_t>& v) {
     std::sort(v.begin(), v.end());
     v.erase(std::unique(v.begin(), v.end()), v.end());
@@ -165,8 +160,8 @@ void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const 
   move_to(mesh, frame);
   for (const std::uint32_t e : edges) {
     const Edge& edge = mesh.edges[e];
-    edges_.push_back({place(vertex_numbers_, edge.v0), place(vertex_numbers_, edge.v1),
-                      static_cast<std::uint32_t>(incidences_.size()), edge.count, e});
+    edges_.push_back(
+        {place(vertex_numbers_, edge.v0), place(vertex_numbers_, edge.v1), static_cast<std::uint32_t>(incidences_.size()), edge.count, e});
     for (std::uint32_t i = 0; i < edge.count; ++i) {
       const EdgeTriangle& t = mesh.edge_triangles[edge.first + i];
       incidences_.push_back({place(triangles, t.triangle), t.walks});
@@ -229,8 +224,7 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
     const bool below0 = below(edge.v0), below1 = below(edge.v1);
     if (!below0 && !below1) continue;
     std::int32_t weight = 0;
-    for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i)
-      weight -= incidences_[i].walks * facing(incidences_[i].plane);
+    for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i) weight -= incidences_[i].walks * facing(incidences_[i].plane);
     if (weight == 0) continue;
     vec3 a = vertex(edge.v0), b = vertex(edge.v1);
     std::uint64_t id_a = vertex_numbers_[edge.v0], id_b = vertex_numbers_[edge.v1];
@@ -254,8 +248,8 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
     if (leaving < 0 || returning < 0) continue;
     const auto cut = [&](int side) {
       const std::uint32_t from_v = t.corners[side], to_v = t.corners[(side + 1) % 3];
-      return k.shadow_project(eye, from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height)
-                                                 : k.shadow_cut(vertex(to_v), vertex(from_v), height));
+      return k.shadow_project(
+          eye, from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height) : k.shadow_cut(vertex(to_v), vertex(from_v), height));
     };
     const std::uint64_t id_a = kCutId | t.edges[leaving], id_b = kCutId | t.edges[returning];
     collector.add<S>(cut(leaving), cut(returning), id_a, id_b, -facing(t.plane), Source::section, t.number);

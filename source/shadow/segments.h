@@ -42,17 +42,17 @@ struct LeftEvent {
 struct SegmentSet {
   std::vector<Segment> segments;
   std::vector<LeftEvent> events;
-  std::int32_t base = 0;       // at the lower left corner, triangles left out
-  std::size_t occluders = 0;   // segments of edges and sections: S
+  std::int32_t base = 0;      // at the lower left corner, triangles left out
+  std::size_t occluders = 0;  // segments of edges and sections: S
 
   void clear();
 };
 
 // A point and its horizons, in world space.
 struct Viewpoint {
-  Vec3d position;                        // moved off its surface (offset_from_surface)
-  Vec3d normal;                          // of shading, unit
-  std::optional<Vec3d> geometric_normal; // of the triangle, towards the viewer; none where it is the normal
+  Vec3d position;                         // moved off its surface (offset_from_surface)
+  Vec3d normal;                           // of shading, unit
+  std::optional<Vec3d> geometric_normal;  // of the triangle, towards the viewer; none where it is the normal
 };
 
 // How far a point keeps off its triangle: a few roundings of its coordinates.

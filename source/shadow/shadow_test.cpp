@@ -194,8 +194,7 @@ TEST(SoftShadow, SilhouettesOfClosedMeshesWeighTwo) {
   Scratch scratch;
   stage.exact[0].see(at, scratch.set);
   EXPECT_EQ(scratch.set.occluders, 4u);  // the bottom's edges: what lies above is hidden behind it
-  for (const Segment& s : scratch.set.segments)
-    EXPECT_EQ(std::abs(s.weight), s.source == Source::edge ? 2 : kHidden);
+  for (const Segment& s : scratch.set.segments) EXPECT_EQ(std::abs(s.weight), s.source == Source::edge ? 2 : kHidden);
   VisibleRegion region;
   find_visible(stage.frames[0], at.position, stage.rays, scratch, region);
   EXPECT_EQ(region.level, 0);
@@ -250,8 +249,8 @@ TEST(SoftShadow, GroupsGatherWhatTheirPointsSee) {
         EXPECT_EQ(by_all.events.size(), by_group.events.size());
         for (std::size_t i = 0; i < by_all.segments.size(); ++i) {
           const Segment &a = by_all.segments[i], &b = by_group.segments[i];
-          EXPECT_TRUE(a.a.id == b.a.id && a.b.id == b.b.id && a.weight == b.weight && a.a.x == b.a.x && a.a.y == b.a.y &&
-                      a.b.x == b.b.x && a.b.y == b.b.y);
+          EXPECT_TRUE(a.a.id == b.a.id && a.b.id == b.b.id && a.weight == b.weight && a.a.x == b.a.x && a.a.y == b.a.y && a.b.x == b.b.x &&
+                      a.b.y == b.b.y);
         }
       }
     }

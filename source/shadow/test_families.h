@@ -79,9 +79,9 @@ struct Family {
   Triangles triangles;
   PolygonLight light;
   Vec3d low{-1, 0, -1}, high{1, 1.8, 1};  // where points in the air and on the floor (y = 0) are taken
-  double edges_tolerance = 2e-5;                  // rms of the error by cells, of the unoccluded value
-  bool contact = false;                           // points close to what stands on the floor
-  bool near_surface = false;                      // points 0.02 off the occluders
+  double edges_tolerance = 2e-5;          // rms of the error by cells, of the unoccluded value
+  bool contact = false;                   // points close to what stands on the floor
+  bool near_surface = false;              // points 0.02 off the occluders
 };
 
 // A point with its normals; the position is moved off already.
@@ -189,7 +189,8 @@ inline std::vector<Family> all() {
       for (int j = 0; j < 3; ++j) abutting.box({0.25 * i, 0.5 + 0.25 * j, -0.25}, {0.25 * (i + 1), 0.5 + 0.25 * (j + 1), 0.25});
     add("abutting boxes" + under, abutting, light);
     Triangles junctions;
-    for (int i = 0; i < 4; ++i) junctions.quad({-0.5 + 0.25 * i, 1, -0.5}, {-0.5 + 0.25 * i, 1, 0}, {-0.25 + 0.25 * i, 1, 0}, {-0.25 + 0.25 * i, 1, -0.5});
+    for (int i = 0; i < 4; ++i)
+      junctions.quad({-0.5 + 0.25 * i, 1, -0.5}, {-0.5 + 0.25 * i, 1, 0}, {-0.25 + 0.25 * i, 1, 0}, {-0.25 + 0.25 * i, 1, -0.5});
     junctions.quad({-0.5, 1, 0}, {-0.5, 1, 0.5}, {0.5, 1, 0.5}, {0.5, 1, 0});
     junctions.quad({-0.5, 1, 0}, {0.5, 1, 0}, {0.5, 0.5, 0.25}, {-0.5, 0.5, 0.25});
     add("T-junctions" + under, junctions, light);

@@ -20,7 +20,8 @@ struct Capsule {
 };
 
 inline Capsule prepare_capsule(const steradian::Capsule& c) {
-  return {static_cast<Vec3f>(c.end_a), static_cast<Vec3f>(c.end_b), static_cast<float>(c.radius), static_cast<Vec3f>((c.end_b - c.end_a) * 0.5)};
+  return {static_cast<Vec3f>(c.end_a), static_cast<Vec3f>(c.end_b), static_cast<float>(c.radius),
+          static_cast<Vec3f>((c.end_b - c.end_a) * 0.5)};
 }
 
 }  // namespace steradian::packed

@@ -30,9 +30,9 @@ struct Disk {
 };
 
 struct Ellipsoid {
-  Vec3f center{}, x{}, y{}, z{};             // half axes
+  Vec3f center{}, x{}, y{}, z{};                // half axes
   Vec3f inverse_x{}, inverse_y{}, inverse_z{};  // rows of the matrix that takes it to the unit sphere; not numbers without volume
-  Capsule ball;                              // a ball is a capsule, too, whose irradiance is the quicker; else of radius 0
+  Capsule ball;                                 // a ball is a capsule, too, whose irradiance is the quicker; else of radius 0
 
   template <class Use>
   bool any_bound(Use use) const {
@@ -56,8 +56,14 @@ inline bool is_ball(const AreaLight& a) {
 inline Ellipsoid prepare_ellipsoid(const AreaLight& a) {
   const double det = dot(a.x, cross(a.y, a.z));
   const auto single = [](Vec3d v) { return static_cast<Vec3f>(v); };
-  Ellipsoid light = {single(a.center), single(a.x), single(a.y), single(a.z), single(cross(a.y, a.z) / det), single(cross(a.z, a.x) / det),
-                     single(cross(a.x, a.y) / det), {}};
+  Ellipsoid light = {single(a.center),
+                     single(a.x),
+                     single(a.y),
+                     single(a.z),
+                     single(cross(a.y, a.z) / det),
+                     single(cross(a.z, a.x) / det),
+                     single(cross(a.x, a.y) / det),
+                     {}};
   if (is_ball(a)) light.ball = {light.center, light.center, static_cast<float>(length(a.x)), {}};
   return light;
 }
@@ -99,7 +105,8 @@ STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::
   const auto outline = outline_from<S>(light, p);
   const Real<S> size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
   const Real<S> unit = inversesqrt(max(size2, Real<S>(1.0e-30)));
-  return Kernels<S>().ellipse_prepare(transform_transposed(frame, outline.center) * unit, transform_transposed(frame, outline.axis_a) * unit,
+  return Kernels<S>().ellipse_prepare(transform_transposed(frame, outline.center) * unit,
+                                      transform_transposed(frame, outline.axis_a) * unit,
                                       transform_transposed(frame, outline.axis_b) * unit);
 }
 

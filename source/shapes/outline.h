@@ -23,8 +23,7 @@ namespace integrals {
 //             first to the second: such contours, in any order, bound what is seen behind occluders. They lie above the
 //             horizon, since clipping joins a contour's crossings in their order
 template <class Vertex, class End, class Add>
-STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* contours, std::size_t contour_count, End end,
-                                    Add add) {
+STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* contours, std::size_t contour_count, End end, Add add) {
   for (std::size_t c = 0; c < contour_count; ++c) {
     const std::size_t first = contours[c], last = contours[c + 1];
     if (first == last) continue;
@@ -48,7 +47,8 @@ struct Contours {
 
   template <class End, class Add>
   STERADIAN_INLINE void walk(End end, Add add) const {
-    walk_contours(vertices, contours, contour_count, [&](const Vertex& v) { return end(direction(v)); }, add);
+    walk_contours(
+        vertices, contours, contour_count, [&](const Vertex& v) { return end(direction(v)); }, add);
   }
 };
 

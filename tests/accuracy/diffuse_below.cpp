@@ -11,7 +11,8 @@ namespace steradian::accuracy {
 void write_diffuse_below(std::ostream& out) {
   constexpr int kLights = 200;
   constexpr double kViews[] = {0, 30, 60, 75, 85};
-  out << "\n## Diffuse under Fresnel\n\nThe diffuse lobe of a dielectric weighs (1 - F0)(1 - (1 - v.h)^5) (F90 = 1), in `render` at the light's mean "
+  out << "\n## Diffuse under Fresnel\n\nThe diffuse lobe of a dielectric weighs (1 - F0)(1 - (1 - v.h)^5) (F90 = 1), in `render` at the "
+         "light's mean "
          "direction,\nblended with the sky's mean. Relative RMSE over "
       << kLights
       << " squares at distance 1 in all directions, against adaptive cubature of\nthe lobe itself; in brackets: of the "

@@ -143,7 +143,8 @@ void write_ggx(std::ostream& out) {
 }
 
 void write_half_vector(std::ostream& out) {
-  out << "\n## Half vectors\n\nMethod `half-vector` on rectangles about the mirror direction, widths 0.05 to 0.8 (Blinn-Phong's exponent is "
+  out << "\n## Half vectors\n\nMethod `half-vector` on rectangles about the mirror direction, widths 0.05 to 0.8 (Blinn-Phong's exponent "
+         "is "
          "that of the width), without shadowing and Fresnel, against adaptive cubature: rms error / largest, in units of "
          "the light's radiance, with edges split at the poles and uniformly.\n";
   for (Brdf brdf : {Brdf::blinn_phong, Brdf::beckmann, Brdf::ggx}) {

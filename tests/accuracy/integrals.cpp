@@ -35,8 +35,7 @@ void write_lambert(std::ostream& out) {
     const auto c = reference::random_configuration(random);
     const PreparedPolygon light = prepare_polygon(c.light);
     const double exact = polygon_irradiance(light, c.at.position, c.at.normal) / std::numbers::pi;
-    const double single =
-        static_cast<double>(polygon_irradiance_float(light, c.at.position, c.at.normal)) / std::numbers::pi;
+    const double single = static_cast<double>(polygon_irradiance_float(light, c.at.position, c.at.normal)) / std::numbers::pi;
     const ReferenceResult r = reference_radiance(light, c.at, Material{});
     in_double[c.kind].add(exact - r.radiance.x);
     in_float[c.kind].add(single - exact);
@@ -58,12 +57,8 @@ void write_phong(std::ostream& out) {
     const char* name;
     PhongOptions options;
   };
-  const Row rows[] = {{"exact", {Method::exact}},
-                      {"series", {Method::series}},
-                      {"series, high", {Method::series, Quality::high}},
-                      {"ellipsoid", {Method::ellipsoid}},
-                      {"pearson", {Method::pearson}},
-                      {"lorentzian", {Method::lorentzian}}};
+  const Row rows[] = {{"exact", {Method::exact}},         {"series", {Method::series}},   {"series, high", {Method::series, Quality::high}},
+                      {"ellipsoid", {Method::ellipsoid}}, {"pearson", {Method::pearson}}, {"lorentzian", {Method::lorentzian}}};
   out << "\n## Phong lobes\n\n"
       << kLights
       << " random polygons as above for each exponent, against adaptive quadrature (`exact`) and against `exact` (the others).\n"
@@ -81,9 +76,8 @@ void write_phong(std::ostream& out) {
         const auto c = reference::random_configuration(random);
         const PreparedPolygon light = prepare_polygon(c.light);
         const double value = phong_radiance(light, c.at, material, row.options).x;
-        const double truth = row.options.method == Method::exact
-                                 ? reference_radiance(light, c.at, material).radiance.x
-                                 : phong_radiance(light, c.at, material, {Method::exact}).x;
+        const double truth = row.options.method == Method::exact ? reference_radiance(light, c.at, material).radiance.x
+                                                                 : phong_radiance(light, c.at, material, {Method::exact}).x;
         errors.add(value - truth);
       }
       out << fmt::format(" {:.1e}, {:.1e} |", errors.largest, errors.rms());

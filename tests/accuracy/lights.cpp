@@ -27,15 +27,28 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {"lambert, float", Brdf::lambert, 1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material&) { return static_cast<double>(polygon_irradiance_float(l, p.position, p.normal)) / M_PI; }},
-    {"phong 50 by `series`", Brdf::phong, 50, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return phong_radiance(l, p, m, {}).x; }},
-    {"the same in float", Brdf::phong, 50, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return static_cast<double>(phong_radiance_float(l, p, m, {}).x); }},
-    {"ggx 0.1 by `closed-form`", Brdf::ggx, 0.1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return closed_form_radiance(l, p, m).x; }},
-    {"the same in float", Brdf::ggx, 0.1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return closed_form_radiance_float(l, p, m).x; }},
-    {"ggx 0.1 by `ltc`, float", Brdf::ggx, 0.1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return ltc_radiance_float(LtcMethod::classic, l, p, m).x; }},
-    {"ggx 0.1 by `ltc-compact`, float", Brdf::ggx, 0.1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return ltc_radiance_float(LtcMethod::compact, l, p, m).x; }},
-    {"beckmann 0.1 by `half-vector`", Brdf::beckmann, 0.1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return half_vector_radiance(l, p, m).x; }},
-    {"the same in float", Brdf::beckmann, 0.1, [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return half_vector_radiance_float(l, p, m).x; }},
+    {"lambert, float", Brdf::lambert, 1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material&) {
+       return static_cast<double>(polygon_irradiance_float(l, p.position, p.normal)) / M_PI;
+     }},
+    {"phong 50 by `series`", Brdf::phong, 50,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return phong_radiance(l, p, m, {}).x; }},
+    {"the same in float", Brdf::phong, 50,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) {
+       return static_cast<double>(phong_radiance_float(l, p, m, {}).x);
+     }},
+    {"ggx 0.1 by `closed-form`", Brdf::ggx, 0.1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return closed_form_radiance(l, p, m).x; }},
+    {"the same in float", Brdf::ggx, 0.1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return closed_form_radiance_float(l, p, m).x; }},
+    {"ggx 0.1 by `ltc`, float", Brdf::ggx, 0.1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return ltc_radiance_float(LtcMethod::classic, l, p, m).x; }},
+    {"ggx 0.1 by `ltc-compact`, float", Brdf::ggx, 0.1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return ltc_radiance_float(LtcMethod::compact, l, p, m).x; }},
+    {"beckmann 0.1 by `half-vector`", Brdf::beckmann, 0.1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return half_vector_radiance(l, p, m).x; }},
+    {"the same in float", Brdf::beckmann, 0.1,
+     [](const PreparedPolygon& l, const ShadingPoint& p, const Material& m) { return half_vector_radiance_float(l, p, m).x; }},
 };
 
 Material material_of(const Row& row) {
@@ -69,7 +82,8 @@ PreparedPolygon rectangle(reference::Random& random, const ShadingPoint& at, dou
   return prepare_polygon(light);
 }
 
-void write_table(std::ostream& out, const std::vector<double>& columns, int count, double (*size_of)(double), double (*degrees_of)(double)) {
+void write_table(std::ostream& out, const std::vector<double>& columns, int count, double (*size_of)(double),
+                 double (*degrees_of)(double)) {
   for (const Row& row : kRows) {
     out << fmt::format("| {} |", row.name);
     for (const double column : columns) {
@@ -90,15 +104,20 @@ void write_table(std::ostream& out, const std::vector<double>& columns, int coun
 }  // namespace
 
 void write_lights(std::ostream& out) {
-  out << "\n## Small and near lights\n\nRelative RMSE over 40 rectangles about the mirror direction of a view at 45 degrees, by their half side over their distance, "
+  out << "\n## Small and near lights\n\nRelative RMSE over 40 rectangles about the mirror direction of a view at 45 degrees, by their half "
+         "side over their distance, "
          "against adaptive cubature (itself good to its share of the size that the rounding of vertices leaves).\n\n"
          "| lobe | 1e-8 | 1e-6 | 1e-4 | 1e-3 | 0.01 | 0.1 | 1 | 10 | 1000 |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
-  write_table(out, {1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.1, 1, 10, 1000}, 40, [](double c) { return c; }, [](double) { return 45.0; });
+  write_table(
+      out, {1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.1, 1, 10, 1000}, 40, [](double c) { return c; }, [](double) { return 45.0; });
 
-  out << "\n## Grazing views\n\nThe same for half sides of 0.3, by the view's angle from the normal.\n\n| lobe | 80° | 86° | 89° | 89.9° |\n|---|---:|---:|---:|---:|\n";
-  write_table(out, {80, 86, 89, 89.9}, 40, [](double) { return 0.3; }, [](double c) { return c; });
+  out << "\n## Grazing views\n\nThe same for half sides of 0.3, by the view's angle from the normal.\n\n| lobe | 80° | 86° | 89° | 89.9° "
+         "|\n|---|---:|---:|---:|---:|\n";
+  write_table(
+      out, {80, 86, 89, 89.9}, 40, [](double) { return 0.3; }, [](double c) { return c; });
 
-  out << "\n## Half vectors with shadowing and Fresnel\n\nMethod `half-vector` for GGX, 4 arcs an edge, on the rectangles of the section before last but one, with shadowing, against adaptive cubature: relative RMSE.\n\n"
+  out << "\n## Half vectors with shadowing and Fresnel\n\nMethod `half-vector` for GGX, 4 arcs an edge, on the rectangles of the section "
+         "before last but one, with shadowing, against adaptive cubature: relative RMSE.\n\n"
          "| F0 | 5° | 45° | 75° | 85° |\n|---|---:|---:|---:|---:|\n";
   for (const double f0 : {1.0, 0.04}) {
     out << fmt::format("| {} |", f0);
@@ -110,7 +129,8 @@ void write_lights(std::ostream& out) {
           auto s = ggx::random_rectangle(random, std::sqrt(alpha), view);
           s.material.f0 = {f0, f0, f0};
           const PreparedPolygon light = prepare_polygon(s.light);
-          sum.add(half_vector_radiance(light, s.at, s.material, {}).x, reference_radiance(light, s.at, s.material, {1e-6, 1e-8, 100'000}).radiance.x);
+          sum.add(half_vector_radiance(light, s.at, s.material, {}).x,
+                  reference_radiance(light, s.at, s.material, {1e-6, 1e-8, 100'000}).radiance.x);
         }
       out << fmt::format(" {:.4f} |", sum.relative());
     }
@@ -121,7 +141,8 @@ void write_lights(std::ostream& out) {
   options.setups = 24;
   options.samples = 96;
   const auto rows = measure_textured_error(options);
-  out << "\n## Textured lights\n\nRelative L2 error of the radiance over 24 square lights, GGX with F = 1 or a diffuse surface (roughness 0), by distance in sides "
+  out << "\n## Textured lights\n\nRelative L2 error of the radiance over 24 square lights, GGX with F = 1 or a diffuse surface (roughness "
+         "0), by distance in sides "
          "(docs/ltc.md says of which kind); in brackets the error of the summed energy. The grid that judges is itself good to 0.3 %.\n\n"
       << textured_error_text(rows);
 }

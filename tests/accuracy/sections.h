@@ -6,14 +6,14 @@
 namespace steradian::accuracy {
 
 // Each writes Markdown that begins with its own `## heading`, from numbers that it measures there and then.
-void write_functions(std::ostream& out);  // every kernel: float against double
-void write_targets(std::ostream& out);    // every kernel: packs and GPUs against scalar float
-void write_lambert(std::ostream& out);    // polygons on Lambert surfaces: double against quadrature, float against double
+void write_functions(std::ostream& out);      // every kernel: float against double
+void write_targets(std::ostream& out);        // every kernel: packs and GPUs against scalar float
+void write_lambert(std::ostream& out);        // polygons on Lambert surfaces: double against quadrature, float against double
 void write_diffuse_below(std::ostream& out);  // a diffuse lobe under a dielectric's boundary
-void write_sheen(std::ostream& out);       // Charlie by its cubature
-void write_phong(std::ostream& out);      // Phong lobes by every method
-void write_ggx(std::ostream& out);         // GGX by every real-time method against the reference
-void write_half_vector(std::ostream& out); // edge splitting against the reference
-void write_lights(std::ostream& out);      // small, near and grazing lights, half vectors with shadowing, textured lights
+void write_sheen(std::ostream& out);          // Charlie by its cubature
+void write_phong(std::ostream& out);          // Phong lobes by every method
+void write_ggx(std::ostream& out);            // GGX by every real-time method against the reference
+void write_half_vector(std::ostream& out);    // edge splitting against the reference
+void write_lights(std::ostream& out);         // small, near and grazing lights, half vectors with shadowing, textured lights
 
 }  // namespace steradian::accuracy

@@ -21,9 +21,7 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 
 double between(std::mt19937_64& random, double low, double high) { return low + (high - low) * uniform(random); }
 
-double log_between(std::mt19937_64& random, double low, double high) {
-  return std::exp(between(random, std::log(low), std::log(high)));
-}
+double log_between(std::mt19937_64& random, double low, double high) { return std::exp(between(random, std::log(low), std::log(high))); }
 
 void direction(std::mt19937_64& random, double lowest_z, double length, float* out) {
   const double z = between(random, lowest_z, 1.0), phi = between(random, 0.0, 6.283185307179586);

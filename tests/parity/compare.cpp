@@ -52,10 +52,9 @@ std::vector<Target> cpu_targets() {
   for (PackKind kind : {PackKind::strict, PackKind::fast})
     for (Simd simd : available_simd()) {
       const bool strict = kind == PackKind::strict;
-      targets.push_back({std::string(name_of(simd)) + (strict ? " strict" : ""), Rounding::cpu, strict,
-                         [simd, kind](std::size_t index, const std::vector<float>& inputs) {
-                           return run_packs(index, inputs, simd, kind);
-                         }});
+      targets.push_back(
+          {std::string(name_of(simd)) + (strict ? " strict" : ""), Rounding::cpu, strict,
+           [simd, kind](std::size_t index, const std::vector<float>& inputs) { return run_packs(index, inputs, simd, kind); }});
     }
   return targets;
 }
@@ -93,8 +92,8 @@ CaseReport compare(std::size_t index, const std::vector<Target>& targets, std::s
   report.typical_bound = bounds[bounds.size() / 2] / (which.measure == Measure::absolute ? largest_value : 1.0);
 
   for (const Target& target : targets)
-    report.targets.push_back(compare_target(which, inputs, target.run(index, inputs), scalar,
-                                            target.rounding == Rounding::cpu ? cpu : gpu));
+    report.targets.push_back(
+        compare_target(which, inputs, target.run(index, inputs), scalar, target.rounding == Rounding::cpu ? cpu : gpu));
   return report;
 }
 

@@ -11,8 +11,8 @@ namespace steradian::parity {
 
 struct Target {
   std::string name;
-  Rounding rounding;          // whose promise its functions keep
-  bool equal_in_arithmetic;   // gives scalar float's bits where neither exp nor log is involved
+  Rounding rounding;         // whose promise its functions keep
+  bool equal_in_arithmetic;  // gives scalar float's bits where neither exp nor log is involved
   std::function<std::vector<float>(std::size_t index, const std::vector<float>& inputs)> run;
 };
 
@@ -20,11 +20,11 @@ struct Target {
 std::vector<Target> cpu_targets();
 
 struct Difference {
-  std::size_t unequal = 0;  // inputs with other bits than scalar float (a zero's sign does not count)
-  double largest = 0;       // difference from scalar float, by the case's measure
-  double share = 0;         // of the bound, where that is largest: above 1 is beyond what roundings explain
-  std::size_t beyond = 0;   // inputs beyond the bound, or not finite
-  std::string first_beyond; // the first of them, in words
+  std::size_t unequal = 0;   // inputs with other bits than scalar float (a zero's sign does not count)
+  double largest = 0;        // difference from scalar float, by the case's measure
+  double share = 0;          // of the bound, where that is largest: above 1 is beyond what roundings explain
+  std::size_t beyond = 0;    // inputs beyond the bound, or not finite
+  std::string first_beyond;  // the first of them, in words
 };
 
 struct CaseReport {

@@ -46,8 +46,13 @@ class Degenerate {
   std::uint64_t one_of(std::uint64_t n) { return random_() % n; }
   // Nothing, next to nothing, or a last place of one.
   S tiny() {
-    const S values[] = {S(0), -S(0), std::numeric_limits<S>::denorm_min(), -std::numeric_limits<S>::denorm_min(),
-                        std::numeric_limits<S>::min(), std::numeric_limits<S>::epsilon(), -std::numeric_limits<S>::epsilon()};
+    const S values[] = {S(0),
+                        -S(0),
+                        std::numeric_limits<S>::denorm_min(),
+                        -std::numeric_limits<S>::denorm_min(),
+                        std::numeric_limits<S>::min(),
+                        std::numeric_limits<S>::epsilon(),
+                        -std::numeric_limits<S>::epsilon()};
     return values[one_of(std::size(values))];
   }
 
@@ -104,9 +109,9 @@ struct Findings {
 // Kernels whose value is a density, a share or an energy, in which a negative number is a mistake.
 const std::set<std::string>& not_negative() {
   static const std::set<std::string> names = {
-      "ggx_distribution", "ggx_shadowing",    "fresnel_schlick", "beckmann_distribution", "ggx_lobe", "blinn_phong_distribution",
-      "phong_power",      "phong_lobe",       "lambert_lobe",    "solid_angle",           "polygon_irradiance",
-      "phong_series",     "phong_series_high"};
+      "ggx_distribution",         "ggx_shadowing", "fresnel_schlick",  "beckmann_distribution", "ggx_lobe",
+      "blinn_phong_distribution", "phong_power",   "phong_lobe",       "lambert_lobe",          "solid_angle",
+      "polygon_irradiance",       "phong_series",  "phong_series_high"};
   return names;
 }
 

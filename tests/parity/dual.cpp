@@ -17,8 +17,7 @@ std::vector<std::vector<double>> run_dual(std::size_t index, const std::vector<d
       return seeded;
     });
     const S results[] = {r.x.v, r.y.v, r.z.v, r.w.v};
-    for (std::size_t v = 0; v < kResults; ++v)
-      derivatives[v].insert(derivatives[v].end(), results[v].d.begin(), results[v].d.end());
+    for (std::size_t v = 0; v < kResults; ++v) derivatives[v].insert(derivatives[v].end(), results[v].d.begin(), results[v].d.end());
   }
   return derivatives;
 }

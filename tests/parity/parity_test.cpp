@@ -89,8 +89,7 @@ TEST(Parity, AMistakeInOnePreludeIsFound) {
   if (devices.empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
   const Target broken = gpu_target(std::make_shared<vulkan::Device>(), ShaderText::broken_glsl);
   std::size_t found = 0;
-  for (std::size_t index = 0; index < cases().size(); ++index)
-    found += compare(index, {broken}, 1000).targets[0].beyond > 0;
+  for (std::size_t index = 0; index < cases().size(); ++index) found += compare(index, {broken}, 1000).targets[0].beyond > 0;
   EXPECT_GE(found, cases().size() / 4) << "a select with its sides exchanged shows in " << found << " cases";
 }
 

@@ -17,7 +17,7 @@ STERADIAN_BEGIN_ISA
 // Roundings in units of half an ulp of 24 bits, 2^-24 of the result.
 struct CpuModel {
   static constexpr double kDivision = 1, kRoot = 1;
-  static constexpr double kInverseRoot = 6;  // the packs' Newton step: 3 ulp (source/core/pack.h)
+  static constexpr double kInverseRoot = 6;               // the packs' Newton step: 3 ulp (source/core/pack.h)
   static constexpr double kExp = 4, kExpPerArgument = 0;  // 2 ulp: xsimd documents 1.5, C libraries 1
   static constexpr double kLog = 4, kLogAbsolute = 0;
 };
@@ -50,9 +50,7 @@ struct Rounded {
   static Rounded of(double v, double e) { return {v, std::isnan(e) ? std::numeric_limits<double>::infinity() : e}; }
   static Rounded lost(double v) { return of(v, std::numeric_limits<double>::infinity()); }
   // A result of value v whose operands bring the error e, after one operation of `units` roundings.
-  static Rounded after(double v, double e, double units) {
-    return of(v, e + units * kUnit * (std::fabs(v) + e) + kUnderflow);
-  }
+  static Rounded after(double v, double e, double units) { return of(v, e + units * kUnit * (std::fabs(v) + e) + kUnderflow); }
 
   friend Rounded operator+(Rounded a, Rounded b) { return after(a.v + b.v, a.e + b.e, 1); }
   friend Rounded operator-(Rounded a, Rounded b) { return after(a.v - b.v, a.e + b.e, 1); }
@@ -68,9 +66,7 @@ struct Rounded {
     if (a.exact_zero() && room > 0) return {0, 0};
     return room > 0 ? after(v, (a.e + std::fabs(v) * b.e) / room, Model::kDivision) : lost(v);
   }
-  friend UncertainBool operator<(Rounded a, Rounded b) {
-    return {a.v < b.v, a.e + b.e > 0 && !(std::fabs(a.v - b.v) > a.e + b.e)};
-  }
+  friend UncertainBool operator<(Rounded a, Rounded b) { return {a.v<b.v, a.e + b.e> 0 && !(std::fabs(a.v - b.v) > a.e + b.e)}; }
   friend UncertainBool operator<=(Rounded a, Rounded b) { return !(b < a); }
 };
 

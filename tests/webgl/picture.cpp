@@ -94,14 +94,14 @@ Vec3d display(Vec3d radiance, double exposure) {
 
 int main(int argc, char** argv) {
   if (argc != 14 && argc != 15) {
-    std::fprintf(stderr, "usage: webgl_picture WIDTH HEIGHT ORBIT LIGHT_HEIGHT SIZE TILT INTENSITY EXPOSURE ROUGHNESS F0 EXPONENT GAIN "
-                         "METHOD [OTHER]\n");
+    std::fprintf(stderr,
+                 "usage: webgl_picture WIDTH HEIGHT ORBIT LIGHT_HEIGHT SIZE TILT INTENSITY EXPOSURE ROUGHNESS F0 EXPONENT GAIN "
+                 "METHOD [OTHER]\n");
     return 2;
   }
   const int width = std::atoi(argv[1]), height = std::atoi(argv[2]);
   const auto number = [&](int i) { return std::atof(argv[i]); };
-  const Setup setup = {number(3), number(4), number(5),  number(6),  number(7),
-                       number(8), number(9), number(10), number(11), number(12)};
+  const Setup setup = {number(3), number(4), number(5), number(6), number(7), number(8), number(9), number(10), number(11), number(12)};
   const std::string method = argv[13], other = argc > 14 ? argv[14] : "";
   const Scene scene(setup);
   const Vec3d eye{5.2 * std::sin(setup.orbit), 1.7, 5.2 * std::cos(setup.orbit)};

@@ -12,7 +12,6 @@ struct Edge {
   Vec2d a, b;
 };
 
-
 class EdgeRows {
  public:
   EdgeRows() = default;

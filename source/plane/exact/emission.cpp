@@ -94,8 +94,7 @@ class SegmentIntegral {
 
   void add_term(Vec3d radiance, int j, int k, double from, double to, double q, PlaneLight& sum) const {
     const double mean = integral(j, k, from, to, q);
-    const Vec2d moment =
-        normal_ * integral(j, k + 1, from, to, q) + along_ * integral(j + 1, k + 1, from, to, q);
+    const Vec2d moment = normal_ * integral(j, k + 1, from, to, q) + along_ * integral(j + 1, k + 1, from, to, q);
     plane::add(sum, radiance, mean, moment);
   }
 
@@ -116,8 +115,7 @@ class SegmentIntegral {
 // turn and see little. Abramowitz and Stegun, table 25.4.
 class ArcQuadrature {
  public:
-  ArcQuadrature(const Curve& curve, const PlaneEmission& emission, Vec2d from)
-      : curve_(curve), emission_(emission), from_(from) {}
+  ArcQuadrature(const Curve& curve, const PlaneEmission& emission, Vec2d from) : curve_(curve), emission_(emission), from_(from) {}
 
   void add(double begin, double end, bool back, PlaneLight& sum) const {
     const int parts = 1 + static_cast<int>((end - begin) / 1.0);
@@ -161,10 +159,8 @@ class ArcQuadrature {
       add_part(0.5 * (t0 + t1), t1, depth + 1, sum);
       return;
     }
-    static constexpr double kNode[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                        0.9602898564975363};
-    static constexpr double kWeight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                          0.1012285362903763};
+    static constexpr double kNode[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+    static constexpr double kWeight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
     for (int i = 0; i < 4; ++i)
       for (double sign : {-1.0, 1.0}) {
         const double tau = 0.5 * (t0 + t1) + 0.5 * (t1 - t0) * sign * kNode[i];
@@ -225,10 +221,8 @@ void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, Em
   } else {
     PlaneLight part;
     const bool closed = plain && !v.back && is_circle(curve.ellipse);
-    if (!closed || parts == EmissionParts::radiance_and_moments)
-      ArcQuadrature(curve, emission, from).add(v.begin, v.end, v.back, part);
-    if (closed)
-      part.radiance = emission.radiance * circle_window(curve, emission.range, from, v.begin, v.end);
+    if (!closed || parts == EmissionParts::radiance_and_moments) ArcQuadrature(curve, emission, from).add(v.begin, v.end, v.back, part);
+    if (closed) part.radiance = emission.radiance * circle_window(curve, emission.range, from, v.begin, v.end);
     sum.radiance += part.radiance;
     sum.moment_x += part.moment_x;
     sum.moment_y += part.moment_y;
@@ -243,8 +237,7 @@ bool within_spot(const PlaneEmission& emission, Vec2d u) {
   return std::fabs(std::atan2(cross(axis, u), dot(axis, u))) <= emission.spot_half_angle;
 }
 
-void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d from, EmissionParts parts,
-                  PlaneLight& sum) {
+void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d from, EmissionParts parts, PlaneLight& sum) {
   if (!is_spot(emission)) {
     add_clipped(piece, emission, from, parts, sum);
     return;
@@ -260,8 +253,7 @@ void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d fro
 }
 
 void add_interior(const Visible& v, const PlaneEmission& emission, Vec2d from, PlaneLight& sum) {
-  add(sum, radiance_at(emission, from), v.end - v.begin,
-      {std::sin(v.end) - std::sin(v.begin), std::cos(v.begin) - std::cos(v.end)});
+  add(sum, radiance_at(emission, from), v.end - v.begin, {std::sin(v.end) - std::sin(v.begin), std::cos(v.begin) - std::cos(v.end)});
 }
 
 Vec3d radiance_along(const Curve& curve, const PlaneEmission& emission, Vec2d from, Vec2d u, double r) {

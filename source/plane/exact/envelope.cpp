@@ -17,8 +17,7 @@ constexpr double kNarrowest = 1e-15;
 
 class Builder {
  public:
-  Builder(Vec2d from, const std::vector<PlaneBody>& bodies, const EnvelopeRules& rules)
-      : from_(from), bodies_(bodies), rules_(rules) {}
+  Builder(Vec2d from, const std::vector<PlaneBody>& bodies, const EnvelopeRules& rules) : from_(from), bodies_(bodies), rules_(rules) {}
 
   void add(const Curve& curve) {
     if (curve.kind == Curve::Kind::segment)
@@ -216,8 +215,8 @@ double distance_along(const Curve& curve, bool back, Vec2d from, Vec2d u) {
   return back ? (b > 0 ? -c / (b + root) : (root - b) / a) : c / (root - b);
 }
 
-std::vector<Visible> lower_envelope(const std::vector<const Curve*>& curves, Vec2d from,
-                                    const std::vector<PlaneBody>& bodies, const EnvelopeRules& rules) {
+std::vector<Visible> lower_envelope(const std::vector<const Curve*>& curves, Vec2d from, const std::vector<PlaneBody>& bodies,
+                                    const EnvelopeRules& rules) {
   Builder builder(from, bodies, rules);
   for (const Curve* c : curves) builder.add(*c);
   return builder.finish();

@@ -21,8 +21,8 @@ struct EnvelopeRules {
 
 // All of the envelope, by rising angle; gaps where no curve is. `shines` says by body index who wins coincident edges.
 // O(n log n) by divide and conquer; crossings are found geometrically, so that curves may overlap in any way.
-std::vector<Visible> lower_envelope(const std::vector<const Curve*>& curves, Vec2d from,
-                                    const std::vector<PlaneBody>& bodies, const EnvelopeRules& rules);
+std::vector<Visible> lower_envelope(const std::vector<const Curve*>& curves, Vec2d from, const std::vector<PlaneBody>& bodies,
+                                    const EnvelopeRules& rules);
 
 // Distance to the curve in direction u (unit), on the near or the far branch of an arc. For a direction in which the
 // curve is seen.

@@ -128,8 +128,8 @@ void niche(Maker& m) {
   const Vec2d x{std::cos(turn), std::sin(turn)}, y{-x.y, x.x};
   const auto at = [&](double u, double v) { return center + x * u + y * v; };
   m.light(convex(m.random(), at(0, -0.02), 6, 0.05));
-  m.occluder({at(-0.12, -0.12), at(0.12, -0.12), at(0.12, 0.1), at(0.08, 0.1), at(0.08, -0.08), at(-0.08, -0.08),
-              at(-0.08, 0.1), at(-0.12, 0.1)});
+  m.occluder(
+      {at(-0.12, -0.12), at(0.12, -0.12), at(0.12, 0.1), at(0.08, 0.1), at(0.08, -0.08), at(-0.08, -0.08), at(-0.08, 0.1), at(-0.12, 0.1)});
   m.hexagons(8);
 }
 
@@ -150,17 +150,16 @@ void flush(Maker& m) {
 }  // namespace
 
 const char* plane_family_name(int family) {
-  static constexpr const char* kNames[kPlaneFamilies] = {
-      "disjoint convex, 1 light, 12 occluders",
-      "disjoint thin (40:1) occluders, 1 light, 12",
-      "light and occluders interpenetrate freely",
-      "lamp half embedded in a wall, 8 more occluders",
-      "light wholly inside an occluder (true value 0)",
-      "concave star occluders, disjoint",
-      "light in a U-shaped niche",
-      "8 lights and 12 occluders that block each other",
-      "lamp flush on a wall (shared edge), 8 more occluders",
-      "concave star light, 10 occluders"};
+  static constexpr const char* kNames[kPlaneFamilies] = {"disjoint convex, 1 light, 12 occluders",
+                                                         "disjoint thin (40:1) occluders, 1 light, 12",
+                                                         "light and occluders interpenetrate freely",
+                                                         "lamp half embedded in a wall, 8 more occluders",
+                                                         "light wholly inside an occluder (true value 0)",
+                                                         "concave star occluders, disjoint",
+                                                         "light in a U-shaped niche",
+                                                         "8 lights and 12 occluders that block each other",
+                                                         "lamp flush on a wall (shared edge), 8 more occluders",
+                                                         "concave star light, 10 occluders"};
   return kNames[family - 1];
 }
 
@@ -223,13 +222,14 @@ FamilyError measure_family(int family, PlaneMethod method, int scenes, int point
 }
 
 std::string plane_error_table(int scenes, int points_per_scene) {
-  std::string text = "| # | family | `par`: mean error, % | `par`: points > 1 % off | `sampled`, 64 rays: mean error, % |\n|---|---|---|---|---|\n";
+  std::string text =
+      "| # | family | `par`: mean error, % | `par`: points > 1 % off | `sampled`, 64 rays: mean error, % |\n|---|---|---|---|---|\n";
   for (int family = 1; family <= kPlaneFamilies; ++family) {
     const FamilyError par = measure_family(family, PlaneMethod::par, scenes, points_per_scene);
     const FamilyError rays = measure_family(family, PlaneMethod::sampled, scenes, points_per_scene);
     char line[256];
-    std::snprintf(line, sizeof line, "| %d | %s | %.3g | %.3g %% | %.3g |\n", family, plane_family_name(family),
-                  par.mean_percent, par.off_percent, rays.mean_percent);
+    std::snprintf(line, sizeof line, "| %d | %s | %.3g | %.3g %% | %.3g |\n", family, plane_family_name(family), par.mean_percent,
+                  par.off_percent, rays.mean_percent);
     text += line;
   }
   return text;

@@ -18,8 +18,8 @@ PlaneScene make_plane_family(int family, std::uint64_t seed);
 std::vector<Vec2d> points_outside(const PlaneWorld& world, int count, std::uint64_t seed);
 
 struct FamilyError {
-  double mean_percent = 0;       // mean absolute error, percent of the mean radiance; of the largest radiance, where the truth is 0
-  double off_percent = 0;        // share of points more than 1 % off
+  double mean_percent = 0;  // mean absolute error, percent of the mean radiance; of the largest radiance, where the truth is 0
+  double off_percent = 0;   // share of points more than 1 % off
   int points = 0;
 };
 

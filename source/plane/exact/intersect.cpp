@@ -74,8 +74,7 @@ Crossings arc_arc(const Curve& first, const Curve& second) {
     // |m + sign (x cos + y sin)|^2 - 1, cos = (1 - t^2) / (1 + t^2), sin = 2 t / (1 + t^2), times (1 + t^2)^2
     const double xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), k = dot(m, m) - 1;
     const double mx = sign * dot(m, x), my = sign * dot(m, y);
-    const double c[5] = {k + 2 * mx + xx, 4 * my + 4 * xy, 2 * k - 2 * xx + 4 * yy, 4 * my - 4 * xy,
-                         k - 2 * mx + xx};
+    const double c[5] = {k + 2 * mx + xx, 4 * my + 4 * xy, 2 * k - 2 * xx + 4 * yy, 4 * my - 4 * xy, k - 2 * mx + xx};
     const Roots roots = real_roots(c, 4, -1, 1);
     for (int i = 0; i < roots.count && result.count < 4; ++i) {
       const double t = roots.at[i], s = 1 / (1 + t * t);
@@ -97,8 +96,7 @@ Roots real_roots(const double* c, int degree, double low, double high) {
   double left = low, at_left = evaluate(c, degree, low);
   for (int i = 0; i <= extrema.count; ++i) {
     const double right = i < extrema.count ? extrema.at[i] : high, at_right = evaluate(c, degree, right);
-    if ((at_left < 0) != (at_right < 0) && result.count < 4)
-      result.at[result.count++] = bisect(c, degree, left, right, at_left < 0);
+    if ((at_left < 0) != (at_right < 0) && result.count < 4) result.at[result.count++] = bisect(c, degree, left, right, at_left < 0);
     left = right;
     at_left = at_right;
   }

@@ -82,8 +82,7 @@ void check(const PlaneBody& body, int index) {
     if (!is_finite(e.radiance)) throw Error(place, "the radiance is not finite");
     if (!(e.range > 0)) throw Error(place, "the range must be positive");
     if (e.gradient && e.gradient->stops.empty()) throw Error(place, "the gradient has no stops");
-    if (!(e.spot_half_angle >= 0 && e.spot_half_angle <= pi + 1e-9))
-      throw Error(place, "the spot's half angle must be within 0 and pi");
+    if (!(e.spot_half_angle >= 0 && e.spot_half_angle <= pi + 1e-9)) throw Error(place, "the spot's half angle must be within 0 and pi");
   }
 }
 

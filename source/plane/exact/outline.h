@@ -24,8 +24,8 @@ struct Curve {
   Kind kind = Kind::segment;
   bool two_sided = false;  // both faces block and shine; else only the outer one is seen from outside
   int body = 0;
-  Vec2d a, b;              // segment, the body to the left of a -> b; arc: its ends
-  Ellipse ellipse;         // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
+  Vec2d a, b;       // segment, the body to the left of a -> b; arc: its ends
+  Ellipse ellipse;  // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
   double tau0 = 0, tau_span = 0;
 };
 

@@ -45,8 +45,7 @@ bool tangents_of(const World& world, std::size_t body, Vec2d from, std::vector<V
     const std::size_t before = vertices.size();
     add_vertices(curve, from, vertices);
     if (curve.kind == Curve::Kind::arc && curve.tau_span > 2 * pi - 1e-9 && vertices.size() > before + 2)
-      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(before),
-                     vertices.begin() + static_cast<std::ptrdiff_t>(before) + 2);
+      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(before), vertices.begin() + static_cast<std::ptrdiff_t>(before) + 2);
   }
   if (vertices.empty()) return false;
   Vec2d middle;

@@ -35,8 +35,8 @@ TEST(PlaneKernels, DiskWindowAgreesWithQuadrature) {
     // Simpson's error is of the order h^4 of a fourth derivative that grows as the tangent nears: below 1e-9 at 0.9.
     const double between = (kernel.plane_disk_window(m1, d2, rho2) - kernel.plane_disk_window(m0, d2, rho2)).v;
     worst = std::max(worst, std::fabs(between - window_by_quadrature(m0, m1, d2, rho2)));
-    worst_whole = std::max(worst_whole, std::fabs((kernel.plane_disk_window_whole(tangent, d2, rho2) -
-                                                   2.0 * kernel.plane_disk_window(tangent, d2, rho2)).v));
+    worst_whole = std::max(
+        worst_whole, std::fabs((kernel.plane_disk_window_whole(tangent, d2, rho2) - 2.0 * kernel.plane_disk_window(tangent, d2, rho2)).v));
   }
   EXPECT_LE(worst, 1e-9);
   EXPECT_LE(worst_whole, 1e-13);  // a few dozen roundings of sums of order 1

@@ -77,8 +77,7 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
   const double larger = std::max(std::max(size.x, size.y), 1e-6);
   const double wanted = 2.0 * static_cast<double>(curves.size()) + 1;
   // A cell is never so small that a thin scene would need millions.
-  cell_ = std::max(std::sqrt(std::max(size.x, larger * 1e-3) * std::max(size.y, larger * 1e-3) / wanted),
-                   larger / 2000);
+  cell_ = std::max(std::sqrt(std::max(size.x, larger * 1e-3) * std::max(size.y, larger * 1e-3) / wanted), larger / 2000);
   std::vector<Box> body_boxes;
   for (const PlaneBody& body : bodies) body_boxes.push_back(bounds_of(body));
   // Things that reach over many cells are entered in all of them: coarser, until that is no more than a few entries each.
@@ -89,7 +88,8 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
     for (const std::vector<Box>* some : {&boxes, &body_boxes})
       for (const Box& box : *some)
         if (box.low.x <= box.high.x)
-          entries += static_cast<std::size_t>(row(box.high.y) - row(box.low.y) + 1) * static_cast<std::size_t>(column(box.high.x) - column(box.low.x) + 1);
+          entries += static_cast<std::size_t>(row(box.high.y) - row(box.low.y) + 1) *
+                     static_cast<std::size_t>(column(box.high.x) - column(box.low.x) + 1);
     return entries;
   };
   while (lay_out() > 64 * (boxes.size() + body_boxes.size()) + 10'000 && columns_ * rows_ > 1) cell_ *= 2;
@@ -112,21 +112,17 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
       cells_[cell].push_back(&c);
     });
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (body_boxes[i].low.x <= body_boxes[i].high.x) cells_of(body_boxes[i], [&](std::size_t cell, int, int) { cell_bodies_[cell].push_back(static_cast<int>(i)); });
+    if (body_boxes[i].low.x <= body_boxes[i].high.x)
+      cells_of(body_boxes[i], [&](std::size_t cell, int, int) { cell_bodies_[cell].push_back(static_cast<int>(i)); });
 }
 
-int RayGrid::column(double x) const {
-  return std::clamp(static_cast<int>(std::floor((x - low_.x) / cell_)), 0, columns_ - 1);
-}
-int RayGrid::row(double y) const {
-  return std::clamp(static_cast<int>(std::floor((y - low_.y) / cell_)), 0, rows_ - 1);
-}
+int RayGrid::column(double x) const { return std::clamp(static_cast<int>(std::floor((x - low_.x) / cell_)), 0, columns_ - 1); }
+int RayGrid::row(double y) const { return std::clamp(static_cast<int>(std::floor((y - low_.y) / cell_)), 0, rows_ - 1); }
 
 const std::vector<int>& RayGrid::bodies_near(Vec2d p) const {
   static const std::vector<int> none;
   if (columns_ == 0 || p.x < low_.x || p.y < low_.y || p.x > high_.x || p.y > high_.y) return none;
-  return cell_bodies_[static_cast<std::size_t>(row(p.y)) * static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(column(p.x))];
+  return cell_bodies_[static_cast<std::size_t>(row(p.y)) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column(p.x))];
 }
 
 // Amanatides, Woo, "A fast voxel traversal algorithm for ray tracing", 1987.
@@ -155,8 +151,7 @@ RayHit RayGrid::first_hit(Vec2d from, Vec2d u, int inside) const {
   RayHit best;
   best.distance = kFar;
   while (x >= 0 && y >= 0 && x < columns_ && y < rows_) {
-    for (const Curve* c : cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                                 static_cast<std::size_t>(x)]) {
+    for (const Curve* c : cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)]) {
       const RayHit hit = hit_curve(*c, from, u, inside);
       if (hit.curve == nullptr) continue;
       const double slack = 1e-10 * hit.distance;

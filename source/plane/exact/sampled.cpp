@@ -43,9 +43,7 @@ PlaneLight mean_over_directions(Vec2d from, const PlaneSampling& sampling, F f) 
   return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
 }
 
-const PlaneBody& body_of(const World& world, const Curve& c) {
-  return world.scene.bodies[static_cast<std::size_t>(c.body)];
-}
+const PlaneBody& body_of(const World& world, const Curve& c) { return world.scene.bodies[static_cast<std::size_t>(c.body)]; }
 
 double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
   const Vec2d ab = b - a;

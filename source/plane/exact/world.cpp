@@ -47,8 +47,8 @@ using std::numbers::pi;
 namespace {
 
 template <class Counts>
-PlaneLight envelope_sum(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int inside,
-                        EmissionParts parts, Counts counts) {
+PlaneLight envelope_sum(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int inside, EmissionParts parts,
+                        Counts counts) {
   PlaneLight sum;
   double open = 2 * pi;
   for (const Visible& v : lower_envelope(curves, from, world.scene.bodies, {inside})) {
@@ -68,8 +68,7 @@ PlaneLight envelope_sum(const World& world, const std::vector<const Curve*>& cur
 
 }  // namespace
 
-PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& curves, Vec2d from,
-                          int inside_light, EmissionParts parts) {
+PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int inside_light, EmissionParts parts) {
   return envelope_sum(world, curves, from, inside_light, parts, [](int) { return true; });
 }
 
@@ -105,8 +104,7 @@ class Wedge {
   bool everything_ = false;
 };
 
-PlaneLight envelope_light_of(const World& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             int only, EmissionParts parts) {
+PlaneLight envelope_light_of(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int only, EmissionParts parts) {
   const Wedge wedge(world.boxes[static_cast<std::size_t>(only)], from);
   thread_local std::vector<const Curve*> near;
   near.clear();

@@ -23,14 +23,14 @@ struct PlaneWorld::Impl {
   // In units of which the picture's larger side has 1024 to 2048, so that no threshold depends on the user's units; the
   // scale is a power of two, and nothing is rounded.
   PlaneScene scene;
-  double scale = 1;                 // from the user's units
-  std::optional<PlaneScene> given;  // as the user gave it, where the scale is not 1
+  double scale = 1;                      // from the user's units
+  std::optional<PlaneScene> given;       // as the user gave it, where the scale is not 1
   std::vector<plane::Curve> curves;      // of all bodies, in the scene's order
   std::vector<std::size_t> first_curve;  // by body, and the number of curves at the end
   std::vector<plane::Box> boxes;         // by body
   plane::RayGrid grid;
-  std::vector<plane::EdgeRows> rows;     // of outlines with many edges
-  std::vector<int> rows_of;              // by body: which of them, or -1
+  std::vector<plane::EdgeRows> rows;  // of outlines with many edges
+  std::vector<int> rows_of;           // by body: which of them, or -1
 
   // What fills the point: an occluder wins, then the last light. -1: nothing.
   struct Inside {
@@ -47,11 +47,10 @@ namespace steradian::plane {
 using World = PlaneWorld::Impl;
 
 // The exact method over a chosen set of curves.
-PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& curves, Vec2d from,
-                          int inside_light, EmissionParts parts = EmissionParts::radiance_and_moments);
+PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int inside_light,
+                          EmissionParts parts = EmissionParts::radiance_and_moments);
 // The same for one light; the others block.
-PlaneLight envelope_light_of(const World& world, const std::vector<const Curve*>& curves, Vec2d from,
-                             int only, EmissionParts parts);
+PlaneLight envelope_light_of(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int only, EmissionParts parts);
 // Radiance within a light, where all that can be seen are these parts of other outlines, and the light between them.
 Vec3d light_between(const World& world, const std::vector<Curve>& parts, Vec2d from, int inside_light);
 PlaneLight par_light(const World& world, Vec2d from);

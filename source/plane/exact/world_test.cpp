@@ -54,9 +54,7 @@ PlaneBody lit(PlaneBody body, PlaneEmission emission = {}) {
   return body;
 }
 
-PlaneBody box(double x, double y, double w, double h) {
-  return plane_polygon({{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}});
-}
+PlaneBody box(double x, double y, double w, double h) { return plane_polygon({{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}); }
 
 PlaneBody capsule(Vec2d a, Vec2d b, double r) {
   PlaneBody body;
@@ -171,9 +169,7 @@ TEST(PlaneExact, OverlappingShapesOfEveryKindAgreeWithRays) {
         case 1: body = ellipse(c, v(15), v(15)); break;
         case 2: body = capsule(c, c + v(25), random.uniform(1, 8)); break;
         case 3: body = plane_polygon({c, c + v(20), c + v(20), c + v(20), c + v(20)}); break;
-        default:
-          body.shape = PlaneBody::Shape::polyline;
-          body.contours = {{c, c + v(30), c + v(30)}};
+        default: body.shape = PlaneBody::Shape::polyline; body.contours = {{c, c + v(30), c + v(30)}};
       }
       if (i % 3 == 0) {
         body.light.emplace();
@@ -183,7 +179,8 @@ TEST(PlaneExact, OverlappingShapesOfEveryKindAgreeWithRays) {
     }
     const PlaneWorld world = world_of(bodies);
     // Up to some twenty visible jumps: 20 of 1 / 40000 each bounds the rays' error.
-    for (int k = 0; k < 6; ++k) expect_rays(world, {random.uniform(0, 100), random.uniform(0, 100)}, 40'000, 5e-4, "scene " + std::to_string(s));
+    for (int k = 0; k < 6; ++k)
+      expect_rays(world, {random.uniform(0, 100), random.uniform(0, 100)}, 40'000, 5e-4, "scene " + std::to_string(s));
   }
 }
 

@@ -40,17 +40,16 @@ class BlockerList {
 // The hull of two circles, about a tile and about a light. At the share t of the way from one to the other a circle of
 // radius r touches it if it is within (base + t growth + r) widen of the axis.
 struct HullOfCircles {
-  float x, y;            // the tile's centre
-  float axis_x, axis_y;  // from there to the light's
-  float inverse_length2; // of the axis
+  float x, y;             // the tile's centre
+  float axis_x, axis_y;   // from there to the light's
+  float inverse_length2;  // of the axis
   float base, growth, widen;
 };
 
 struct CullTable {
   // Appends to `to` those of from[begin, end) that touch the hull, and to `hiders` (room for all) those of them whose
   // core is wide enough to be worth a look. Returns the number of hiders. `to` has room for end - begin more.
-  std::size_t (*cull)(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end,
-                      BlockerList& to, int* hiders);
+  std::size_t (*cull)(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end, BlockerList& to, int* hiders);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(CullTable, cull_table)

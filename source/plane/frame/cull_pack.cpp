@@ -34,8 +34,7 @@ STERADIAN_INLINE void append(const BlockerList& from, std::size_t first, std::ui
   move(from.y, to.y);
   move(from.radius, to.radius);
   move(from.core, to.core);
-  _mm512_storeu_si512(to.index.data() + to.size,
-                      _mm512_maskz_compress_epi32(mask, _mm512_loadu_si512(from.index.data() + first)));
+  _mm512_storeu_si512(to.index.data() + to.size, _mm512_maskz_compress_epi32(mask, _mm512_loadu_si512(from.index.data() + first)));
   to.size += static_cast<std::size_t>(std::popcount(bits));
 #else
   for (; bits != 0; bits &= bits - 1) {
@@ -49,8 +48,8 @@ STERADIAN_INLINE void append(const BlockerList& from, std::size_t first, std::ui
 #endif
 }
 
-__attribute__((flatten)) std::size_t cull(const HullOfCircles& hull, const BlockerList& from, std::size_t begin,
-                                          std::size_t end, BlockerList& to, int* hiders) {
+__attribute__((flatten)) std::size_t cull(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end,
+                                          BlockerList& to, int* hiders) {
   std::size_t hider_count = 0;
   const PackReal ax = broadcast(hull.axis_x), ay = broadcast(hull.axis_y);
   for (std::size_t i = begin; i < end; i += kLanes) {

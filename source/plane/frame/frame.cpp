@@ -34,8 +34,10 @@ Picture averaged(const Picture& fine, int n) {
       for (int x = 0; x < result.width; ++x) {
         Vec3f sum;
         for (int j = 0; j < n; ++j)
-          for (int i = 0; i < n; ++i) sum += from[static_cast<std::size_t>(y * n + j) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x * n + i)];
-        to[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) + static_cast<std::size_t>(x)] = sum / static_cast<float>(n * n);
+          for (int i = 0; i < n; ++i)
+            sum += from[static_cast<std::size_t>(y * n + j) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x * n + i)];
+        to[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) + static_cast<std::size_t>(x)] =
+            sum / static_cast<float>(n * n);
       }
   };
   average(fine.pixels, result.pixels);

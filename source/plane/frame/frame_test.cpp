@@ -37,12 +37,15 @@ void expect_query(const PlaneScene& scene, int width, int height, int stride, co
     const Vec2d p{scene.origin.x + (x + 0.5) * scene.width / width, scene.origin.y + (y + 0.5) * scene.height / height};
     const Vec3d exact = world.query(p).radiance;
     const Vec3f pixel = picture.at(x, y);
-    const double error = std::max({std::fabs(exact.x - static_cast<double>(pixel.x)), std::fabs(exact.y - static_cast<double>(pixel.y)), std::fabs(exact.z - static_cast<double>(pixel.z))}) / largest_radiance(scene);
+    const double error = std::max({std::fabs(exact.x - static_cast<double>(pixel.x)), std::fabs(exact.y - static_cast<double>(pixel.y)),
+                                   std::fabs(exact.z - static_cast<double>(pixel.z))}) /
+                         largest_radiance(scene);
     worst = std::max(worst, error);
     squares += error * error;
     ++count;
     if (!(error <= bound) && ++wrong <= 3) {
-      ADD_FAILURE() << what << ": pixel (" << x << ", " << y << ") = " << pixel.x << ", query (" << p.x << ", " << p.y << ") = " << exact.x << ", error " << error;
+      ADD_FAILURE() << what << ": pixel (" << x << ", " << y << ") = " << pixel.x << ", query (" << p.x << ", " << p.y << ") = " << exact.x
+                    << ", error " << error;
     }
   }
   EXPECT_EQ(wrong, 0) << what << ", of " << count << " pixels";
@@ -72,7 +75,8 @@ TEST(PlaneFrame, EqualsTheQueryInLightFieldsOfTheBench) {
     field.lights = std::max(field.lights, 4);
     field.width /= 4;
     field.height /= 4;
-    expect_query(make_light_field(field, 3), field.width, field.height, 13, "light field " + std::to_string(field.lights) + "x" + std::to_string(field.boxes));
+    expect_query(make_light_field(field, 3), field.width, field.height, 13,
+                 "light field " + std::to_string(field.lights) + "x" + std::to_string(field.boxes));
   }
 }
 
@@ -99,9 +103,7 @@ TEST(PlaneFrame, EqualsTheQueryWithOverlappingShapesOfEveryKind) {
           body.radius = random.uniform(1, 8);
           break;
         case 3: body = plane_polygon({c, c + v(20), c + v(20), c + v(20), c + v(20)}); break;
-        default:
-          body.shape = PlaneBody::Shape::polyline;
-          body.contours = {{c, c + v(30), c + v(30)}};
+        default: body.shape = PlaneBody::Shape::polyline; body.contours = {{c, c + v(30), c + v(30)}};
       }
       if (i % 4 == s % 4) {
         body.light.emplace();
@@ -132,8 +134,8 @@ TEST(PlaneFrame, IsTheSameInAnyUnit) {
     scene.width = 200 * unit;
     scene.height = 150 * unit;
     const auto at = [&](double x, double y) { return Vec2d{x * unit, y * unit}; };
-    scene.bodies = {plane_circle(at(40.3, 50.1), 6.02 * unit), plane_polygon({at(100.3, 20.2), at(110.1, 30.7), at(90.6, 90.4)}), plane_polygon({at(150.3, 100.2), at(170.7, 100.4), at(160.1, 120.6)}),
-                    plane_circle(at(70.2, 80.3), 10.04 * unit)};
+    scene.bodies = {plane_circle(at(40.3, 50.1), 6.02 * unit), plane_polygon({at(100.3, 20.2), at(110.1, 30.7), at(90.6, 90.4)}),
+                    plane_polygon({at(150.3, 100.2), at(170.7, 100.4), at(160.1, 120.6)}), plane_circle(at(70.2, 80.3), 10.04 * unit)};
     scene.bodies[0].light.emplace().range = 150 * unit;
     scene.bodies[2].light.emplace().profile = PlaneProfile::lambert;
     PlaneFrameOptions options;
@@ -185,7 +187,10 @@ TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
 // A picture of another shape shows the scene whole, or cut off, but never stretched unless that is asked for.
 TEST(PlaneFrame, KeepsTheAspectOfSvg) {
   const auto scene = [](const std::string& aspect) {
-    return load_plane_scene_from_text("<svg viewBox='0 0 100 100' preserveAspectRatio='" + aspect + "'><circle class='light' fill='#fff' cx='50' cy='50' r='20'/></svg>", "aspect.svg").scene;
+    return load_plane_scene_from_text("<svg viewBox='0 0 100 100' preserveAspectRatio='" + aspect +
+                                          "'><circle class='light' fill='#fff' cx='50' cy='50' r='20'/></svg>",
+                                      "aspect.svg")
+        .scene;
   };
   const auto lit = [](const PlaneScene& s) {
     PlaneFrameOptions options;
@@ -195,7 +200,8 @@ TEST(PlaneFrame, KeepsTheAspectOfSvg) {
     int first = 80, last = -1, above = 40, below = -1;
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 80; ++x)
-        if (picture.at(x, y).x == 1) first = std::min(first, x), last = std::max(last, x), above = std::min(above, y), below = std::max(below, y);
+        if (picture.at(x, y).x == 1)
+          first = std::min(first, x), last = std::max(last, x), above = std::min(above, y), below = std::max(below, y);
     return std::array<int, 4>{first, last, above, below};
   };
   EXPECT_EQ(lit(scene("none")), (std::array<int, 4>{24, 55, 12, 27}));

@@ -25,9 +25,7 @@ void LeafBuilder::enter(const TileArea& tile) {
   shadows_.enter(tile);
 }
 
-double LeafBuilder::extent(Vec2d normal) const {
-  return std::fabs(normal.x) * tile_.half.x + std::fabs(normal.y) * tile_.half.y;
-}
+double LeafBuilder::extent(Vec2d normal) const { return std::fabs(normal.x) * tile_.half.x + std::fabs(normal.y) * tile_.half.y; }
 
 // The hull of tile and emitter: lines that touch the circles about both, moved in to touch the rectangle and the
 // emitter themselves.

@@ -28,8 +28,8 @@ class LeafBuilder {
  private:
   // From here on places are relative to the tile's centre.
   struct Depth {
-    Vec2d normal;      // towards the blocker
-    double offset = 0; // normal . p + offset > 0 on the blocker's side
+    Vec2d normal;       // towards the blocker
+    double offset = 0;  // normal . p + offset > 0 on the blocker's side
     DepthLine line() const;
   };
   enum class Side { front, behind, mixed };
@@ -54,9 +54,9 @@ class LeafBuilder {
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());
   TileArea tile_;
-  std::vector<Silhouette> pool_;             // of this tile: the first pool_count_
+  std::vector<Silhouette> pool_;  // of this tile: the first pool_count_
   std::size_t pool_count_ = 0;
-  std::vector<std::pair<int, int>> slots_;   // by blocker: a tile's number, and where in its pool
+  std::vector<std::pair<int, int>> slots_;  // by blocker: a tile's number, and where in its pool
   int tile_number_ = 0;
   Light light_;
   SeenLight seen_;

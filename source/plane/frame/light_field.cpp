@@ -15,7 +15,8 @@ PlaneScene make_light_field(const LightField& field, std::uint64_t seed) {
   scene.height = field.height;
   for (int i = 0; i < field.boxes; ++i) {
     const Vec2d c{random.uniform(0, scene.width), random.uniform(0, scene.height)};
-    const double a = random.uniform(0, 2 * std::numbers::pi), hx = field.size * random.uniform(0.4, 1.2), hy = field.size * random.uniform(0.4, 1.2);
+    const double a = random.uniform(0, 2 * std::numbers::pi), hx = field.size * random.uniform(0.4, 1.2),
+                 hy = field.size * random.uniform(0.4, 1.2);
     const Vec2d x = Vec2d{std::cos(a), std::sin(a)} * hx, y = Vec2d{-std::sin(a), std::cos(a)} * hy;
     scene.bodies.push_back(plane_polygon({c - x - y, c + x - y, c + x + y, c - x + y}));
   }

@@ -50,8 +50,9 @@ class Preparation {
       if (world_.scene.bodies[i].light) add_emitters(i);
     bins_ = BlockerBins(frame_.blockers);
     const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
-    slack_ = 32 * 0x1p-24 * std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x),
-                                      std::fabs(high.y - origin.y), world_.scene.width, world_.scene.height});
+    slack_ = 32 * 0x1p-24 *
+             std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x), std::fabs(high.y - origin.y),
+                       world_.scene.width, world_.scene.height});
     if (!frame_.emitters.empty()) check_pairs();
     check_general();
     interior();
@@ -93,7 +94,8 @@ class Preparation {
       ++lights;
       steps += kPixels * (1000 + 4 * world_.curves.size() + 80 * (gradient ? gradient->stops.size() : 0));
     }
-    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are ellipses, strokes, spots or shaded by profile", lights), steps);
+    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are ellipses, strokes, spots or shaded by profile", lights),
+                      steps);
   }
 
   // Steps that are known only as they are made.
@@ -101,7 +103,8 @@ class Preparation {
     steps_ += steps;
     if (steps != 0 && steps_ < 10'000'000) return;
     budget_.take_work(world_.scene.name, "the overlaps of its lights with other shapes", steps_);
-    budget_.take_memory(world_.scene.name, "the parts of shapes that overlap its lights", (frame_.outlines.size() - outlines_held_) * kBlockerBytes);
+    budget_.take_memory(world_.scene.name, "the parts of shapes that overlap its lights",
+                        (frame_.outlines.size() - outlines_held_) * kBlockerBytes);
     outlines_held_ = frame_.outlines.size();
     steps_ = 0;
   }
@@ -268,8 +271,8 @@ class Preparation {
         for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) inside.curves.push_back(&world_.curves[c]);
       const Curve& own = world_.curves[world_.first_curve[i]];
       inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
-        return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
-      });
+                           return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
+                         });
       if (inside.by_chords) {
         for (const Curve* c : inside.curves) {
           if (c == &own) continue;
@@ -278,12 +281,13 @@ class Preparation {
         continue;
       }
       inside.by_parts = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
-        return c->kind == Curve::Kind::segment || is_full_circle(*c);
-      });
+                          return c->kind == Curve::Kind::segment || is_full_circle(*c);
+                        });
       if (!inside.by_parts) continue;
       for (const Curve* c : inside.curves) {
         if (c == &own) continue;
-        const std::optional<Curve> part = c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
+        const std::optional<Curve> part =
+            c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
         if (part) inside.parts.push_back(*part);
       }
     }

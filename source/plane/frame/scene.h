@@ -19,13 +19,13 @@ struct Emitter {
   enum class Kind { disk, edge };
   Kind kind = Kind::disk;
   int body = 0;
-  Vec2d a, b;              // an edge's ends, lit side to the right of a -> b; a disk's centre, twice
-  double radius = 0;       // disk
-  RadianceEnds radiance;   // of an edge; linear between
+  Vec2d a, b;             // an edge's ends, lit side to the right of a -> b; a disk's centre, twice
+  double radius = 0;      // disk
+  RadianceEnds radiance;  // of an edge; linear between
 
-  Vec2d center;            // of a bounding circle
+  Vec2d center;  // of a bounding circle
   double bound = 0;
-  Vec2d normal;            // edge: unit, to the lit side
+  Vec2d normal;  // edge: unit, to the lit side
   double range = 0;
 };
 
@@ -33,24 +33,24 @@ struct Blocker {
   enum class Kind { convex, ellipse, lens };
   Kind kind = Kind::convex;
   int body = 0;
-  Vec2d center;            // of a bounding circle
+  Vec2d center;  // of a bounding circle
   double bound = 0;
-  std::size_t first = 0;   // convex: vertices, counter-clockwise; two for a segment
+  std::size_t first = 0;  // convex: vertices, counter-clockwise; two for a segment
   std::size_t count = 0;
   int outline = -1;
-  Vec2d x_axis, y_axis;    // ellipse, lens: half axes, cross(x, y) > 0
-  bool round = false;      // ellipse: of equal half axes
-  Vec2d crossing[2];       // lens: where the disks' outlines cross; beyond the first, seen counter-clockwise, the
-  Vec2d light_normal[2];   // blocker is nearer, before the second; outward normals there of the light's disk
-  Vec2d blocker_normal[2]; // and of the blocker
+  Vec2d x_axis, y_axis;     // ellipse, lens: half axes, cross(x, y) > 0
+  bool round = false;       // ellipse: of equal half axes
+  Vec2d crossing[2];        // lens: where the disks' outlines cross; beyond the first, seen counter-clockwise, the
+  Vec2d light_normal[2];    // blocker is nearer, before the second; outward normals there of the light's disk
+  Vec2d blocker_normal[2];  // and of the blocker
 };
 
 struct FrameScene {
   const World* world = nullptr;
   std::vector<Emitter> emitters;
-  std::vector<char> general;              // by body: lights that only the general method serves
+  std::vector<char> general;  // by body: lights that only the general method serves
   bool any_general = false;
-  std::vector<Blocker> blockers;     // of all bodies, then those that stand in for overlapping ones
+  std::vector<Blocker> blockers;  // of all bodies, then those that stand in for overlapping ones
   std::vector<Vec2d> vertices;
   std::vector<PaddedOutline> outlines;    // of convex blockers, by Blocker::outline
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too

@@ -54,9 +54,7 @@ void ShadowEnds::clear(const std::vector<Silhouette>& pool, Vec2d to_light) {
 }
 
 // Is b seen counter-clockwise of a, from all of the tile? cross(a - p, b - p) = cross(a, b) - cross(p, b - a)
-bool ShadowEnds::follows(Vec2d a, Vec2d b) const {
-  return cross(a, b) >= std::fabs(b.y - a.y) * half_.x + std::fabs(b.x - a.x) * half_.y;
-}
+bool ShadowEnds::follows(Vec2d a, Vec2d b) const { return cross(a, b) >= std::fabs(b.y - a.y) * half_.x + std::fabs(b.x - a.x) * half_.y; }
 
 // The same of all of a disk.
 bool ShadowEnds::follows_disk(Vec2d a, double radius, Vec2d b) const {
@@ -107,8 +105,9 @@ void ShadowEnds::grow_high(Held& h) {
 bool ShadowEnds::covered(Vec2d center, double radius) const {
   // From the other side: the mirror image.
   return std::any_of(low_front_.begin(), low_front_.end(), [&](Vec2d v) { return follows_disk(center, radius, v); }) ||
-         std::any_of(high_front_.begin(), high_front_.end(),
-                     [&](Vec2d v) { return follows_disk({center.x, -center.y}, radius, {v.x, -v.y}); });
+         std::any_of(high_front_.begin(), high_front_.end(), [&](Vec2d v) {
+           return follows_disk({center.x, -center.y}, radius, {v.x, -v.y});
+         });
 }
 
 bool ShadowEnds::covered(const Held& h) const {
@@ -135,8 +134,10 @@ void ShadowEnds::drop_dominated() {
           break;
         }
   };
-  thin(low_points_, [](Vec2d a, Vec2d b) { return cross(a, b) < 0; }, [&](Vec2d end, Vec2d v) { return follows(end, v); });
-  thin(high_points_, [](Vec2d a, Vec2d b) { return cross(a, b) > 0; }, [&](Vec2d end, Vec2d v) { return follows(v, end); });
+  thin(
+      low_points_, [](Vec2d a, Vec2d b) { return cross(a, b) < 0; }, [&](Vec2d end, Vec2d v) { return follows(end, v); });
+  thin(
+      high_points_, [](Vec2d a, Vec2d b) { return cross(a, b) > 0; }, [&](Vec2d end, Vec2d v) { return follows(v, end); });
 }
 
 bool ShadowEnds::hidden() {

@@ -29,9 +29,9 @@ class ShadowEnds {
   void take_deep(int silhouette, std::uint8_t ahead, const DepthLine& depth);
   void take(const TileRound& round, double bound) { far_rounds_.push_back({round, bound}); }
   void take(const TileLens& lens) { lenses_.push_back(lens); }
-  bool hidden();                   // after the last of them: merges
-  void write(TileLight& light);    // points into this object
-  std::size_t intervals() const;   // most that may be taken from within the light
+  bool hidden();                  // after the last of them: merges
+  void write(TileLight& light);   // points into this object
+  std::size_t intervals() const;  // most that may be taken from within the light
 
  private:
   struct Held {

@@ -29,7 +29,7 @@ struct Silhouette {
   Vec2d center;                           // of a bounding circle, a disk's own; its vertices are a diameter's ends
   double radius;
   std::uint8_t count;
-  std::uint8_t begins, ends;              // those that some pixel may see it begin and end in, counter-clockwise
+  std::uint8_t begins, ends;  // those that some pixel may see it begin and end in, counter-clockwise
   Kind kind;
   Vec2d at(int k) const { return {x[k], y[k]}; }
 };
@@ -43,9 +43,9 @@ struct HullSide {
 
 struct SeenLight {
   bool edge = false;
-  Vec2d normal;      // edge: to the lit side
-  Vec2d at;          // disk: centre
-  double margin = 0; // the tile's reach along the normal; its radius for a disk
+  Vec2d normal;        // edge: to the lit side
+  Vec2d at;            // disk: centre
+  double margin = 0;   // the tile's reach along the normal; its radius for a disk
   HullSide low, high;  // low: the clockwise side
 };
 

@@ -58,14 +58,20 @@ void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
 VertexMarks mark(const Silhouette& s, const SeenLight& light) {
   const unsigned all = (1u << s.count) - 1;
   const auto past = [&](const HullSide& side) {
-    return all & bits_where(s, [&](Doubles x, Doubles y, std::size_t) { return x * Doubles(side.normal.x) + y * Doubles(side.normal.y) > Doubles(side.offset); });
+    return all & bits_where(s, [&](Doubles x, Doubles y, std::size_t) {
+             return x * Doubles(side.normal.x) + y * Doubles(side.normal.y) > Doubles(side.offset);
+           });
   };
   const auto before = [&](const HullSide& side) {
-    return bits_where(s, [&](Doubles x, Doubles y, std::size_t) { return x * Doubles(side.forward.x) + y * Doubles(side.forward.y) < Doubles(side.limit); });
+    return bits_where(s, [&](Doubles x, Doubles y, std::size_t) {
+      return x * Doubles(side.forward.x) + y * Doubles(side.forward.y) < Doubles(side.limit);
+    });
   };
   unsigned ahead;
   if (light.edge) {
-    ahead = bits_where(s, [&](Doubles x, Doubles y, std::size_t) { return x * Doubles(-light.normal.x) + y * Doubles(-light.normal.y) > Doubles(light.margin); });
+    ahead = bits_where(s, [&](Doubles x, Doubles y, std::size_t) {
+      return x * Doubles(-light.normal.x) + y * Doubles(-light.normal.y) > Doubles(light.margin);
+    });
   } else {
     // In front of a pixel's axis is outside the circle over the light's centre and the vertex (Thales): over all
     // pixels |v + l| > |v - l| + 2 margin, squared.

@@ -10,8 +10,8 @@ namespace steradian::plane {
 inline constexpr int kTileSide = 16, kTilePixels = kTileSide * kTileSide;
 
 struct TileItem {
-  float px, py, qx, qy;            // chord, in any order
-  float depth_x, depth_y, depth_c; // the blocker is nearer where depth . (x, y, 1) > 0; only in deep items
+  float px, py, qx, qy;             // chord, in any order
+  float depth_x, depth_y, depth_c;  // the blocker is nearer where depth . (x, y, 1) > 0; only in deep items
 };
 
 // A blocker that reaches past the light on one side for all of the tile ends in a vertex.
@@ -22,13 +22,13 @@ struct TileVertex {
 // A convex blocker in front of the light and of every pixel's axis: it is seen from the least of its first vertices to
 // the greatest of its others.
 struct TileSpan {
-  int first, begins, ends;         // its vertices: where in TileLight::span_vertices, how many may begin and end it
+  int first, begins, ends;  // its vertices: where in TileLight::span_vertices, how many may begin and end it
 };
 
 // A convex blocker anywhere.
 struct TileBody {
   TileSpan vertices;
-  bool deep;                       // nearer than the light only beyond its depth line
+  bool deep;  // nearer than the light only beyond its depth line
   float depth_x, depth_y, depth_c;
 };
 
@@ -38,15 +38,15 @@ struct TileDisk {
 };
 
 struct TileRound {
-  float cx, cy;                    // ellipse: centre,
-  float xx, xy, yx, yy;            // half axes x and y,
-  float ux, uy, vx, vy;            // rows of the map to the unit circle
+  float cx, cy;          // ellipse: centre,
+  float xx, xy, yx, yy;  // half axes x and y,
+  float ux, uy, vx, vy;  // rows of the map to the unit circle
   float depth_x, depth_y, depth_c;
 };
 
 struct TileLens {
   TileRound round;
-  float x[2], y[2];                // crossings, their outward normals on the light and on the blocker
+  float x[2], y[2];  // crossings, their outward normals on the light and on the blocker
   float lx[2], ly[2], bx[2], by[2];
 };
 
@@ -54,17 +54,17 @@ struct TileLight {
   // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along.
   float x, y, radius;
   float nx, ny, begin, end;
-  float inverse_range;             // 0: no range
-  float red, green, blue;          // at the disk, or at `begin` ...
+  float inverse_range;                       // 0: no range
+  float red, green, blue;                    // at the disk, or at `begin` ...
   float red_slope, green_slope, blue_slope;  // ... and their change per distance along the edge
-  int profile;                     // PlaneProfile as int
+  int profile;                               // PlaneProfile as int
   bool linear, edge;
 
-  const TileVertex* lows;          // ends of blockers that begin before the light
+  const TileVertex* lows;  // ends of blockers that begin before the light
   int low_count;
-  const TileVertex* highs;         // begins of blockers that end behind it
+  const TileVertex* highs;  // begins of blockers that end behind it
   int high_count;
-  const TileDisk* low_disks;       // the same with disks
+  const TileDisk* low_disks;  // the same with disks
   int low_disk_count;
   const TileDisk* high_disks;
   int high_disk_count;
@@ -74,16 +74,16 @@ struct TileLight {
   int span_count;
   const TileBody* bodies;
   int body_count;
-  const TileVertex* span_vertices; // of spans and bodies
-  const TileItem* chords;          // any chord in front of the light
+  const TileVertex* span_vertices;  // of spans and bodies
+  const TileItem* chords;           // any chord in front of the light
   int chord_count;
-  const TileItem* deep;            // any chord, with a depth line
+  const TileItem* deep;  // any chord, with a depth line
   int deep_count;
   const TileRound* rounds;
   int round_count;
   const TileLens* lenses;
   int lens_count;
-  float* scratch;                  // 32 floats for each item, 64 for each lens
+  float* scratch;  // 32 floats for each item, 64 for each lens
 };
 
 // The accumulators of a tile's pixels.

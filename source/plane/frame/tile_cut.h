@@ -37,7 +37,8 @@ struct Cut {
     const PackMask within = !(left || right);
     low = new_low;
     high = new_high;
-    if (any_lane(within && to > low && from < high && from < to)) insert(select(within, from, PackReal(kBeyond)), select(within, to, PackReal(kBeyond)));
+    if (any_lane(within && to > low && from < high && from < to))
+      insert(select(within, from, PackReal(kBeyond)), select(within, to, PackReal(kBeyond)));
   }
 
   // Sorted by begin, lane by lane. Mostly they come in that order already, and go on where the last one ends: then the last
@@ -111,8 +112,8 @@ STERADIAN_INLINE PackReal slope(PackReal w, PackReal t, PackReal beyond) {
 }
 
 struct Axis {
-  PackReal x, y;        // axis: w along it, t across
-  PackReal px, py;      // the pixels
+  PackReal x, y;    // axis: w along it, t across
+  PackReal px, py;  // the pixels
   STERADIAN_INLINE PackReal w(PackReal vx, PackReal vy) const { return vx * x + vy * y; }
   STERADIAN_INLINE PackReal t(PackReal vx, PackReal vy) const { return x * vy - y * vx; }
 };

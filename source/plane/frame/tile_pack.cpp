@@ -11,10 +11,10 @@ STERADIAN_INLINE void add(float* p, PackReal x) { store(p, load(p) + x); }
 // without branches, many ends are under way at once.
 struct DiskEnds {
   static constexpr int kRoom = 64;
-  alignas(64) float d2[kTilePixels];       // the centre's distance squared, range 1
+  alignas(64) float d2[kTilePixels];  // the centre's distance squared, range 1
   alignas(64) float sum[kTilePixels];
   alignas(64) float slope[kRoom * kLanes];
-  int pixel[kRoom];                        // the first of the block
+  int pixel[kRoom];  // the first of the block
   float sign[kRoom];
   int count = 0;
   // Ends at a tangent of the disk.

@@ -55,8 +55,8 @@ struct Entry {
 struct Level {
   std::vector<Entry> entries;
   BlockerList blockers;
-  std::vector<int> bodies;  // whose boxes touch the tile
-  std::vector<int> general; // general lights in range
+  std::vector<int> bodies;   // whose boxes touch the tile
+  std::vector<int> general;  // general lights in range
 };
 
 // One thread's work.
@@ -158,7 +158,8 @@ class Worker {
     for (int i : level.bodies) {
       const std::size_t k = static_cast<std::size_t>(i);
       const auto holds = [&](int x, int y) { return world_.boxes[k].holds(grid_.at(x, y)) && world_.contains(k, grid_.at(x, y)); };
-      if (world_.scene.bodies[k].light || frame_.convex[k] == 0 || !holds(x0, y0) || !holds(x1, y1) || !holds(x0, y1) || !holds(x1, y0)) continue;
+      if (world_.scene.bodies[k].light || frame_.convex[k] == 0 || !holds(x0, y0) || !holds(x1, y1) || !holds(x0, y1) || !holds(x1, y0))
+        continue;
       for (int y = y0; y <= y1; ++y) std::fill(&picture_.at(x0, y), &picture_.at(x1, y) + 1, Vec3f{});
       return true;
     }
@@ -198,14 +199,18 @@ class Worker {
     leaf_.enter(tile);
     mark_inside(level, x0, y0);
     // Where something fills every pixel, no light arrives from outside.
-    const bool filled = marked_.size() == static_cast<std::size_t>(std::min(kTileSide, grid_.width - x0) * std::min(kTileSide, grid_.height - y0));
+    const bool filled =
+        marked_.size() == static_cast<std::size_t>(std::min(kTileSide, grid_.width - x0) * std::min(kTileSide, grid_.height - y0));
     for (const Entry& e : level.entries) {
       if (filled) break;
-      const auto [light, visible] = leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
+      const auto [light, visible] =
+          leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
       table_.add_light(light, buffer_);
       ++tile_lights;
-      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count + light.disk_count + light.span_count + light.body_count + light.chord_count + light.deep_count + light.round_count + light.lens_count);
+      tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count +
+                                                  light.disk_count + light.span_count + light.body_count + light.chord_count +
+                                                  light.deep_count + light.round_count + light.lens_count);
     }
     table_.write(buffer_, std::min(kTileSide, grid_.width - x0), std::min(kTileSide, grid_.height - y0), &picture_.at(x0, y0).x,
                  3 * static_cast<std::size_t>(grid_.width));
@@ -225,7 +230,8 @@ class Worker {
       for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
         for (int x = 0; x < kTileSide && x0 + x < grid_.width; ++x)
           if (inside_[y * kTileSide + x] == kOutside)
-            picture_.at(x0 + x, y0 + y) += static_cast<Vec3f>(envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), light, EmissionParts::radiance).radiance);
+            picture_.at(x0 + x, y0 + y) += static_cast<Vec3f>(
+                envelope_light_of(world_, general_curves_, grid_.at(x0 + x, y0 + y), light, EmissionParts::radiance).radiance);
     }
   }
 
@@ -246,8 +252,12 @@ class Worker {
       const PlaneBody& body = world_.scene.bodies[static_cast<std::size_t>(index)];
       const Box& box = world_.boxes[static_cast<std::size_t>(index)];
       const Vec2d first = grid_.at(x0, y0);
-      const auto low = [](double at, double origin, double step) { return static_cast<int>(std::ceil(std::clamp((at - origin) / step - 1e-9, 0.0, 1.0 * kTileSide))); };
-      const auto high = [](double at, double origin, double step, int count) { return static_cast<int>(std::floor(std::min((at - origin) / step + 1e-9, count - 1.0))); };
+      const auto low = [](double at, double origin, double step) {
+        return static_cast<int>(std::ceil(std::clamp((at - origin) / step - 1e-9, 0.0, 1.0 * kTileSide)));
+      };
+      const auto high = [](double at, double origin, double step, int count) {
+        return static_cast<int>(std::floor(std::min((at - origin) / step + 1e-9, count - 1.0)));
+      };
       const int x0_box = low(box.low.x, first.x, grid_.step.x), x1_box = high(box.high.x, first.x, grid_.step.x, columns);
       for (int y = low(box.low.y, first.y, grid_.step.y); y <= high(box.high.y, first.y, grid_.step.y, rows); ++y) {
         const auto within = [&](int x) { return world_.contains(static_cast<std::size_t>(index), grid_.at(x0 + x, y0 + y)); };
@@ -317,13 +327,14 @@ class Worker {
   Level levels_[kLevels];
   TileBuffer buffer_;
   int inside_[kTilePixels];  // what fills each pixel, row by row
-  std::vector<int> marked_;   // those that something fills
+  std::vector<int> marked_;  // those that something fills
   std::vector<const Curve*> general_curves_;
 };
 
 }  // namespace
 
-void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture, PlaneFrameStats& stats) {
+void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
+                  PlaneFrameStats& stats) {
   const TileTable& table = tile_table_for(active_simd());
   const int columns = (grid.width + kSides[0] - 1) / kSides[0], rows = (grid.height + kSides[0] - 1) / kSides[0];
   std::atomic<std::uint64_t> done{0}, lights{0}, blockers{0};

@@ -13,6 +13,7 @@ struct PixelGrid {
 };
 
 // Fills the picture's pixels, and the counts of the statistics.
-void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture, PlaneFrameStats& stats);
+void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
+                  PlaneFrameStats& stats);
 
 }  // namespace steradian::plane

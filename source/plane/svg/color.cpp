@@ -13,6 +13,7 @@ struct Named {
 };
 
 // The colour keywords of SVG 1.1, section 4.4, and rebeccapurple, by name.
+// clang-format off
 constexpr Named kNamed[] = {
     {"aliceblue", 0xF0F8FF}, {"antiquewhite", 0xFAEBD7}, {"aqua", 0x00FFFF}, {"aquamarine", 0x7FFFD4},
     {"azure", 0xF0FFFF}, {"beige", 0xF5F5DC}, {"bisque", 0xFFE4C4}, {"black", 0x000000},
@@ -55,6 +56,7 @@ constexpr Named kNamed[] = {
     {"turquoise", 0x40E0D0}, {"violet", 0xEE82EE}, {"wheat", 0xF5DEB3}, {"white", 0xFFFFFF},
     {"whitesmoke", 0xF5F5F5}, {"yellow", 0xFFFF00}, {"yellowgreen", 0x9ACD32},
 };
+// clang-format on
 
 double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
@@ -70,8 +72,7 @@ std::optional<Vec3d> hexadecimal(std::string_view digits) {
     const char c = digits[is_short ? i / 2 : i];
     value[i] = static_cast<unsigned>(c <= '9' ? c - '0' : (c | 32) - 'a' + 10);
   }
-  return from_srgb((16 * value[0] + value[1]) / 255.0, (16 * value[2] + value[3]) / 255.0,
-                   (16 * value[4] + value[5]) / 255.0);
+  return from_srgb((16 * value[0] + value[1]) / 255.0, (16 * value[2] + value[3]) / 255.0, (16 * value[4] + value[5]) / 255.0);
 }
 
 std::optional<Vec3d> functional(std::string_view arguments) {
@@ -113,8 +114,7 @@ std::optional<Vec3d> parse_color(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with('#')) return hexadecimal(text.substr(1));
   const std::size_t open = text.find('(');
-  if (open != std::string_view::npos && (text.starts_with("rgb(") || text.starts_with("rgba(")))
-    return functional(text.substr(open + 1));
+  if (open != std::string_view::npos && (text.starts_with("rgb(") || text.starts_with("rgba("))) return functional(text.substr(open + 1));
   if (open != std::string_view::npos && (text.starts_with("hsl(") || text.starts_with("hsla("))) return from_hsl(text.substr(open + 1));
   std::string name;
   for (char c : text) name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

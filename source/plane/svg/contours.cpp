@@ -49,7 +49,8 @@ void Pen::bezier(Vec2d a, Vec2d b, Vec2d c, Vec2d d, int halvings) {
   const double bend = 6 * std::max(length(a - b * 2 + c), length(b - c * 2 + d));
   const int n = pieces(std::sqrt(bend / (8 * tolerance_)));
   if (halvings > 0 && n > 1) {
-    const Vec2d ab = (a + b) * 0.5, bc = (b + c) * 0.5, cd = (c + d) * 0.5, abc = (ab + bc) * 0.5, bcd = (bc + cd) * 0.5, middle = (abc + bcd) * 0.5;
+    const Vec2d ab = (a + b) * 0.5, bc = (b + c) * 0.5, cd = (c + d) * 0.5, abc = (ab + bc) * 0.5, bcd = (bc + cd) * 0.5,
+                middle = (abc + bcd) * 0.5;
     bezier(a, ab, abc, middle, halvings - 1);
     bezier(middle, bcd, cd, d, halvings - 1);
     return;

@@ -21,7 +21,8 @@ class Pen {
  public:
   // `before` is told how many points are coming; it may throw.
   using Before = std::function<void(std::size_t points)>;
-  Pen(const Transform& transform, double tolerance, Before before) : transform_(transform), tolerance_(tolerance), before_(std::move(before)) {}
+  Pen(const Transform& transform, double tolerance, Before before)
+      : transform_(transform), tolerance_(tolerance), before_(std::move(before)) {}
 
   Vec2d at() const { return at_; }
   bool has_begun() const { return begun_; }

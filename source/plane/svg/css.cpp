@@ -83,10 +83,12 @@ void StyleSheet::add_rule(std::string_view selector, const std::map<std::string,
   const bool named = !element.empty() && element != "*";
   const int by_mark = mark == std::string_view::npos ? 0 : selector[mark] == '#' ? 100 : 10;
   const std::string found_by(mark == std::string_view::npos ? selector : selector.substr(mark));
-  rules_[found_by].push_back({named && by_mark != 0 ? std::string(element) : std::string(), by_mark + (named ? 1 : 0), count_++, declarations});
+  rules_[found_by].push_back(
+      {named && by_mark != 0 ? std::string(element) : std::string(), by_mark + (named ? 1 : 0), count_++, declarations});
 }
 
-std::optional<std::string> StyleSheet::property(std::string_view element, std::string_view id, std::string_view classes, std::string_view key) const {
+std::optional<std::string> StyleSheet::property(std::string_view element, std::string_view id, std::string_view classes,
+                                                std::string_view key) const {
   const Rule* best = nullptr;
   const auto look = [&](std::string_view found_by) {
     const auto rules = rules_.find(found_by);

@@ -62,8 +62,8 @@ std::optional<double> Document::length_of(std::string_view text, double whole) {
   std::string unit;
   while (!scan.at_end()) unit += scan.next();
   unit = std::string(trimmed(unit));
-  static constexpr std::pair<const char*, double> kUnits[] = {
-      {"", 1}, {"px", 1}, {"pt", 96.0 / 72}, {"pc", 16}, {"in", 96}, {"cm", 96 / 2.54}, {"mm", 9.6 / 2.54}};
+  static constexpr std::pair<const char*, double> kUnits[] = {{"", 1},    {"px", 1},         {"pt", 96.0 / 72}, {"pc", 16},
+                                                              {"in", 96}, {"cm", 96 / 2.54}, {"mm", 9.6 / 2.54}};
   for (const auto& [known, scale] : kUnits)
     if (unit == known) return *value * scale;
   if (unit == "%") return *value / 100 * whole;

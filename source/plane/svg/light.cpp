@@ -106,8 +106,7 @@ class Paint {
     const Transform& t = style.transform;
     const double det = t.determinant();
     if (det == 0) return t;
-    const Transform inverse{t.d / det, -t.b / det, -t.c / det, t.a / det, (t.c * t.f - t.d * t.e) / det,
-                            (t.b * t.e - t.a * t.f) / det};
+    const Transform inverse{t.d / det, -t.b / det, -t.c / det, t.a / det, (t.c * t.f - t.d * t.e) / det, (t.b * t.e - t.a * t.f) / det};
     Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
     const auto grow = [&](Vec2d p) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};

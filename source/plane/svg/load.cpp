@@ -25,7 +25,7 @@ namespace {
 // How far a flattened curve may be from its own, as a share of the picture's larger side: 0.01 of a pixel in a picture of
 // 1000 pixels, whatever a user unit is.
 constexpr double kFlatness = 1e-5;
-constexpr int kDeepest = 64;           // nested groups and uses: deeper is a cycle or an attack
+constexpr int kDeepest = 64;  // nested groups and uses: deeper is a cycle or an attack
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
 
@@ -115,7 +115,7 @@ class Reader {
   struct Declared {
     std::optional<std::string> fill, stroke, color, cap, rule;
     std::optional<double> stroke_width, intensity, range, fill_opacity, stroke_opacity;
-    double opacity = 1;  // of the whole element
+    double opacity = 1;          // of the whole element
     Role role = Role::by_shape;  // by_shape: says nothing
     std::optional<PlaneProfile> profile;
     std::optional<std::pair<Vec2d, double>> spot;
@@ -154,7 +154,8 @@ class Reader {
     if (n.attribute("transform")) {
       d.transform = parse_transform(n.attribute("transform").value());
       if (!d.transform)
-        document_.fail(n, std::string("cannot read transform=\"") + n.attribute("transform").value() + "\"", "use matrix, translate, scale, rotate, skewX and skewY");
+        document_.fail(n, std::string("cannot read transform=\"") + n.attribute("transform").value() + "\"",
+                       "use matrix, translate, scale, rotate, skewX and skewY");
     }
     if (d.role == Role::ignore) return;
     for (const char* unsupported : {"clip-path", "mask", "filter"})
@@ -220,16 +221,20 @@ class Reader {
         return;
       }
     document_.fail(n, std::string("data-steradian=\"") + n.attribute("data-steradian").value() + "\" is unknown",
-         "use light, occluder or ignore");
+                   "use light, occluder or ignore");
   }
 
   void read_profile(pugi::xml_node n, Declared& d) const {
     if (n.attribute("data-profile")) {
       const std::string_view v = trimmed(n.attribute("data-profile").value());
-      if (v == "uniform") d.profile = PlaneProfile::uniform;
-      else if (v == "lambert") d.profile = PlaneProfile::lambert;
-      else if (v == "inverse") d.profile = PlaneProfile::inverse;
-      else document_.fail(n, "data-profile=\"" + std::string(v) + "\" is unknown", "use uniform, lambert or inverse");
+      if (v == "uniform")
+        d.profile = PlaneProfile::uniform;
+      else if (v == "lambert")
+        d.profile = PlaneProfile::lambert;
+      else if (v == "inverse")
+        d.profile = PlaneProfile::inverse;
+      else
+        document_.fail(n, "data-profile=\"" + std::string(v) + "\" is unknown", "use uniform, lambert or inverse");
     }
     if (!n.attribute("data-spot")) return;
     Scanner scan(n.attribute("data-spot").value());
@@ -277,7 +282,8 @@ class Reader {
 
   void children(pugi::xml_node n, const Style& style, int depth) {
     if (uses_ > 0 && drawing_.count(n.internal_object()) == 0) return;
-    if (depth > kDeepest) document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
+    if (depth > kDeepest)
+      document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
     for (pugi::xml_node child : n.children()) {
       if (child.type() != pugi::node_element) continue;
       element(child, style, depth);
@@ -287,10 +293,11 @@ class Reader {
   void element(pugi::xml_node n, const Style& outer, int depth) {
     spend(n, kElementSteps, 0);
     const std::string_view name = n.name();
-    static const std::set<std::string_view> kSilent = {"title", "desc", "metadata", "defs", "linearGradient", "radialGradient", "symbol", "style"};
+    static const std::set<std::string_view> kSilent = {"title",          "desc",           "metadata", "defs",
+                                                       "linearGradient", "radialGradient", "symbol",   "style"};
     if (kSilent.count(name) != 0 || name.find(':') != std::string_view::npos) return;
-    static const std::set<std::string_view> kKnown = {"g",    "a",       "svg",     "use",  "rect", "circle", "ellipse",
-                                                      "line", "polygon", "polyline", "path"};
+    static const std::set<std::string_view> kKnown = {"g",       "a",    "svg",     "use",      "rect", "circle",
+                                                      "ellipse", "line", "polygon", "polyline", "path"};
     if (kKnown.count(name) == 0) {
       document_.ignored.insert("<" + std::string(name) + ">");
       return;
@@ -303,7 +310,8 @@ class Reader {
   }
 
   void use(pugi::xml_node n, Style style, int depth) {
-    if (depth > kDeepest) document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
+    if (depth > kDeepest)
+      document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a <use> that contains itself");
     const pugi::xml_node target = document_.referred(n);
     if (!target) document_.fail(n, "refers to nothing in this file", "give href=\"#ID\" of an element of this file");
     Transform move;
@@ -391,7 +399,8 @@ class Reader {
   void draw_rect(pugi::xml_node n, Vec2d corner, Vec2d size, Pen& pen) const {
     if (size.x < 0 || size.y < 0) document_.fail(n, "width and height must not be negative", "move x or y instead");
     if (size.x == 0 || size.y == 0) return;
-    double rx = document_.length_attribute(n, "rx", result_.scene.width, -1), ry = document_.length_attribute(n, "ry", result_.scene.height, -1);
+    double rx = document_.length_attribute(n, "rx", result_.scene.width, -1),
+           ry = document_.length_attribute(n, "ry", result_.scene.height, -1);
     if (rx < 0) rx = ry;
     if (ry < 0) ry = rx;
     rx = std::clamp(rx, 0.0, size.x / 2);
@@ -420,7 +429,8 @@ class Reader {
     body.name = n.attribute("id").value();
     if (style.role == Role::light) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
-    if (body.light && body.light->gradient) spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
+    if (body.light && body.light->gradient)
+      spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
     result_.scene.bodies.push_back(std::move(body));
   }
 

@@ -64,7 +64,8 @@ TEST(LoadSvg, ColorsAreMadeLinear) {
 }
 
 TEST(LoadSvg, StyleSheetsSayWhatAttributesWouldWhereverTheyStand) {
-  const PlaneSvg svg = load(R"~(<rect id="a" class="lamp warm" width="9" height="9" fill="#000"/><circle class="lamp" r="4"/><circle r="2" class="cold"/>
+  const PlaneSvg svg =
+      load(R"~(<rect id="a" class="lamp warm" width="9" height="9" fill="#000"/><circle class="lamp" r="4"/><circle r="2" class="cold"/>
     <rect class="light cold" width="3" height="3" style="fill:#00f"/>
     <style><![CDATA[ /* a { fill: red } */ .lamp, .cold { fill: #ff0000; } #a { fill: lime } circle.cold { display: none }
     @media print { rect { display: none } } g > rect { fill: blue } ]]></style>)~");
@@ -81,13 +82,15 @@ TEST(LoadSvg, StyleSheetsSayWhatAttributesWouldWhereverTheyStand) {
 }
 
 TEST(LoadSvg, LayersAreNamedForTheirRole) {
-  const PlaneSvg svg = load(R"~(<g inkscape:label="Lights"><rect width="1" height="1"/></g><g inkscape:label="Highlight"><rect width="1" height="1"/></g>)~");
+  const PlaneSvg svg = load(
+      R"~(<g inkscape:label="Lights"><rect width="1" height="1"/></g><g inkscape:label="Highlight"><rect width="1" height="1"/></g>)~");
   EXPECT_TRUE(svg.scene.bodies.at(0).light);
   EXPECT_FALSE(svg.scene.bodies.at(1).light);
 }
 
 TEST(LoadSvg, OpacityDimsLights) {
-  const PlaneSvg svg = load(R"~(<g class="light" opacity="0.5"><circle r="1" fill="#fff" fill-opacity="50%"/><circle r="1" fill="hsl(120, 100%, 50%)"/></g>
+  const PlaneSvg svg =
+      load(R"~(<g class="light" opacity="0.5"><circle r="1" fill="#fff" fill-opacity="50%"/><circle r="1" fill="hsl(120, 100%, 50%)"/></g>
     <rect width="1" height="1" opacity="0"/><rect width="1" height="1" fill-opacity="0"/>)~");
   ASSERT_EQ(svg.scene.bodies.size(), 2u) << "what is not seen does not block";
   EXPECT_NEAR(svg.scene.bodies[0].light->radiance.x, 0.25, 1e-15);
@@ -142,7 +145,8 @@ TEST(LoadSvg, CurvesAreAsFineInAnyUnit) {
   for (double unit : {1e-3, 0.01, 1.0, 1000.0}) {
     const auto number = [&](double x) { return std::to_string(x * unit); };
     const std::string r = number(10);
-    const PlaneSvg svg = load("<path d=\"M" + number(40) + " " + number(50) + " a" + r + " " + r + " 0 1 0 " + number(20) + " 0 a" + r + " " + r + " 0 1 0 " + number(-20) + " 0z\"/>",
+    const PlaneSvg svg = load("<path d=\"M" + number(40) + " " + number(50) + " a" + r + " " + r + " 0 1 0 " + number(20) + " 0 a" + r +
+                                  " " + r + " 0 1 0 " + number(-20) + " 0z\"/>",
                               "viewBox=\"0 0 " + number(100) + " " + number(100) + "\"");
     // The inscribed polygon falls short by two thirds of the sagitta, along the outline.
     EXPECT_NEAR(area_of(svg.scene.bodies.at(0)) / (unit * unit), M_PI * 100, 1e-3 * 63) << unit;
@@ -151,8 +155,8 @@ TEST(LoadSvg, CurvesAreAsFineInAnyUnit) {
 }
 
 TEST(LoadSvg, ArcsOfAnySizeHaveFinitePoints) {
-  for (const char* data : {"M0 0 A1e-200 1e200 0 0 1 5 5", "M0 0 A1e-320 1e-320 0 0 1 5 5", "M0 0 A1e300 1e300 0 1 1 5 5", "M0 0 A1e-200 1e-200 30 0 1 1e-190 0 L9 9",
-                           "M0 0 A0 3 0 0 1 5 5 L2 9", "M0 0 A1e160 1e-160 7 0 1 5 5 L3 8"}) {
+  for (const char* data : {"M0 0 A1e-200 1e200 0 0 1 5 5", "M0 0 A1e-320 1e-320 0 0 1 5 5", "M0 0 A1e300 1e300 0 1 1 5 5",
+                           "M0 0 A1e-200 1e-200 30 0 1 1e-190 0 L9 9", "M0 0 A0 3 0 0 1 5 5 L2 9", "M0 0 A1e160 1e-160 7 0 1 5 5 L3 8"}) {
     const PlaneSvg svg = load(std::string("<path d=\"") + data + "\" fill=\"none\" stroke=\"black\"/>");
     for (const PlaneBody& body : svg.scene.bodies)
       for (const auto& contour : body.contours)
@@ -194,7 +198,8 @@ TEST(LoadSvg, RoundStrokesHoldWhatIsNear) {
     const int n = 3 + i % 5;
     for (int k = 0; k < n; ++k) line.push_back({random.uniform(20, 80), random.uniform(20, 80)});
     if (i % 3 == 1)
-      for (int k = 0; k < 40; ++k) line.push_back(line[static_cast<std::size_t>(n) - 1] + Vec2d{3 * std::cos(k * 0.1) - 3, 3 * std::sin(k * 0.1)});
+      for (int k = 0; k < 40; ++k)
+        line.push_back(line[static_cast<std::size_t>(n) - 1] + Vec2d{3 * std::cos(k * 0.1) - 3, 3 * std::sin(k * 0.1)});
     const bool closed = i % 2 == 0;
     const double radius = random.uniform(0.5, 9);
     const PlaneBody stroke = svg::stroke_of(line, closed, radius, 1e-3);
@@ -207,13 +212,15 @@ TEST(LoadSvg, RoundStrokesHoldWhatIsNear) {
         nearest = std::min(nearest, length(p - a - ab * t));
       }
       if (std::fabs(nearest - radius) < 2e-3) continue;  // within the flattening's tolerance of its edge
-      EXPECT_EQ(contains(stroke, p), nearest < radius) << "stroke " << i << " of radius " << radius << " at " << p.x << ", " << p.y << ", " << nearest << " away";
+      EXPECT_EQ(contains(stroke, p), nearest < radius)
+          << "stroke " << i << " of radius " << radius << " at " << p.x << ", " << p.y << ", " << nearest << " away";
     }
   }
 }
 
 TEST(LoadSvg, GradientsFollowTheirBoxAndTransform) {
-  const PlaneSvg svg = load(R"~(<defs><linearGradient id="stops"><stop offset="0" stop-color="black"/><stop offset="100%" stop-color="white"/></linearGradient>
+  const PlaneSvg svg = load(
+      R"~(<defs><linearGradient id="stops"><stop offset="0" stop-color="black"/><stop offset="100%" stop-color="white"/></linearGradient>
     <linearGradient id="g" href="#stops"/></defs>
     <rect class="light" x="20" y="10" width="40" height="5" fill="url(#g)" transform="translate(5 0)"/>
     <rect class="light" width="10" height="10" fill="url(#g)" transform="skewX(45)"/>)~");
@@ -228,7 +235,8 @@ TEST(LoadSvg, GradientsFollowTheirBoxAndTransform) {
 }
 
 TEST(LoadSvg, NamesEachUnknownElementOnce) {
-  const PlaneSvg svg = load(R"~(<text>a</text><text>b</text><image/><g filter="url(#f)"><rect width="1" height="1"/></g><title>t</title>)~");
+  const PlaneSvg svg =
+      load(R"~(<text>a</text><text>b</text><image/><g filter="url(#f)"><rect width="1" height="1"/></g><title>t</title>)~");
   EXPECT_EQ(svg.ignored, (std::vector<std::string>{"<image>", "<text>", "filter"}));
 }
 
@@ -286,7 +294,8 @@ TEST(LoadSvg, WrittenScenesReadBackAsTheSame) {
 
 // Whatever the bytes: a scene, or an Error; and no scene makes the exact method return what is not a number.
 TEST(LoadSvg, SurvivesMutations) {
-  const std::string seed = R"~(<svg viewBox="0 0 64 64"><defs><linearGradient id="g" x1="0" y1="0" x2="1" y2="1" gradientTransform="rotate(10)">
+  const std::string seed =
+      R"~(<svg viewBox="0 0 64 64"><defs><linearGradient id="g" x1="0" y1="0" x2="1" y2="1" gradientTransform="rotate(10)">
 <stop offset="0" stop-color="#f00"/><stop offset="1" stop-color="blue"/></linearGradient></defs>
 <g transform="translate(3,4) scale(1.5)" class="light" data-range="30" data-spot="10 40"><circle cx="10" cy="10" r="4" fill="url(#g)"/>
 <path d="M20 20 c5 5 10 5 15 0 a3 4 10 0 1 4 4 q1 2 3 4 z" fill="#fe8" data-profile="lambert"/></g>

@@ -48,8 +48,7 @@ std::optional<bool> Scanner::flag() {
 }
 
 Transform Transform::operator*(const Transform& n) const {
-  return {a * n.a + c * n.b,     b * n.a + d * n.b,     a * n.c + c * n.d,
-          b * n.c + d * n.d, a * n.e + c * n.f + e, b * n.e + d * n.f + f};
+  return {a * n.a + c * n.b, b * n.a + d * n.b, a * n.c + c * n.d, b * n.c + d * n.d, a * n.e + c * n.f + e, b * n.e + d * n.f + f};
 }
 
 std::optional<Transform> parse_transform(std::string_view text) {

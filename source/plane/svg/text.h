@@ -20,9 +20,9 @@ class Scanner {
   char peek() const { return at_end() ? '\0' : text_[at_]; }
   char next() { return text_[at_++]; }
   bool accept(char c);
-  void skip_separators();               // white space and commas
-  std::optional<double> number();       // skips separators behind it; empty where no finite number stands
-  std::optional<bool> flag();           // 0 or 1, as in arcs, where nothing need follow it
+  void skip_separators();          // white space and commas
+  std::optional<double> number();  // skips separators behind it; empty where no finite number stands
+  std::optional<bool> flag();      // 0 or 1, as in arcs, where nothing need follow it
 
  private:
   std::string_view text_;

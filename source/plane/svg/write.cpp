@@ -35,10 +35,14 @@ std::string color(Vec3d linear) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -50,7 +54,8 @@ std::string emission(const PlaneEmission& e, std::size_t index, const char* pain
     for (const PlaneStop& s : e.gradient->stops) scale = std::max(scale, largest(s.radiance));
   }
   if (scale <= 0) scale = 1;
-  std::string out = std::string(" ") + paint + "=\"" + (e.gradient ? "url(#gradient" + std::to_string(index) + ")" : color(e.radiance / scale)) + "\"";
+  std::string out =
+      std::string(" ") + paint + "=\"" + (e.gradient ? "url(#gradient" + std::to_string(index) + ")" : color(e.radiance / scale)) + "\"";
   out += " data-steradian=\"light\"";
   if (scale != 1) out += attribute("data-intensity", scale);
   if (e.range < 1e300) out += attribute("data-range", e.range);
@@ -69,16 +74,14 @@ std::string gradient(const PlaneEmission& e, std::size_t index) {
   if (scale <= 0) scale = 1;
   std::string out = "<linearGradient id=\"gradient" + std::to_string(index) + "\" gradientUnits=\"userSpaceOnUse\"" +
                     attribute("x1", g.from.x) + attribute("y1", g.from.y) + attribute("x2", g.to.x) + attribute("y2", g.to.y) + ">";
-  for (const PlaneStop& s : g.stops)
-    out += "<stop" + attribute("offset", s.offset) + " stop-color=\"" + color(s.radiance / scale) + "\"/>";
+  for (const PlaneStop& s : g.stops) out += "<stop" + attribute("offset", s.offset) + " stop-color=\"" + color(s.radiance / scale) + "\"/>";
   return out + "</linearGradient>\n";
 }
 
 std::string path(const PlaneBody& body, bool closed) {
   std::string d;
   for (const auto& contour : body.contours) {
-    for (std::size_t i = 0; i < contour.size(); ++i)
-      d += (i == 0 ? "M" : " ") + number(contour[i].x) + "," + number(contour[i].y);
+    for (std::size_t i = 0; i < contour.size(); ++i) d += (i == 0 ? "M" : " ") + number(contour[i].x) + "," + number(contour[i].y);
     if (closed) d += "Z";
   }
   return " d=\"" + d + "\"";
@@ -108,16 +111,18 @@ std::string plane_scene_to_svg(const PlaneScene& scene) {
         break;
       case PlaneBody::Shape::polyline: out += "<path" + path(body, false) + rest + "/>\n"; break;
       case PlaneBody::Shape::capsule:
-        out += "<line" + attribute("x1", body.contours[0][0].x) + attribute("y1", body.contours[0][0].y) + attribute("x2", body.contours[0][1].x) +
-               attribute("y2", body.contours[0][1].y) + attribute("stroke-width", 2 * body.radius) + " stroke-linecap=\"round\"" + rest + "/>\n";
+        out += "<line" + attribute("x1", body.contours[0][0].x) + attribute("y1", body.contours[0][0].y) +
+               attribute("x2", body.contours[0][1].x) + attribute("y2", body.contours[0][1].y) +
+               attribute("stroke-width", 2 * body.radius) + " stroke-linecap=\"round\"" + rest + "/>\n";
         break;
       case PlaneBody::Shape::ellipse:
         if (body.x_axis.y == 0 && body.y_axis.x == 0 && body.x_axis.x == body.y_axis.y) {
-          out += "<circle" + attribute("cx", body.center.x) + attribute("cy", body.center.y) + attribute("r", body.x_axis.x) + rest + "/>\n";
+          out +=
+              "<circle" + attribute("cx", body.center.x) + attribute("cy", body.center.y) + attribute("r", body.x_axis.x) + rest + "/>\n";
         } else {
           // The gradient's coordinates are the scene's: the transform is on the ellipse only where there is none.
-          out += "<circle r=\"1\" transform=\"matrix(" + number(body.x_axis.x) + " " + number(body.x_axis.y) + " " + number(body.y_axis.x) + " " +
-                 number(body.y_axis.y) + " " + number(body.center.x) + " " + number(body.center.y) + ")\"" + rest + "/>\n";
+          out += "<circle r=\"1\" transform=\"matrix(" + number(body.x_axis.x) + " " + number(body.x_axis.y) + " " + number(body.y_axis.x) +
+                 " " + number(body.y_axis.y) + " " + number(body.center.x) + " " + number(body.center.y) + ")\"" + rest + "/>\n";
         }
     }
   }

@@ -6,8 +6,7 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-__attribute__((flatten)) void ggx(const PackLight& light, const Points& points, Quality quality, float* plain,
-                               float* fresnel) {
+__attribute__((flatten)) void ggx(const PackLight& light, const Points& points, Quality quality, float* plain, float* fresnel) {
   PackKernels k;
   integrals::Ggx<Pack> integral;
   integral.quality = quality;
@@ -25,7 +24,7 @@ __attribute__((flatten)) void ggx(const PackLight& light, const Points& points, 
     integral.alpha_x = load(points.alpha_x + i);
     integral.alpha_y = load(points.alpha_y + i);
     const AboutLobe lobe = {k.phong_mirror(view), PackReal(2.0) * max(integral.alpha_x, integral.alpha_y),
-                           quality == Quality::high ? 16 : 12};
+                            quality == Quality::high ? 16 : 12};
     const auto r = integrate(AnyOutline{{seen, frame, p, lobe}}, seen.shading(view), integral);
     store(plain + i, r.x);
     store(fresnel + i, r.y);

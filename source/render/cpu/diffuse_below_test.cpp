@@ -137,13 +137,15 @@ TEST(LambertUnderFresnel, PicturesShowIt) {
           Material even = lambert;
           even.fresnel_loss = 0;
           const double constant_weight = reference_radiance(polygon, at, even, {1e-6, 1e-9, 50'000}).radiance.x;
-          const Vec3d glossy = method == "ltc" ? ltc_radiance(LtcMethod::classic, polygon, at, ggx) : closed_form_radiance(polygon, at, ggx);
+          const Vec3d glossy =
+              method == "ltc" ? ltc_radiance(LtcMethod::classic, polygon, at, ggx) : closed_form_radiance(polygon, at, ggx);
           const double got = static_cast<double>(picture.at(x, y).x) - glossy.x;
           error += (got - diffuse) * (got - diffuse);
           constant += (constant_weight - diffuse) * (constant_weight - diffuse);
           signal += diffuse * diffuse;
         }
-      std::printf("%s: relative L2 %.4f, of a constant weight %.4f\n", method.c_str(), std::sqrt(error / signal), std::sqrt(constant / signal));
+      std::printf("%s: relative L2 %.4f, of a constant weight %.4f\n", method.c_str(), std::sqrt(error / signal),
+                  std::sqrt(constant / signal));
       EXPECT_GT(std::sqrt(constant / signal), 0.05);
       EXPECT_LT(std::sqrt(error / signal), 0.02) << method;  // docs/accuracy.md, "Diffuse under Fresnel": 0.010 at 85 degrees
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-
 namespace steradian {
 namespace {
 
@@ -47,8 +46,8 @@ Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]};
 }  // namespace
 
 void put_nothing(SurfaceTile& tile, std::size_t i) {
-  for (TileVector* v : {&tile.position, &tile.normal, &tile.geometric_normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent, &tile.sheen,
-                        &tile.coat_normal, &tile.radiance})
+  for (TileVector* v : {&tile.position, &tile.normal, &tile.geometric_normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent,
+                        &tile.sheen, &tile.coat_normal, &tile.radiance})
     put(*v, i, {});
   tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
   tile.coat[i] = tile.fresnel_loss[i] = 0;
@@ -92,8 +91,8 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
     for (int bx = 0; bx < kTileSide; bx += 4) {
       const std::size_t first = tile_slot(bx, by);
       for (int i = 0; i < 16; ++i) valid[i] = bx + i % 4 < area.width && by + i / 4 < area.height ? -1 : 0;
-      camera.block_directions(static_cast<float>(area.x + bx) + place.x, static_cast<float>(area.y + by) + place.y,
-                              packet.ray.dir_x, packet.ray.dir_y, packet.ray.dir_z);
+      camera.block_directions(static_cast<float>(area.x + bx) + place.x, static_cast<float>(area.y + by) + place.y, packet.ray.dir_x,
+                              packet.ray.dir_y, packet.ray.dir_z);
       std::fill_n(packet.ray.tfar, 16, std::numeric_limits<float>::infinity());
       std::fill_n(packet.hit.geomID, 16, RTC_INVALID_GEOMETRY_ID);
       std::fill_n(packet.hit.instID[0], 16, RTC_INVALID_GEOMETRY_ID);

@@ -47,15 +47,11 @@ struct Box {
 };
 
 // Largest product of two numbers from two intervals.
-float largest_product(Interval a, Interval b) {
-  return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-}
+float largest_product(Interval a, Interval b) { return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
 
 // Largest height of the vertex v above the horizon of any surface of the tile.
 float largest_height(Vec3f v, const Box& positions, const Box& normals) {
-  const auto along = [](float c, Interval p, Interval n) {
-    return largest_product({c - p.high, c - p.low}, n);
-  };
+  const auto along = [](float c, Interval p, Interval n) { return largest_product({c - p.high, c - p.low}, n); };
   return along(v.x, positions.x, normals.x) + along(v.y, positions.y, normals.y) + along(v.z, positions.z, normals.z);
 }
 
@@ -63,22 +59,20 @@ float largest_height(Vec3f v, const Box& positions, const Box& normals) {
 Interval heights(const Box& box, Vec3f normal, Vec3f point) {
   Interval h;
   for (int i = 0; i < 8; ++i) {
-    const Vec3f p{(i & 1) != 0 ? box.x.high : box.x.low, (i & 2) != 0 ? box.y.high : box.y.low,
-                  (i & 4) != 0 ? box.z.high : box.z.low};
+    const Vec3f p{(i & 1) != 0 ? box.x.high : box.x.low, (i & 2) != 0 ? box.y.high : box.y.low, (i & 4) != 0 ? box.z.high : box.z.low};
     h.add(dot(p - point, normal));
   }
   return h;
 }
 
-bool faces(const auto& flat, const Box& positions) {
-  return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0;
-}
+bool faces(const auto& flat, const Box& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
 bool faces(const packed::Ellipsoid&, const Box&) { return true; }
 bool faces(const packed::Capsule&, const Box&) { return true; }
 bool faces(const packed::Punctual&, const Box&) { return true; }
 
 bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
-  if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape); punctual != nullptr && punctual->kind == PunctualKind::directional) {
+  if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
+      punctual != nullptr && punctual->kind == PunctualKind::directional) {
     const Interval zero{0, 0};
     return largest_height(-static_cast<Vec3f>(punctual->direction), {zero, zero, zero}, normals) > 0;
   }

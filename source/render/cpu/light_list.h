@@ -17,9 +17,9 @@ class TexturedLight;
 
 struct PackLight {
   std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual> shape;
-  Vec3f radiance{};                 // punctual lights: intensity (illuminance for directional)
-  const AreaLight* area = nullptr;  // what it was made of; null for punctual lights
-  PreparedPolygon polygon;          // polygon, in double
+  Vec3f radiance{};                               // punctual lights: intensity (illuminance for directional)
+  const AreaLight* area = nullptr;                // what it was made of; null for punctual lights
+  PreparedPolygon polygon;                        // polygon, in double
   std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
 
   bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }

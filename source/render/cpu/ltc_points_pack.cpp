@@ -40,8 +40,7 @@ __attribute__((flatten, noinline)) Both integrate_round(const SeenLight& seen, c
 }
 
 template <bool with_diffuse, class Decode>
-STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums,
-                          Decode decode) {
+STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums, Decode decode) {
   PackKernels k;
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
@@ -68,21 +67,18 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
 }
 
 template <class Decode>
-STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums,
-                          Decode decode) {
+STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums, Decode decode) {
   if (sums.irradiance != nullptr)
     run<true>(light, points, tables, sums, decode);
   else
     run<false>(light, points, tables, sums, decode);
 }
 
-__attribute__((flatten)) void classic(const PackLight& light, const Points& points, const LtcPackTables& tables,
-                                      const LtcSums& sums) {
+__attribute__((flatten)) void classic(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums) {
   run(light, points, tables, sums, [](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
 }
 
-__attribute__((flatten)) void compact(const PackLight& light, const Points& points, const LtcPackTables& tables,
-                                      const LtcSums& sums) {
+__attribute__((flatten)) void compact(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums) {
   run(light, points, tables, sums, [](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
     return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
   });

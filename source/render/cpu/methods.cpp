@@ -42,8 +42,7 @@ std::vector<SpecularLobe> specular_lobes_in(const Scene& scene) {
     if (weighs(m.sheen_color)) lobes.push_back({m.name, sheen()});
     if (m.clearcoat > 0) lobes.push_back({m.name, ggx_of_any_width(false), true});
     const bool metal = m.metallic > 0 && weighs({m.base_color.x, m.base_color.y, m.base_color.z});
-    if (m.specular_override.empty() && (metal || m.specular > 0))
-      lobes.push_back({m.name, ggx_of_any_width(m.anisotropy > 0), true});
+    if (m.specular_override.empty() && (metal || m.specular > 0)) lobes.push_back({m.name, ggx_of_any_width(m.anisotropy > 0), true});
   }
   return lobes;
 }
@@ -55,8 +54,7 @@ std::string describe(const SpecularLobe& l) {
 
 // Sheen has one method, which serves beside every method of GGX.
 Method method_for(Method asked_for, const Material& lobe) {
-  return lobe.brdf == Brdf::charlie && asked_for != Method::automatic &&
-                 methods::row_of(asked_for).serves(ggx_of_any_width(false))
+  return lobe.brdf == Brdf::charlie && asked_for != Method::automatic && methods::row_of(asked_for).serves(ggx_of_any_width(false))
              ? Method::automatic
              : asked_for;
 }
@@ -70,8 +68,7 @@ DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& n
   for (const SpecularLobe& l : lobes) {
     const methods::Row* row = methods::find(method_for(*asked_for, l.lobe), l.lobe, quality);
     if (row == nullptr || !row->in_float)  // in a picture, auto is no reference
-      throw UsageError("--method " + name, "does not serve the " + describe(l),
-                       "use auto, sampled or reference, or another material");
+      throw UsageError("--method " + name, "does not serve the " + describe(l), "use auto, sampled or reference, or another material");
     // One method for all of them: the first that a lobe asks for, or the closed form where another cannot have that.
     if (l.layered) {
       method.ggx = !layered || method.ggx == row->method ? row->method : Method::closed_form;
@@ -84,11 +81,9 @@ DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& n
   }
   const auto add = [&](Method m) {
     const std::string own = name_of(m);
-    if (("+" + method.name + "+").find("+" + own + "+") == std::string::npos)
-      method.name += (method.name.empty() ? "" : "+") + own;
+    if (("+" + method.name + "+").find("+" + own + "+") == std::string::npos) method.name += (method.name.empty() ? "" : "+") + own;
   };
-  for (const SpecularLobe& l : lobes)
-    add(l.layered ? method.ggx : methods::find(*asked_for, l.lobe, quality)->method);
+  for (const SpecularLobe& l : lobes) add(l.layered ? method.ggx : methods::find(*asked_for, l.lobe, quality)->method);
   if (method.name.empty()) method.name = name_of(Method::exact);
   return method;
 }
@@ -118,8 +113,8 @@ DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
   if (options.method == "sampled" || options.method == "reference") {
     method.name = options.method;
     method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
-    const bool textured = std::any_of(scene.area_lights.begin(), scene.area_lights.end(),
-                                      [](const AreaLight& light) { return light.texture.has_value(); });
+    const bool textured =
+        std::any_of(scene.area_lights.begin(), scene.area_lights.end(), [](const AreaLight& light) { return light.texture.has_value(); });
     // Under a textured light, no closed form is exact.
     method.exact_diffuse = method.kind == MethodKind::sampled && options.shadows == Shadows::off && !textured;
     method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;

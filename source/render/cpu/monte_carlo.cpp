@@ -16,8 +16,8 @@
 namespace steradian {
 namespace {
 
-using reference::AzimuthSampler;
 using lobes::Lobe;
+using reference::AzimuthSampler;
 
 // Sum over the lobes; radiance of a unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
@@ -53,8 +53,7 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows)
 
 DirectSampler::~DirectSampler() = default;
 
-Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp,
-                                 reference::Random& random) {
+Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random) {
   std::vector<SurfaceLobe> rest = lobes_of(surface);
   if (choice == LobeChoice::specular) std::erase_if(rest, [](const SurfaceLobe& l) { return l.diffuse; });
   Estimate sum;

@@ -9,7 +9,7 @@ namespace {
 // A function for each method, so that it holds one walk in registers.
 template <class Share>
 __attribute__((flatten, noinline)) void radiance_by(const Share& share, double exponent, const PhongOptions& options,
-                                                const PackLight& light, const Points& points, float* result) {
+                                                    const PackLight& light, const Points& points, float* result) {
   PackKernels k;
   integrals::Phong<Pack, Share> integral(share, exponent, options);
   for (std::size_t i = 0; i < points.count; i += kLanes) {
@@ -23,7 +23,8 @@ __attribute__((flatten, noinline)) void radiance_by(const Share& share, double e
 
 void radiance(const PackLight& light, const Points& points, double exponent, const PhongOptions& options, float* result) {
   const integrals::PhongLobe<Pack> lobe(exponent, options.relative_precision);
-  integrals::with_phong_share<Pack>(lobe, options, [&](const auto& share) { radiance_by(share, exponent, options, light, points, result); });
+  integrals::with_phong_share<Pack>(lobe, options,
+                                    [&](const auto& share) { radiance_by(share, exponent, options, light, points, result); });
 }
 
 }  // namespace

@@ -16,8 +16,7 @@ constexpr unsigned kHasEdges = 4;
 constexpr unsigned kCutOut = 8;
 
 template <class T>
-void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, const T* data,
-                 std::size_t count) {
+void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, const T* data, std::size_t count) {
   void* target = rtcSetNewGeometryBuffer(geometry, type, 0, format, item, count);
   if (target == nullptr) throw Error("", "out of memory for " + std::to_string(count) + " triangles or vertices");
   std::memcpy(target, data, item * count);
@@ -50,10 +49,8 @@ RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")), rtc_(nullptr
     const Mesh& mesh = scene.meshes[i];
     if (mesh.indices.empty()) continue;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(),
-                mesh.positions.size());
-    copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(),
-                mesh.triangle_count());
+    copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(), mesh.positions.size());
+    copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(), mesh.triangle_count());
     const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
     rtcSetGeometryMask(geometry, mesh.is_light_shape || !mesh.casts_shadow ? kSeenByCamera
                                  : cut_out                                 ? kSeenByCamera | kCastsShadow | kCutOut
@@ -86,8 +83,8 @@ void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
 bool RayScene::intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  hit.ray = {origin.x, origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f,
-             std::numeric_limits<float>::infinity(), kSeenByCamera, 0, 0};
+  hit.ray = {origin.x,      origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, std::numeric_limits<float>::infinity(),
+             kSeenByCamera, 0,        0};
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(rtc_, &context, &hit);
@@ -105,9 +102,7 @@ bool blocked(RTCScene rtc, Vec3f from, Vec3f direction, float near, float far, u
 }
 
 // How far the origin of a shadow ray keeps off its surface: a few roundings of its coordinates.
-float offset_of(Vec3f p) {
-  return 1e-5f + 4e-6f * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-}
+float offset_of(Vec3f p) { return 1e-5f + 4e-6f * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 }  // namespace
 

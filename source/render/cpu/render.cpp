@@ -28,9 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 // Thread time of a pass, summed over tiles.
 class PassClock {
@@ -55,8 +53,8 @@ struct Pilot {
   double square = 0;    // of the radiance, likewise
 };
 
-constexpr int kPilotPairs = 32;      // enough to rank tiles; the final estimate does not use them
-constexpr int kMinPairs = 64;        // below, the estimated variance is too rough for a z-test
+constexpr int kPilotPairs = 32;  // enough to rank tiles; the final estimate does not use them
+constexpr int kMinPairs = 64;    // below, the estimated variance is too rough for a z-test
 constexpr int kMaxPairs = 1 << 16;
 
 class Renderer {
@@ -92,7 +90,10 @@ class Renderer {
   }
 
   void report(RenderStats& stats) const {
-    stats.passes = {{"build", build_ms_}, rays_clock_.time(threads_), gbuffer_clock_.time(threads_), direct_clock_.time(threads_),
+    stats.passes = {{"build", build_ms_},
+                    rays_clock_.time(threads_),
+                    gbuffer_clock_.time(threads_),
+                    direct_clock_.time(threads_),
                     specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
     if (shadows_) {
@@ -137,8 +138,8 @@ class Renderer {
 
   // One stream of random numbers per pixel and primary sample: no result depends on who computes what.
   reference::Random random_of(TileArea a, int x, int y, int sample, std::uint64_t phase) const {
-    const auto pixel = static_cast<std::uint64_t>(a.y + y) * static_cast<std::uint64_t>(options_.width) +
-                       static_cast<std::uint64_t>(a.x + x);
+    const auto pixel =
+        static_cast<std::uint64_t>(a.y + y) * static_cast<std::uint64_t>(options_.width) + static_cast<std::uint64_t>(a.x + x);
     return reference::Random(options_.seed,
                              (pixel * static_cast<std::uint64_t>(options_.aa) + static_cast<std::uint64_t>(sample)) * 2 + phase);
   }
@@ -200,8 +201,7 @@ class Renderer {
     if (method_.exact_diffuse && tile.any_diffuse)
       direct_clock_.run([&] {
         std::vector<const PackLight*> plain = without_textured(lights);
-        if (!method_.estimates())
-          std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
+        if (!method_.estimates()) std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
         if (!plain.empty()) direct_.add_diffuse(tile, plain.data(), plain.size());
         if (plain.size() < lights.size()) add_diffuse_from_textured(tile, lights);
       });
@@ -220,7 +220,9 @@ class Renderer {
       tile.radiance.z[i] += static_cast<float>(r.z);
     };
     const auto at = [&](const TileShadow::Part& part) -> ShadingPoint {
-      const auto get = [&](const TileVector& v) { return normalized(static_cast<Vec3d>(Vec3f{v.x[part.slot], v.y[part.slot], v.z[part.slot]})); };
+      const auto get = [&](const TileVector& v) {
+        return normalized(static_cast<Vec3d>(Vec3f{v.x[part.slot], v.y[part.slot], v.z[part.slot]}));
+      };
       return {part.position, get(tile.normal), get(tile.view)};
     };
 
@@ -280,16 +282,15 @@ class Renderer {
             tile->radiance.x[slot] += static_cast<float>(e.mean.x);
             tile->radiance.y[slot] += static_cast<float>(e.mean.y);
             tile->radiance.z[slot] += static_cast<float>(e.mean.z);
-            const auto pixel = static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) +
-                               static_cast<std::size_t>(a.x + x);
+            const auto pixel =
+                static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(a.x + x);
             variance[pixel] += static_cast<Vec3f>(e.variance) * (weight * weight);
           });
         });
       for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
           const std::size_t i = tile_slot(x, y);
-          picture.at(a.x + x, a.y + y) +=
-              Vec3f{tile->radiance.x[i], tile->radiance.y[i], tile->radiance.z[i]} * weight;
+          picture.at(a.x + x, a.y + y) += Vec3f{tile->radiance.x[i], tile->radiance.y[i], tile->radiance.z[i]} * weight;
         }
     }
   }
@@ -317,8 +318,8 @@ class Renderer {
   std::optional<ShadowPass> shadows_;
   tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;
-  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"},
-      capture_clock_{"indirect: surfaces"}, shadow_clock_{"shadows"};
+  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"},
+      sampling_clock_{"sampling"}, capture_clock_{"indirect: surfaces"}, shadow_clock_{"shadows"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

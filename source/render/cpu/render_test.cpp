@@ -284,7 +284,8 @@ TEST(Render, TubesOnGlossAgreeWithFinePolygons) {
           const Vec3d p = floor_point(scene, options, x, y);
           if (std::fabs(p.x) > 7.9 || std::fabs(p.z) > 7.9) continue;
           const ShadingPoint at = {p, {0, 1, 0}, normalized(scene.cameras[0].position - p)};
-          const double truth = closed_form_radiance(prepare_polygon(polygon_seen_from(scene.area_lights[0], p, 128)), at, m, Quality::high).x;
+          const double truth =
+              closed_form_radiance(prepare_polygon(polygon_seen_from(scene.area_lights[0], p, 128)), at, m, Quality::high).x;
           worst = std::max(worst, std::fabs(static_cast<double>(picture.at(x, y).x) - truth));
           largest = std::max(largest, truth);
         }
@@ -356,8 +357,7 @@ TEST(Render, ExactDiffuseLightAgreesWithTheReferenceAtEveryPixel) {
   const Picture reference = render(scene, options, &stats);
   // Float radiances round by 2e-6 where the irradiance is not small (see DiffuseFloorIsThePolygonIntegral...).
   const ZTest test = z_test(exact, reference, 1e-5);
-  EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold "
-                                  << test.threshold;
+  EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold " << test.threshold;
   // And it can fail: a light stronger by a tenth is seen.
   Picture brighter = exact;
   for (Vec3f& p : brighter.pixels) p *= 1.1f;
@@ -460,7 +460,8 @@ TEST(Render, SheenIsItsCubatureOverADimmedBase) {
     analytic_sum += static_cast<double>(picture.pixels[i].y);
     sampled_sum += static_cast<double>(sampled.pixels[i].y);
   }
-  EXPECT_NEAR(analytic_sum / sampled_sum, 1, 0.01);  // of both lobes: the cubature to 0.002, and three standard errors of the mean of 6,000 pixels
+  EXPECT_NEAR(analytic_sum / sampled_sum, 1,
+              0.01);  // of both lobes: the cubature to 0.002, and three standard errors of the mean of 6,000 pixels
 }
 
 TEST(Render, MultipleScatteringBrightensARoughMetal) {

@@ -33,7 +33,7 @@ struct SeenLight {
 
 // What integrate asks of an outline's light (shapes/small_light.h). The elements are a function of their own, seldom called.
 __attribute__((flatten, noinline)) inline PackKernels::LightElements elements_in(const SeenLight& light, const PackKernels::mat3& frame,
-                                                                                const PackVec3& p) {
+                                                                                 const PackVec3& p) {
   if (const auto* polygon = std::get_if<packed::Polygon>(&light.light.shape)) return shapes::elements_in<Pack>(*polygon, frame, p);
   PackKernels::LightElements e;
   light.light.with_round([&](const auto& shape) { e = shapes::elements_in<Pack>(shape, frame, p); });
@@ -72,8 +72,9 @@ struct PolygonOutline {
 };
 
 // A function of its own: inlined, it would take registers from the walks.
-__attribute__((flatten, noinline)) inline int fill_round_corners(const PackLight& light, const AboutLobe& lobe, const PackKernels::mat3& frame,
-                                                                 const PackVec3& p, shapes::Corners<Pack>& corners) {
+__attribute__((flatten, noinline)) inline int fill_round_corners(const PackLight& light, const AboutLobe& lobe,
+                                                                 const PackKernels::mat3& frame, const PackVec3& p,
+                                                                 shapes::Corners<Pack>& corners) {
   int count = 0;
   light.with_round([&](const auto& shape) { count = shapes::fill_corners<Pack>(shape, lobe, frame, p, corners); });
   return count;
@@ -118,7 +119,8 @@ struct AnyOutline {
 // Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z it is. Functions of their own: g++
 // flattens nothing that reaches it through a caller that is itself always inlined. The irradiance alone is an eighth
 // quicker than the vector.
-__attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
+__attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight& light, const PackKernels::mat3& frame,
+                                                                 const PackVec3& p) {
   if (light.light.is_round()) {
     PackReal e(0.0);
     light.light.with_round([&](const auto& shape) { e = select(light.lit, shapes::irradiance_vector<Pack>(shape, frame, p).z, e); });
@@ -128,7 +130,8 @@ __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight
   return integrate(PolygonOutline{light, frame, p}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
 }
 
-__attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame, const PackVec3& p) {
+__attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame,
+                                                                     const PackVec3& p) {
   if (light.light.is_round()) {
     PackVec3 e(0.0, 0.0, 0.0);
     light.light.with_round([&](const auto& shape) { e = select(light.lit, shapes::irradiance_vector<Pack>(shape, frame, p), e); });

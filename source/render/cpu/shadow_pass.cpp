@@ -19,15 +19,13 @@ using shadow::Shaft;
 using shadow::Viewpoint;
 using Seen = TileShadow::Seen;
 
-constexpr int kRoundCorners = 24;             // penumbrae of round lights are then 4.5e-5 rms off (docs/shadows.md)
-constexpr std::size_t kMostSegments = 512;    // a point that sees more takes rays, unless exact is asked for
-constexpr std::size_t kMostEdges = 4096;      // and a group that gathers more
+constexpr int kRoundCorners = 24;           // penumbrae of round lights are then 4.5e-5 rms off (docs/shadows.md)
+constexpr std::size_t kMostSegments = 512;  // a point that sees more takes rays, unless exact is asked for
+constexpr std::size_t kMostEdges = 4096;    // and a group that gathers more
 constexpr int kShareRays = 64;
-constexpr double kLift = 1e-6;                // integrals are taken in float
+constexpr double kLift = 1e-6;  // integrals are taken in float
 
-Vec3d get(const TileVector& v, std::size_t i) {
-  return static_cast<Vec3d>(Vec3f{v.x[i], v.y[i], v.z[i]});
-}
+Vec3d get(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(Vec3f{v.x[i], v.y[i], v.z[i]}); }
 
 // Groups of 8 x 8 pixels: four blocks of slots.
 std::uint32_t group_of(std::uint32_t slot) {
@@ -117,9 +115,7 @@ std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight&
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - area.center, b = mesh.vertices[mesh.triangles[t][1]] - area.center,
                 c = mesh.vertices[mesh.triangles[t][2]] - area.center;
-    const auto apart = [&](double x, double y, double z) {
-      return std::min({x, y, z}) > reach || std::max({x, y, z}) < -reach;
-    };
+    const auto apart = [&](double x, double y, double z) { return std::min({x, y, z}) > reach || std::max({x, y, z}) < -reach; };
     if (!apart(a.x, b.x, c.x) && !apart(a.y, b.y, c.y) && !apart(a.z, b.z, c.z)) result.push_back(t);
   }
   return result;
@@ -156,7 +152,8 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     Flat flat;
     if (light.is_polygon()) flat.polygon = light.polygon;
     if (is_disk(light)) {
-      PolygonLight seen = equal_area_polygon({light.area->center, light.area->x, light.area->y}, light.area->polygon.radiance, kRoundCorners);
+      PolygonLight seen =
+          equal_area_polygon({light.area->center, light.area->x, light.area->y}, light.area->polygon.radiance, kRoundCorners);
       seen.two_sided = light.area->polygon.two_sided;
       flat.polygon = prepare_polygon(seen);
     }
@@ -427,7 +424,8 @@ void ShadowPass::pass_cut_outs(const LightFrame& frame, std::uint32_t slot, Work
     const double scale_x = shadow::kCells / frame.box_x, scale_y = shadow::kCells / frame.box_y;
     return count_at(work.scratch.set, x * scale_x, y * scale_y) <= work.region.level;
   };
-  const double share = stratified_share(frame, at, counts, [&](Vec3d to) { return !rays_.between(at.position, at.position + to, Casters::cut_outs); });
+  const double share =
+      stratified_share(frame, at, counts, [&](Vec3d to) { return !rays_.between(at.position, at.position + to, Casters::cut_outs); });
   if (share == 1) return;
   if (part) {
     work.result.parts.back().passes = static_cast<float>(share);

@@ -21,15 +21,15 @@ struct TileShadow {
   // A slot that sees a part of the light.
   struct Part {
     std::size_t slot = 0;
-    Vec3d position;            // moved off the surface
-    PreparedPolygon visible;   // edges in no order, see shadow/visible_part.h
-    PreparedPolygon all;       // round lights: the polygon of which `visible` is the part; else no vertices
-    float passes = 1;          // share that cut-outs let through
+    Vec3d position;           // moved off the surface
+    PreparedPolygon visible;  // edges in no order, see shadow/visible_part.h
+    PreparedPolygon all;      // round lights: the polygon of which `visible` is the part; else no vertices
+    float passes = 1;         // share that cut-outs let through
   };
   std::array<Seen, kTilePixels> seen;
   std::array<float, kTilePixels> share;  // of Seen::share: by rays
   std::vector<Part> parts;
-  std::size_t wholes = 0;                // slots that are whole
+  std::size_t wholes = 0;  // slots that are whole
 };
 
 // Counts of all tiles, for --stats.
@@ -49,13 +49,13 @@ class ShadowPass {
  private:
   // A light made ready.
   struct Flat {
-    PreparedPolygon polygon;           // no vertices: it is not flat
+    PreparedPolygon polygon;  // no vertices: it is not flat
     struct Side {
       shadow::LightFrame frame;
       std::vector<std::uint32_t> crossing;  // triangles
     };
-    std::optional<Side> sides[2];      // the lit one, the other
-    std::vector<std::uint32_t> near;   // of a round light: triangles that may reach into the planes that stand for it
+    std::optional<Side> sides[2];     // the lit one, the other
+    std::vector<std::uint32_t> near;  // of a round light: triangles that may reach into the planes that stand for it
   };
   struct Work;
   void find_flat(const SurfaceTile& tile, const PackLight& light, const Flat& flat, Work& work) const;
@@ -80,7 +80,7 @@ class ShadowPass {
     Vec3d low, high;
   };
   std::vector<Box> cut_outs_;  // of meshes whose material has holes
-  std::vector<Flat> flats_;  // one a light; without frames where it is not flat
+  std::vector<Flat> flats_;    // one a light; without frames where it is not flat
 };
 
 }  // namespace steradian

@@ -27,7 +27,8 @@ Mesh ball_mesh(Vec3f center, float radius, int material) {
   constexpr unsigned kColumns = 16, kRows = 8;
   for (unsigned j = 0; j <= kRows; ++j)
     for (unsigned i = 0; i <= kColumns; ++i) {
-      const float u = 2 * std::numbers::pi_v<float> * static_cast<float>(i % kColumns) / kColumns, v = std::numbers::pi_v<float> * static_cast<float>(j) / kRows;
+      const float u = 2 * std::numbers::pi_v<float> * static_cast<float>(i % kColumns) / kColumns,
+                  v = std::numbers::pi_v<float> * static_cast<float>(j) / kRows;
       const float s = j == 0 || j == kRows ? 0.0f : std::sin(v);
       const Vec3f n{s * std::cos(u), std::cos(v), -s * std::sin(u)};
       mesh.positions.push_back(center + n * radius);

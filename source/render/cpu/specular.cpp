@@ -42,10 +42,9 @@ void add_to(TileVector& v, std::size_t i, Vec3f a) {
 }
 
 // One channel of every pixel; the fresnel part is what (1 - v.h)^5 leaves of the plain one.
-void add_coloured(TilePlane& radiance, const TilePlane& f0, const TilePlane& f90, const TilePlane& plain,
-                  const TilePlane& fresnel, float light) {
-  for (std::size_t i = 0; i < kTilePixels; ++i)
-    radiance[i] += light * (f0[i] * (plain[i] - fresnel[i]) + f90[i] * fresnel[i]);
+void add_coloured(TilePlane& radiance, const TilePlane& f0, const TilePlane& f90, const TilePlane& plain, const TilePlane& fresnel,
+                  float light) {
+  for (std::size_t i = 0; i < kTilePixels; ++i) radiance[i] += light * (f0[i] * (plain[i] - fresnel[i]) + f90[i] * fresnel[i]);
 }
 
 void add_diffuse(TilePlane& radiance, const TilePlane& albedo, const TilePlane& irradiance, float light) {
@@ -94,8 +93,7 @@ Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const Pac
 }
 
 // The same, textured as GGX sees it; other lobes take the mean (lobes_under_means).
-Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at,
-                     const Material& material) {
+Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at, const Material& material) {
   const Vec3d r = point_radiance_of_mean(row, quality, light, at, material);
   if (light.textured == nullptr || material.brdf != Brdf::ggx || r == Vec3d{}) return r;
   const auto seen = static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
@@ -120,7 +118,7 @@ SpecularPass::SpecularPass(const DirectMethod& method)
     : method_(method),
       tables_(method.ggx == Method::ltc           ? ltc_classic_pack_tables()
               : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
-                                                      : LtcPackTables{}) {}
+                                                  : LtcPackTables{}) {}
 
 Vec3d SpecularPass::at_point(const Surface& surface, const ShadingPoint& at, const PreparedPolygon& light) const {
   Vec3d sum{};
@@ -130,8 +128,8 @@ Vec3d SpecularPass::at_point(const Surface& surface, const ShadingPoint& at, con
       const auto view = integrals::to_kernel<float>(frame.to_local(at.view));
       const int seen_from = light.side_of(at.position), side = seen_from < 0 && !light.two_sided ? 0 : seen_from;
       integrals::Irradiance<float> integral;
-      const auto e = integrate(integrals::contours_in<float>(light, frame, at.position),
-                               integrals::shading_from<float>(side, view), integral);
+      const auto e =
+          integrate(integrals::contours_in<float>(light, frame, at.position), integrals::shading_from<float>(side, view), integral);
       const float below = Kernels<float>().lambert_irradiance_below(e, view, lobe.material.fresnel_loss).v;
       sum += lobe.material.albedo * light.radiance * (static_cast<double>(below) * std::numbers::inv_pi);
       continue;
@@ -151,8 +149,7 @@ bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& ligh
 }
 
 // False where the method does not run on packs.
-bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light,
-                                 const LtcSums& sums) const {
+bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const {
   const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
   if (!light.is_area()) {
     direct_table_for(active_simd()).punctual_ggx(light, points, sums.specular, sums.grazing);
@@ -237,8 +234,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
       for (const PackLight* light : lights) {
         if (material.brdf == Brdf::phong && !material.foreshortening && light->is_polygon()) {
           alignas(64) TilePlane result;
-          phong_table_for(active_simd())
-              .radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
+          phong_table_for(active_simd()).radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
           const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
           for (std::size_t i = 0; i < kTilePixels; ++i)
             if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);

@@ -28,8 +28,8 @@ struct Corner {
     return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v};
   }
   Vec4f operator()(const std::vector<Vec4f>& a) const {
-    return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v,
-            a[i0].z * w0 + a[i1].z * u + a[i2].z * v, a[i0].w * w0 + a[i1].w * u + a[i2].w * v};
+    return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v, a[i0].z * w0 + a[i1].z * u + a[i2].z * v,
+            a[i0].w * w0 + a[i1].w * u + a[i2].w * v};
   }
 };
 
@@ -78,14 +78,12 @@ TangentFrame tangent_frame(const Mesh& mesh, const Corner& at, Vec3f n) {
 Vec3f bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use, const TangentFrame& frame) {
   if (!use.present()) return frame.z;
   const Vec4f c = texel(scene, mesh, at, use);
-  const Vec3f bent = unit(frame.x * ((2 * c.x - 1) * use.scale) + frame.y * ((2 * c.y - 1) * use.scale) +
-                          frame.z * std::max(2 * c.z - 1, 0.0f));
+  const Vec3f bent =
+      unit(frame.x * ((2 * c.x - 1) * use.scale) + frame.y * ((2 * c.y - 1) * use.scale) + frame.z * std::max(2 * c.z - 1, 0.0f));
   return dot(bent, bent) > 0.5f && dot(bent, frame.z) > 0 ? bent : frame.z;
 }
 
-double cosine_of_view(const Surface& s, Vec3f view) {
-  return std::clamp(static_cast<double>(dot(s.normal, view)), 0.0, 1.0);
-}
+double cosine_of_view(const Surface& s, Vec3f view) { return std::clamp(static_cast<double>(dot(s.normal, view)), 0.0, 1.0); }
 
 Material ggx_of(const Surface& s) {
   Material m;
@@ -227,8 +225,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   if (m.clearcoat_texture.present()) s.coat *= texel(scene, mesh, at, m.clearcoat_texture).x;
   if (s.coat > 0) {
     float coat_roughness = m.clearcoat_roughness;
-    if (m.clearcoat_roughness_texture.present())
-      coat_roughness *= texel(scene, mesh, at, m.clearcoat_roughness_texture).y;
+    if (m.clearcoat_roughness_texture.present()) coat_roughness *= texel(scene, mesh, at, m.clearcoat_roughness_texture).y;
     s.coat_alpha = std::clamp(coat_roughness * coat_roughness, kMinAlpha, 1.0f);
     // KHR_materials_clearcoat: what the coat reflects at the view's angle does not reach the layers below.
     const float c = std::clamp(1 - dot(s.coat_normal, view), 0.0f, 1.0f);

@@ -13,16 +13,16 @@ namespace steradian {
 // largest channel of the dielectric's Fresnel: what its specular lobe reflects does not reach it.
 struct Surface {
   Vec3f position;
-  Vec3f normal;      // shading normal, unit; the view is above its horizon, as it is above the triangle
+  Vec3f normal;            // shading normal, unit; the view is above its horizon, as it is above the triangle
   Vec3f geometric_normal;  // of the triangle, unit, turned to the viewer; the normal where it has no area
-  Vec3f tangent;     // unit, perpendicular to the normal: direction of alpha_x
-  Vec3f coat_normal; // of the clear coat, which lies smooth over what bends the base
-  Vec3f emission;    // radiance towards the viewer
-  Vec3f albedo;      // diffuse, in the direction in which the boundary above reflects F0
+  Vec3f tangent;           // unit, perpendicular to the normal: direction of alpha_x
+  Vec3f coat_normal;       // of the clear coat, which lies smooth over what bends the base
+  Vec3f emission;          // radiance towards the viewer
+  Vec3f albedo;            // diffuse, in the direction in which the boundary above reflects F0
   float fresnel_loss = 0;  // ... and less by this share of (1 - v.h)^5 in all others
-  Vec3f f0, f90;     // specular; both 0: no such lobe
+  Vec3f f0, f90;           // specular; both 0: no such lobe
   float alpha_x = 1, alpha_y = 1;
-  Vec3f sheen;       // colour of Charlie's lobe; black: none
+  Vec3f sheen;  // colour of Charlie's lobe; black: none
   float sheen_alpha = 1;
   float coat = 0, coat_alpha = 1;  // clear coat: weight, width; F0 0.04
   const SurfaceMaterial* material = nullptr;

@@ -30,16 +30,16 @@ struct TileVector {
 struct SurfaceTile {
   TileVector position, normal, view;
   TileVector geometric_normal;  // of the triangle, unit, turned to the viewer
-  TileVector albedo;          // diffuse
+  TileVector albedo;            // diffuse
   alignas(64) TilePlane fresnel_loss;
-  TileVector f0, f90;         // specular GGX, zero where there is none
+  TileVector f0, f90;  // specular GGX, zero where there is none
   TileVector tangent;
   alignas(64) TilePlane alpha_x, alpha_y;
   alignas(64) TilePlane coat, coat_alpha;
   TileVector coat_normal;
-  TileVector sheen;           // colour of Charlie's lobe, black where there is none
+  TileVector sheen;  // colour of Charlie's lobe, black where there is none
   alignas(64) TilePlane sheen_alpha;
-  TileVector radiance;        // the result
+  TileVector radiance;                                       // the result
   std::array<const SurfaceMaterial*, kTilePixels> material;  // null without a surface
   bool any_surface, any_diffuse, any_specular, any_sheen, any_coat, any_override;
 };

@@ -15,8 +15,7 @@ std::uint32_t memory_type(const vk::raii::PhysicalDevice& device, std::uint32_t 
 }
 
 void check_size(std::size_t bytes, std::size_t available) {
-  if (bytes > available)
-    throw Error("Vulkan", std::to_string(bytes) + " bytes do not fit a buffer of " + std::to_string(available));
+  if (bytes > available) throw Error("Vulkan", std::to_string(bytes) + " bytes do not fit a buffer of " + std::to_string(available));
 }
 
 }  // namespace

@@ -50,8 +50,7 @@ void ComputePipeline::run(const std::vector<const Buffer*>& buffers, std::uint32
     Handles& h = *handles_;
     for (std::uint32_t i = 0; i < buffers.size(); ++i) {
       const vk::DescriptorBufferInfo info(*buffers[i]->handles().buffer, 0, VK_WHOLE_SIZE);
-      d.device.updateDescriptorSets(
-          vk::WriteDescriptorSet(*h.set, i, 0, vk::DescriptorType::eStorageBuffer, {}, info), nullptr);
+      d.device.updateDescriptorSets(vk::WriteDescriptorSet(*h.set, i, 0, vk::DescriptorType::eStorageBuffer, {}, info), nullptr);
     }
     const vk::raii::CommandBuffer commands =
         std::move(d.device.allocateCommandBuffers({*d.commands, vk::CommandBufferLevel::ePrimary, 1}).front());
@@ -61,8 +60,7 @@ void ComputePipeline::run(const std::vector<const Buffer*>& buffers, std::uint32
     commands.dispatch(groups, 1, 1);
     // What the shader wrote becomes visible to the host.
     const vk::MemoryBarrier written(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
-    commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {}, written,
-                             nullptr, nullptr);
+    commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {}, written, nullptr, nullptr);
     commands.end();
 
     const vk::raii::Fence done = d.device.createFence({});

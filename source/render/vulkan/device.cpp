@@ -27,8 +27,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
   std::vector<const char*> layers, extensions;
   if (validation) {
     if (!has_validation_layer(context))
-      throw Error("Vulkan", std::string("the layer ") + kValidationLayer + " is not installed",
-                  "install vulkan-validationlayers");
+      throw Error("Vulkan", std::string("the layer ") + kValidationLayer + " is not installed", "install vulkan-validationlayers");
     layers.push_back(kValidationLayer);
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   }
@@ -93,8 +92,7 @@ Device::Device(const DeviceOptions& options) {
       using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
       using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
       h.messenger = h.instance.createDebugUtilsMessengerEXT(
-          {{}, Severity::eWarning | Severity::eError, Type::eGeneral | Type::eValidation | Type::ePerformance,
-           keep_message, &h.messages});
+          {{}, Severity::eWarning | Severity::eError, Type::eGeneral | Type::eValidation | Type::ePerformance, keep_message, &h.messages});
     }
     std::string seen;
     for (const Candidate& c : candidates(h.instance)) {
