@@ -8,7 +8,7 @@
 
 #include "benches.h"
 #include "frame.h"
-#include "indirect/pairs.h"
+#include "render/indirect/pairs.h"
 #include "core/random.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"

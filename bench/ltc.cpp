@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benches.h"
-#include "ltc/fit.h"
+#include "fit/fit.h"
 #include "render/cpu/ltc_points.h"
 
 namespace steradian::bench {

@@ -5,14 +5,13 @@
 #   sources    its files, as a pattern of paths under source/
 set(STERADIAN_LAYERS integrals shadow image scene reference fit plane render)
 
-# No package at all. The reference methods are part of it: `radiance` answers by them too, and its curved lights stand in eval/ yet.
-set(STERADIAN_integrals_sources
-    "^((core|shapes|lobes|reference|integrals|ltc|moment|ggx|ellipse|capsule)/|scene/(polygon_light|area_light|texture|polygon_derivatives)\\.cpp|eval/(radiance|curved_light|point_light)\\.cpp)")
+# No package at all. The reference methods are part of it: `radiance` answers by them too.
+set(STERADIAN_integrals_sources "^(core|shapes|lobes|reference|integrals)/")
 
 set(STERADIAN_shadow_sources "^shadow/")
 set(STERADIAN_shadow_needs integrals)
 
-set(STERADIAN_image_sources "^(image|compare)/")
+set(STERADIAN_image_sources "^image/")
 set(STERADIAN_image_needs integrals)
 set(STERADIAN_image_packages OpenEXR PNG JPEG)
 set(STERADIAN_image_libraries OpenEXR::OpenEXR PNG::PNG JPEG::JPEG)
@@ -25,7 +24,7 @@ set(STERADIAN_scene_build_libraries Eigen3::Eigen)
 set(STERADIAN_reference_sources "^$")  # a name for those who want the ground truth alone
 set(STERADIAN_reference_needs integrals)
 
-set(STERADIAN_fit_sources "^(fit/|ltc/(fit|table_files|textured_error))")
+set(STERADIAN_fit_sources "^fit/")
 set(STERADIAN_fit_needs integrals reference)
 set(STERADIAN_fit_packages OpenEXR NLopt TBB)
 set(STERADIAN_fit_libraries OpenEXR::OpenEXR NLopt::nlopt TBB::tbb)
@@ -35,13 +34,10 @@ set(STERADIAN_plane_needs integrals)
 set(STERADIAN_plane_packages pugixml TBB fmt)
 set(STERADIAN_plane_libraries pugixml::pugixml TBB::tbb fmt::fmt)
 
-set(STERADIAN_render_sources "^(render|indirect)/")
+set(STERADIAN_render_sources "^render/")
 set(STERADIAN_render_needs integrals shadow scene reference image)
 set(STERADIAN_render_packages TBB "embree 3")
 set(STERADIAN_render_libraries TBB::tbb embree)
-
-# Files that stand beside another layer's and belong elsewhere; the first layer here that asks for a file has it.
-set(STERADIAN_sources_order fit integrals shadow image scene reference plane render)
 
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${STERADIAN_LAYERS})

@@ -19,7 +19,7 @@ ROWS = [
     ["apps/steradian"],
     ["studies"],
     ["bench"],
-    ["source/eval"],
+    ["apps/steradian/eval"],
     ["source/render"],
     ["source/plane", "source/fit"],
     ["source/scene", "source/shadow"],
@@ -32,22 +32,9 @@ ROWS = [
 ]
 ROW = {folder: n for n, row in enumerate(ROWS) for folder in row}
 
-# Files that do not stand in their layer's folder yet, and the layer that they count for (as in cmake/layers.cmake).
-ELSEWHERE = {
-    r"source/ltc/(fit\.cpp|fit_report|table_files|textured_error)": "source/fit",
-    r"source/(ltc|moment|ggx|ellipse|capsule)/": "source/integrals",
-    r"source/scene/(polygon_light|area_light|texture|polygon_derivatives)\.": "source/integrals",
-    r"source/indirect/": "source/render",
-    r"source/compare/": "source/image",
-}
-
-
 def folder_of(path):
     """The folder of ROWS that a path relative to the root counts for."""
-    for start, folder in ELSEWHERE.items():
-        if re.match(start, str(path)):
-            return folder
-    return next((str(Path(*path.parts[:n])) for n in (2, 1) if str(Path(*path.parts[:n])) in ROW), None)
+    return next((str(Path(*path.parts[:n])) for n in (3, 2, 1) if str(Path(*path.parts[:n])) in ROW), None)
 
 
 def included(path):

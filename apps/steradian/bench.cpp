@@ -8,7 +8,7 @@
 
 #include "../../bench/benches.h"
 #include "core/progress.h"
-#include "ltc/textured_error.h"
+#include "fit/textured_error.h"
 #include "studies/table2.h"
 #include "steradian/error.h"
 #include "verbs.h"

@@ -7,8 +7,8 @@
 
 #include "core/atomic_file.h"
 #include "core/progress.h"
-#include "ltc/fit_report.h"
-#include "ltc/table_files.h"
+#include "fit/fit_report.h"
+#include "fit/table_files.h"
 #include "steradian/error.h"
 #include "verbs.h"
 

@@ -103,7 +103,7 @@ struct Gradient {
 
 // Value and derivatives of `function` at `x`. The function takes a std::vector of Real<Dual<N>> and returns one, for any N.
 // N directions are followed at a time, in ceil(size of x / N) evaluations. An integral that is a sum over edges is cheaper
-// edge by edge: see source/scene/polygon_derivatives.cpp.
+// edge by edge: see source/integrals/polygon_derivatives.cpp.
 template <std::size_t N = 6, class Function>
 Gradient gradient(const std::vector<double>& x, Function function) {
   using R = Real<Dual<N>>;

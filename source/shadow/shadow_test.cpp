@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "ltc/ggx_tables.h"
-#include "ltc/table.h"
+#include "integrals/ltc/ggx_tables.h"
+#include "integrals/ltc/table.h"
 #include "lobes/lobe.h"
 #include "shadow/gather.h"
 #include "shadow/test_families.h"

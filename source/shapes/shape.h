@@ -32,4 +32,10 @@ struct CurvedLight {
   bool two_sided = false;   // of an ellipse
 };
 
+// Without size.
+struct PointLight {
+  Vec3d position;
+  Vec3d intensity{1, 1, 1};  // W/sr or candela, linear RGB
+};
+
 }  // namespace steradian

@@ -5,8 +5,8 @@
 #include <ostream>
 #include <vector>
 
-#include "ggx/random_rectangles.h"
-#include "ltc/textured_error.h"
+#include "integrals/random_rectangles.h"
+#include "fit/textured_error.h"
 #include "sections.h"
 #include "steradian/closed_form.h"
 #include "steradian/ellipse_light.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ltc/textured_light.h"
+#include "integrals/ltc/textured_light.h"
 #include "steradian/error.h"
 
 namespace steradian {

@@ -1,6 +1,6 @@
 #include "render/cpu/ltc_points.h"
 
-#include "ltc/ggx_tables.h"
+#include "integrals/ltc/ggx_tables.h"
 #include "steradian/ltc.h"
 
 namespace steradian {

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "core/float_mode.h"
-#include "indirect/pipeline.h"
+#include "render/indirect/pipeline.h"
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"

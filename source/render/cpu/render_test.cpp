@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "compare/z_test.h"
+#include "image/z_test.h"
 #include "core/simd.h"
 #include "render/cpu/camera_rays.h"
 #include "scene/test_meshes.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compare/z_test.h"
+#include "image/z_test.h"
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 

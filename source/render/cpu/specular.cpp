@@ -7,7 +7,7 @@
 #include <set>
 
 #include "integrals/irradiance.h"
-#include "ltc/textured_light.h"
+#include "integrals/ltc/textured_light.h"
 #include "lobes/lobe.h"
 #include "render/cpu/closed_form.h"
 #include "render/cpu/direct.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "compare/z_test.h"
+#include "image/z_test.h"
 #include "render/cpu/camera_rays.h"
 #include "scene/test_meshes.h"
 #include "steradian/closed_form.h"

@@ -1,6 +1,6 @@
 #include "render/cpu/textured_diffuse.h"
 
-#include "ltc/textured_light.h"
+#include "integrals/ltc/textured_light.h"
 #include "render/cpu/irradiance.h"
 
 namespace steradian {

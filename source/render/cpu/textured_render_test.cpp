@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "compare/z_test.h"
+#include "image/z_test.h"
 #include "render/cpu/camera_rays.h"
 #include "steradian/compare.h"
 #include "steradian/load_scene.h"

@@ -1,0 +1,99 @@
+#include "eval/shadowed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrals/point_light.h"
+#include "reference/sampled.h"
+#include "shadow/round_light.h"
+#include "shadow/visible_part.h"
+#include "steradian/capsule_light.h"
+#include "steradian/error.h"
+
+namespace steradian::eval {
+namespace {
+
+constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
+constexpr int kRoundReference = 512;
+
+// The polygon that stands for a curved light.
+PreparedPolygon polygon_of(const CurvedLight& light, Vec3d from, int corners) {
+  AreaLight area;
+  area.polygon.radiance = light.radiance;
+  area.polygon.two_sided = light.two_sided;
+  if (const auto* disk = std::get_if<Ellipse>(&light.shape)) {
+    area.shape = LightShape::disk;
+    area.center = disk->center;
+    area.x = disk->x;
+    area.y = disk->y;
+  } else if (const auto* ball = std::get_if<Ellipsoid>(&light.shape)) {
+    area.shape = LightShape::sphere;
+    area.center = ball->center;
+    area.x = ball->x;
+    area.y = ball->y;
+    area.z = ball->z;
+  } else if (const auto* tube = std::get_if<Capsule>(&light.shape)) {
+    area.shape = LightShape::capsule;
+    area.center = (tube->end_a + tube->end_b) * 0.5;
+    area.x = (tube->end_b - tube->end_a) * 0.5;
+    area.radius = tube->radius;
+  } else {
+    throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
+  }
+  return shadow::polygon_of_round(area, from, corners);
+}
+
+RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoint& from, const Query& query, const ShadingPoint& at,
+                            const Material& m, const methods::Row& entry, const RadianceOptions& options) {
+  if (entry.method == Method::sampled) {
+    const double eta = shadow::margin_of_plane(light), height = std::fabs(dot(light.centroid - from.position, light.normal));
+    const auto sees = [&](Vec3d direction) {
+      if (from.geometric_normal && !(dot(direction, *from.geometric_normal) > 0)) return false;
+      const double distance = (height - eta) / std::fabs(dot(direction, light.normal));
+      return !query.occluders->rays.between(from.position, from.position + direction * std::max(distance, 0.0));
+    };
+    const SampledResult r = reference::sampled_radiance_past(sees, light, at, m, {options.spp, options.seed});
+    RadianceResult answer = methods::nothing(entry.method);
+    answer.radiance = r.radiance;
+    answer.standard_error = r.standard_error;
+    return answer;
+  }
+  const double lift = options.precision == Precision::float_ ? kLiftInFloat : kLift;
+  return entry.polygon(shadow::visible_part(light, *query.occluders, from, lift), at, m, options);
+}
+
+}  // namespace
+
+RadianceResult shadowed_answer(const Query& query, const ShadingPoint& surface, const Material& m, const methods::Row& entry,
+                               const RadianceOptions& options, const std::function<RadianceResult()>& unoccluded) {
+  const Vec3d geometric = query.geometric_normal.value_or(surface.normal);
+  shadow::Viewpoint from;
+  from.position = surface.position + geometric * shadow::offset_from_surface(surface.position);
+  from.normal = surface.normal;
+  if (query.geometric_normal && !(geometric == surface.normal)) from.geometric_normal = geometric;
+  const ShadingPoint at = {from.position, surface.normal, surface.view};
+
+  if (const auto* light = std::get_if<PointLight>(&query.light)) {
+    const Vec3d to = light->position - from.position;
+    const bool blocked = !(dot(to, geometric) > 0) || query.occluders->rays.between(from.position, light->position);
+    return blocked ? methods::nothing(entry.method) : unoccluded();
+  }
+  if (const auto* light = std::get_if<PolygonLight>(&query.light)) {
+    const PreparedPolygon polygon = prepare_polygon(*light);
+    if (polygon.vertices.empty()) return methods::nothing(entry.method);
+    return over_polygon(polygon, from, query, at, m, entry, options);
+  }
+  const bool judge = entry.method == Method::reference || entry.method == Method::sampled;
+  const int corners = judge ? kRoundReference : options.quality == Quality::high ? 48 : 24;
+  const PreparedPolygon polygon = polygon_of(std::get<CurvedLight>(query.light), from.position, corners);
+  if (polygon.vertices.empty()) return methods::nothing(entry.method);
+  RadianceResult part = over_polygon(polygon, from, query, at, m, entry, options);
+  if (judge) return part;
+  const Vec3d all = entry.polygon(polygon, at, m, options).radiance;
+  const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
+  RadianceResult answer = unoccluded();
+  answer.radiance = answer.radiance * Vec3d{share(part.radiance.x, all.x), share(part.radiance.y, all.y), share(part.radiance.z, all.z)};
+  return answer;
+}
+
+}  // namespace steradian::eval

@@ -1,0 +1,63 @@
+// The fitter: the linearly transformed cosine nearest to a lobe, for one view and for a table of roughness and view.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fit/lobe.h"
+#include "integrals/ltc/ltc_shape.h"
+
+namespace steradian {
+
+struct LtcCell {
+  LtcShape shape;
+  LtcInverse inverse;
+  double albedo = 0;         // integral of the lobe over the hemisphere: F = 1
+  double grazing = 0;        // of the lobe times (1 - v.h)^5
+  double above_horizon = 1;  // share of the fitted lobe above the real horizon
+  double error = 0;          // integral of |lobe - fit| over the hemisphere, over albedo
+
+  // What tables hold: the fit's part above the horizon then carries the lobe's energy.
+  double n_a() const { return albedo / above_horizon; }
+  double f_a() const { return grazing / above_horizon; }
+};
+
+// Which distance the optimiser minimises; |difference| to the power 1, 2 or 3. docs/ltc.md compares them.
+enum class FitNorm { l1 = 1, l2 = 2, l3 = 3 };
+
+struct FitOptions {
+  int size = 64;  // nodes along roughness and along sqrt(1 - cos theta)
+  FitNorm norm = FitNorm::l1;
+  int nodes = 32;                      // quadrature nodes: nodes^2 on half of the hemisphere, in the lobe's own coordinates
+  int magnitude_directions = 1 << 14;  // quadrature points for albedo and grazing
+  int lights = 64;                     // random rectangles of the second pass; 0: none
+  int light_directions = 4096;         // quadrature points for their true radiance
+  double lobe_share = 0.1;             // weight of the lobe's L1 beside the relative error on the lights
+  int threads = 0;                     // 0: all
+  std::function<void()> cell_done;     // called after every cell, from any thread
+};
+
+// Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit: the last node stands
+// at the smallest, about where it makes interpolation of 1 / cosine best in the last row of 64.
+inline constexpr double kSmallestCosine = 0.01;
+inline double ltc_roughness_at(int i, int n) { return static_cast<double>(i) / (n - 1); }
+double ltc_cosine_at(int j, int n);
+
+// The fit of one view, from a starting shape. Deterministic: same input, same bits.
+LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, const LtcShape& start, const FitOptions& options);
+
+// Node (i, j) at j * size + i: roughness i, view j. Every column of one roughness starts at the normal view and
+// continues from view to view, so that columns are independent: the same bits on any number of threads.
+struct LtcTable {
+  LobeFamily family;
+  int size = 0;
+  std::vector<LtcCell> cells;
+  const LtcCell& at(int i, int j) const { return cells[static_cast<std::size_t>(j * size + i)]; }
+};
+
+// The first `views` cells of the column of one roughness of a table of options.size.
+std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, const FitOptions& options);
+
+LtcTable fit_table(const LobeFamily& family, const FitOptions& options = {});
+
+}  // namespace steradian

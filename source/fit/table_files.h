@@ -1,0 +1,23 @@
+// Tables as files: DDS, EXR, C header, GLSL header, JSON, by the name's ending.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrals/ltc/table.h"
+
+namespace steradian {
+
+// The bytes of each file to write. Classic tables as .dds (half floats) or .exr are two files: NAME_1 holds the
+// matrix, NAME_2 the magnitudes; all else is one. Throws Error for an ending that the layout has no form for.
+struct TableFile {
+  std::string path;
+  std::string bytes;
+};
+std::vector<TableFile> classic_files(const ClassicTable& table, const std::string& lobe, const std::string& path);
+std::vector<TableFile> compact_files(const CompactTable& table, const std::string& lobe, const std::string& path);
+
+// Beside and then renamed.
+void write_files(const std::vector<TableFile>& files);
+
+}  // namespace steradian

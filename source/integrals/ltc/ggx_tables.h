@@ -1,0 +1,12 @@
+// The shipped tables of GGX and of Charlie's sheen, as tables. Their text is the fitter's own output, see ggx_tables.cpp.
+#pragma once
+
+#include "integrals/ltc/table.h"
+
+namespace steradian {
+
+const ClassicTable& ggx_classic_table();
+const CompactTable& ggx_compact_table();
+const CompactTable& charlie_compact_table();
+
+}  // namespace steradian

@@ -1,0 +1,35 @@
+// The fitted lobe itself: its four degrees of freedom, its matrix, its density.
+#pragma once
+
+#include "steradian/vector.h"
+
+namespace steradian {
+
+// The frame in which a fitted matrix varies slowly with roughness and view: about the mirror direction of the view for
+// a glossy lobe, about the normal for a diffuse one.
+enum class LobeFrame { mirror, normal };
+
+// The view (sin, 0, cos) of that cosine.
+Vec3d view_from_cosine(double cos_theta);
+
+// Four degrees of freedom: entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, entry (2,2) being 1.
+// About the mirror direction: R turns z into it. About the normal: R and alpha are 1. See ltc_from_compact.
+struct LtcShape {
+  double e00 = 1, e11 = 1, e02 = 0, e20 = 0;
+  bool operator==(const LtcShape&) const = default;
+};
+
+// M^-1 up to a factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz).
+struct LtcInverse {
+  double xx = 1, xz = 0, yy = 1, zx = 0, zz = 1;
+};
+
+LtcInverse ltc_inverse(const LtcShape& shape, LobeFrame frame, double alpha, Vec3d view);
+
+// Density per solid angle at a unit direction.
+double ltc_evaluate(const LtcInverse& inverse, Vec3d l);
+
+// The lobe's share above the real horizon.
+double ltc_above_horizon(const LtcInverse& inverse);
+
+}  // namespace steradian

@@ -1,0 +1,80 @@
+#include "integrals/ltc/textured_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrals/ltc/shipped_lobe.h"
+
+namespace steradian {
+namespace {
+
+using K = Kernels<double>;
+
+// A Gaussian wider than this many rms radii of the light is a ramp over it, whatever its width.
+constexpr double kWidest = 4;
+constexpr float kLeastCoverage = 1e-6f;
+
+// Where the lobe is wider than the texture's cells, over these; else around where it looks.
+Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at,
+              const K::mat3& frame, const K::LtcMatrix& m, const std::optional<K::GgxView>& ggx = std::nullopt) {
+  K k;
+  const auto turned = [&](Vec3d v) { return transform_transposed(frame, integrals::to_kernel<double>(v)); };
+  if (const auto mean = tree.mean_under(
+          {m, ggx, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())}, texture.finest()))
+    return *mean;
+  // Any view serves: the lobe is where its matrix says.
+  const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
+  integrals::LtcVector<double> integral({m});
+  const auto phi = integrate(integrals::contours_in<double>(light, frame, at.position), shading, integral);
+  const auto normal = transform_transposed(frame, integrals::to_kernel<double>(light.normal));
+  const auto f = k.ltc_texture_footprint(m, phi, normal, dot(light.normal, light.centroid - at.position));
+  if (!any_lane(f.valid)) return texture.mean();
+
+  const auto axis_x = transform_transposed(frame, integrals::to_kernel<double>(texture.axis_x()));
+  const auto axis_y = transform_transposed(frame, integrals::to_kernel<double>(texture.axis_y()));
+  const auto ellipse = k.ltc_texture_axes({dot(f.axis_a, axis_x), dot(f.axis_a, axis_y)}, {dot(f.axis_b, axis_x), dot(f.axis_b, axis_y)});
+  const Vec3d to_origin = texture.origin() - at.position;
+  const double x = dot(f.center, axis_x).v - dot(to_origin, texture.axis_x());
+  const double y = dot(f.center, axis_y).v - dot(to_origin, texture.axis_y());
+  const auto centroid = texture.centroid();
+  const auto covariance = texture.covariance();
+  const K::vec3 shape(covariance[0], covariance[1], covariance[2]);
+  const K::vec2 aside(x - centroid[0], y - centroid[1]);
+  // Of the logarithm of the cosine: z under M^-1 is linear over the plane.
+  const auto z = max(k.ltc_transform(m, f.center).z, 1.0e-30);
+  const K::vec2 slope(k.ltc_transform(m, axis_x).z / z, k.ltc_transform(m, axis_y).z / z);
+  const double widest = kWidest * std::sqrt(covariance[0] + covariance[2]);
+  FilteredTexture::Sum sum;
+  for (const TextureGaussian& part : kMixture) {
+    const auto g = k.ltc_texture_gaussian(ellipse, part.width, widest);
+    const auto place = k.ltc_texture_place(g, aside, slope, shape);
+    const auto under = [&](double px, double py) { return texture.under({px, py, g.major.x.v, g.major.y.v, g.minor.v}); };
+    // Its share of the light is that of where the lobe looks; only its centroid is moved.
+    const FilteredTexture::Sum here = under(x, y), there = under(centroid[0] + place.x.v, centroid[1] + place.y.v);
+    const bool off = !(there.rgbw[3] > kLeastCoverage);
+    const auto weight = static_cast<float>(part.weight);
+    sum.add(off ? here : there, off ? weight : weight * here.rgbw[3] / there.rgbw[3]);
+  }
+  return texture.radiance(sum);
+}
+
+}  // namespace
+
+Vec3f TexturedLight::seen_by_diffuse(const ShadingPoint& at) const {
+  K k;
+  return look_up(polygon_, texture_, tree_, at, k.frame_from_normal(integrals::to_kernel<double>(at.normal)), k.ltc_texture_diffuse());
+}
+
+Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
+  K k;
+  const double cosine = dot(at.normal, at.view);
+  if (!(cosine > 0)) return texture_.mean();
+  const auto frame = k.frame_from_normal_and_view(integrals::to_kernel<double>(at.normal), integrals::to_kernel<double>(at.view));
+  auto view = transform_transposed(frame, integrals::to_kernel<double>(at.view));
+  view.y = 0.0;
+  const double width = std::max(alpha, kSmallestAlpha);
+  const auto lobe = compact_lobe<double>(ggx_compact_table(), width, cosine, view);
+  return look_up(polygon_, texture_, tree_, at, frame, lobe.matrix, K().ggx_view(view, width, width));
+}
+
+}  // namespace steradian

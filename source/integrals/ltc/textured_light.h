@@ -1,0 +1,40 @@
+// TexturedLight: the mean radiance of a textured light as a lobe sees it: over cells of it (texture_tree.h) where the lobe is wider than
+// they are, else by one look-up in its blurred copies. Approximate; the error is measured in docs/ltc.md, "Textured lights".
+#pragma once
+
+#include "integrals/ltc/filtered_texture.h"
+#include "steradian/reference.h"
+
+namespace steradian {
+
+// A part of the lobe's footprint: a Gaussian of this width (in radians of the footprint's cone).
+struct TextureGaussian {
+  double weight, width;
+};
+
+// The cosine lobe's footprint on a plane at distance 1, 1 / (pi (1 + r^2)^2), as a mixture of two Gaussians: the
+// least squares fit of its spectrum k K_1(k) under the weight 1/k, that is, for textures whose power falls as 1/k^2 (edges,
+// photographs). What is left has a square of 7e-4; of the best single Gaussian (width 0.905), 1.5e-2.
+// TexturedLight.WidthsFitTheSpectrumOfTheCosine finds them again.
+inline constexpr TextureGaussian kMixture[] = {{0.64, 0.62}, {0.36, 1.92}};
+
+class TexturedLight {
+ public:
+  // The light must have a texture; `polygon` is its prepared outline.
+  TexturedLight(const AreaLight& light, const PreparedPolygon& polygon, const std::vector<Image>& images)
+      : polygon_(polygon), texture_(light, polygon, images), tree_(texture_.finest()) {}
+
+  // The mean over the light's visible part, weighted with the lobe. Times the lobe's integral over a light of radiance 1, it is
+  // the radiance. The light's mean where it sends nothing.
+  Vec3f seen_by_diffuse(const ShadingPoint& at) const;
+  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha) const;
+
+  const FilteredTexture& texture() const { return texture_; }
+
+ private:
+  PreparedPolygon polygon_;
+  FilteredTexture texture_;
+  TextureTree tree_;
+};
+
+}  // namespace steradian

@@ -1,0 +1,219 @@
+// The Phong methods against independent quadrature over the sphere, and each other.
+#include "steradian/phong.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "integrals/adversarial_quads.h"
+#include "reference/random_configurations.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+using reference::Random;
+using reference::random_configuration;
+
+Material phong(double n) {
+  Material material;
+  material.brdf = Brdf::phong;
+  material.exponent = n;
+  return material;
+}
+
+PolygonLight polygon(std::vector<Vec3d> vertices) {
+  PolygonLight light;
+  light.vertices = std::move(vertices);
+  return light;
+}
+
+constexpr double kExponents[] = {1, 2, 3, 4.5, 10, 11, 64, 100, 333.3, 1000, 5000, 10000};
+
+double exact_of(const PreparedPolygon& light, const ShadingPoint& at, double n) {
+  return phong_radiance(light, at, phong(n), {Method::exact}).x;
+}
+
+// Largest and root mean square error, and where the largest was.
+struct Errors {
+  double largest = 0, squares = 0, at_n = 0;
+  int count = 0;
+
+  void add(double error, double n) {
+    if (!(std::fabs(error) <= largest)) largest = std::fabs(error), at_n = n;  // catches NaN too
+    squares += error * error;
+    ++count;
+  }
+  double rms() const { return std::sqrt(squares / count); }
+  void print(const char* name) const {
+    std::printf("%-28s largest %.2e (n = %.4g), rms %.2e, %d lights\n", name, largest, at_n, rms(), count);
+  }
+};
+
+}  // namespace
+
+// Two-dimensional adaptive cubature knows nothing of boundary integrals. The full lobe's radiance is 1.
+TEST(PhongExact, AgreesWithQuadratureOverTheSphere) {
+  Random random(3);
+  Errors errors;
+  int lit = 0, judged = 0;
+  for (int i = 0; i < 2000; ++i) {
+    auto c = random_configuration(random);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const double n = i % 13 == 12 ? std::exp(random.uniform(0, std::log(10000.0))) : kExponents[i % 13];
+    if (i % 4 != 0 && !light.vertices.empty()) {  // aim the lobe at the light
+      const Vec3d to_light = normalized(light.vertices[random.bits() % light.vertices.size()] * 0.7 + light.centroid * 0.3 - c.at.position);
+      if (dot(to_light, c.at.normal) > 1e-3) c.at.view = moment::view_mirrored_to(to_light, c.at.normal);
+    }
+    const double exact = exact_of(light, c.at, n);
+    const ReferenceResult r = reference_radiance(light, c.at, phong(n), {1e-12, 1e-12, 1'000'000});
+    EXPECT_LE(std::fabs(exact - r.radiance.x), 1e-10 + r.bound) << i << ": " << c.kind << ", n = " << n << ", exact " << exact;
+    if (r.bound < 1e-10) errors.add(exact - r.radiance.x, n), ++judged;
+    lit += exact > 1e-3;
+  }
+  EXPECT_LT(errors.largest, 1e-10);
+  EXPECT_GT(lit, 700);
+  EXPECT_GT(judged, 1900);
+  errors.print("exact against cubature");
+  std::printf("%d of 2000 judged, %d lit\n", judged, lit);
+}
+
+TEST(PhongExact, AgreesWithQuadratureOnQuadsAroundTheLobe) {
+  Random random(4);
+  Errors errors;
+  for (int i = 0; i < 1000; ++i) {
+    const auto c = moment::adversarial_quad(random);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const ReferenceResult r = reference_radiance(light, c.at, phong(c.n), {1e-12, 1e-12, 1'000'000});
+    const double error = exact_of(light, c.at, c.n) - r.radiance.x;
+    EXPECT_LE(std::fabs(error), 1e-10 + r.bound) << i << ": n = " << c.n;
+    errors.add(error, c.n);
+  }
+  errors.print("exact against cubature");
+}
+
+// A light with the axis inside and wider than the lobe's hemisphere: the full lobe, cut by the horizon alone.
+TEST(PhongExact, GivesTheWholeLobeUnderAVeryLargeLight) {
+  PolygonLight big;
+  big.vertices = {{-1e6, 1e6, 1}, {1e6, 1e6, 1}, {1e6, -1e6, 1}, {-1e6, -1e6, 1}};  // shines down
+  const PreparedPolygon light = prepare_polygon(big);
+  // What the light lacks is a band of 1e-6 above the horizon, where the lobe is 0.
+  for (double n : kExponents) EXPECT_NEAR(exact_of(light, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, n), 1, 1e-11) << "n = " << n;
+}
+
+TEST(PhongExact, IsAdditiveWhenAPolygonIsCut) {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const auto c = moment::adversarial_quad(random);
+    const auto& v = c.light.vertices;
+    const double whole = exact_of(prepare_polygon(polygon(v)), c.at, c.n);
+    // Cut at the vertex that the quad's other diagonal does not leave: either triangle may run backwards.
+    const Vec3d up = normalized(cross(v[1] - v[0], v[2] - v[0])), up2 = normalized(cross(v[2] - v[0], v[3] - v[0]));
+    if (dot(up, up2) < 0) continue;
+    const double parts = exact_of(prepare_polygon(polygon({v[0], v[1], v[2]})), c.at, c.n) +
+                         exact_of(prepare_polygon(polygon({v[0], v[2], v[3]})), c.at, c.n);
+    EXPECT_NEAR(whole, parts, 2e-12) << i << ": n = " << c.n;
+  }
+}
+
+TEST(PhongArvo, IsExactForIntegerExponents) {
+  Random random(6);
+  Errors all, early;
+  for (int i = 0; i < 1500; ++i) {
+    auto c = moment::adversarial_quad(random);
+    const double n = i < 200 ? 1 + i % 12 : std::round(std::pow(c.n, 0.8));
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const double exact = exact_of(light, c.at, n);
+    all.add(phong_radiance(light, c.at, phong(n), {Method::arvo}).x - exact, n);
+    early.add(phong_radiance(light, c.at, phong(n), {Method::arvo, Quality::normal, 1e-4}).x - exact, n);
+  }
+  all.print("arvo");
+  early.print("arvo, stopped at 1e-4");
+  // The recurrence cancels in c^p of ends close together: a thousand roundings of its largest term.
+  EXPECT_LT(all.largest, 1e-11);
+  // 1e-4 of an edge's share, which is at most 2 pi; four edges.
+  EXPECT_LT(early.largest, 4e-4);
+  EXPECT_GT(early.largest, all.largest);
+}
+
+TEST(PhongArvo, RefusesOtherExponents) {
+  Random random(6);
+  const auto c = moment::adversarial_quad(random);
+  const PreparedPolygon light = prepare_polygon(c.light);
+  EXPECT_THROW(phong_radiance(light, c.at, phong(4.5), {Method::arvo}), Error);
+  EXPECT_THROW(phong_radiance(light, c.at, phong(-1), {Method::series}), Error);
+}
+
+// The bounds are the specification of the method; the largest errors come from lights with an edge through the axis.
+TEST(PhongSeries, HoldsItsErrorsInFloatOver100000AdversarialQuads) {
+  Random random(8);
+  Errors normal, high;
+  for (int i = 0; i < 100000; ++i) {
+    const auto c = moment::adversarial_quad(random);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const double exact = exact_of(light, c.at, c.n);
+    const PhongOptions high_quality{Method::series, Quality::high};
+    normal.add(static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), {Method::series}).x) - exact, c.n);
+    high.add(static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), high_quality).x) - exact, c.n);
+  }
+  normal.print("series, float");
+  high.print("series, high quality, float");
+  EXPECT_LE(normal.largest, 1.3e-3);
+  EXPECT_LE(normal.rms(), 1.7e-4);
+  EXPECT_LE(high.largest, 4.5e-4);
+  EXPECT_LE(high.rms(), 5e-5);
+}
+
+TEST(PhongSeries, ServesExponentsBelowOne) {
+  Random random(9);
+  Errors normal, high;
+  for (int i = 0; i < 4000; ++i) {
+    auto c = random_configuration(random);
+    const double n = i % 5 == 0 ? 0 : random.uniform();
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const double exact = exact_of(light, c.at, n);
+    normal.add(phong_radiance(light, c.at, phong(n), {Method::series}).x - exact, n);
+    high.add(phong_radiance(light, c.at, phong(n), {Method::series, Quality::high}).x - exact, n);
+  }
+  normal.print("series, n < 1");
+  high.print("series high, n < 1");
+  EXPECT_LE(normal.largest, 1.3e-3);
+  EXPECT_LE(high.largest, 4.5e-4);
+}
+
+// Order of magnitude only: the fits are here for comparison.
+TEST(PhongPeakFits, StayWithinTheirKnownErrors) {
+  Random random(10);
+  for (Method method : {Method::lorentzian, Method::pearson, Method::ellipsoid}) {
+    Errors integer, fractional;
+    for (int i = 0; i < 4000; ++i) {
+      const auto c = moment::adversarial_quad(random);
+      const PreparedPolygon light = prepare_polygon(c.light);
+      const double n = i % 2 ? c.n : std::round(c.n);
+      const double error = phong_radiance(light, c.at, phong(n), {method}).x - exact_of(light, c.at, n);
+      (i % 2 ? fractional : integer).add(error, n);
+    }
+    integer.print((std::string(name_of(method)) + ", integer n").c_str());
+    fractional.print((std::string(name_of(method)) + ", any n").c_str());
+    EXPECT_LT(std::max(integer.largest, fractional.largest), 0.1) << name_of(method);
+    EXPECT_LT(std::max(integer.rms(), fractional.rms()), 0.01) << name_of(method);
+  }
+}
+
+TEST(PhongQuadrature, IsCloseInFloat) {
+  Random random(11);
+  Errors in_double;
+  for (int i = 0; i < 3000; ++i) {
+    const auto c = moment::adversarial_quad(random);
+    const PreparedPolygon light = prepare_polygon(c.light);
+    const double exact = exact_of(light, c.at, c.n);
+    const double f = static_cast<double>(phong_radiance_float(light, c.at, phong(c.n), {Method::exact}).x);
+    in_double.add(f - exact, c.n);
+  }
+  in_double.print("quadrature, 14 nodes, float");
+  // Directions in float are off by 1.2e-7; the lobe's slope is at most sqrt(n/e) = 61 over the outline's 4 lobe widths.
+  EXPECT_LT(in_double.largest, 2e-4);
+}
+
+}  // namespace steradian

@@ -1,0 +1,279 @@
+#include "steradian/polygon_derivatives.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "integrals/ggx.h"
+#include "integrals/irradiance.h"
+#include "integrals/phong.h"
+#include "integrals/ltc/shipped_lobe.h"
+#include "shapes/polygon.h"
+#include "steradian/dual.h"
+#include "steradian/albedo.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+// Which stored vertex each vertex of the prepared light is: contours lose repeated vertices and may be turned around.
+std::vector<std::size_t> stored_vertices(const PolygonLight& light, const PreparedPolygon& prepared) {
+  std::vector<std::size_t> result;
+  std::size_t offset = 0;
+  const auto add = [&](const std::vector<Vec3d>& contour) {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < contour.size(); ++i)
+      if (kept.empty() || !(contour[i] == contour[kept.back()])) kept.push_back(i);
+    while (kept.size() > 1 && contour[kept.front()] == contour[kept.back()]) kept.pop_back();
+    if (kept.size() >= 3 && result.size() < prepared.vertices.size()) {
+      const bool turned = !(prepared.vertices[result.size()] == contour[kept.front()]);
+      for (std::size_t i = 0; i < kept.size(); ++i) result.push_back(offset + kept[turned ? kept.size() - 1 - i : i]);
+    }
+    offset += contour.size();
+  };
+  add(light.vertices);
+  for (const auto& hole : light.holes) add(hole);
+  return result;
+}
+
+std::size_t stored_count(const PolygonLight& light) {
+  std::size_t count = light.vertices.size();
+  for (const auto& hole : light.holes) count += hole.size();
+  return count;
+}
+
+// By the vertices in walk order, relative to the point.
+using integrals::to_kernel;
+using VertexDerivatives = std::vector<Vec3d>;
+
+// Of an integral's two parts (integrals::Part).
+struct PartDerivatives {
+  VertexDerivatives plain, fresnel;
+};
+struct PartByNormal {
+  Vec3d plain, fresnel;
+};
+
+// Each edge depends on its two ends alone: six directions an edge, however many vertices there are. Irradiance is the sum
+// of the edges' z and of half the angle of the product of their horizon factors, so of half the sum of their angles.
+VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d position, const Frame& frame) {
+  using S = Dual<6>;
+  using R = Real<S>;
+  Kernels<S> k;
+  const auto seeded = [](Vec3d v, std::size_t first) {
+    Vec3<R> r(v.x, v.y, v.z);
+    r.x.v.d[first] = r.y.v.d[first + 1] = r.z.v.d[first + 2] = 1.0;
+    return r;
+  };
+  VertexDerivatives result(light.vertices.size());
+  const Vec3d* vertices = light.vertices.data();
+  integrals::walk_contours(
+      vertices, light.contours.data(), light.contours.size() - 1, [](const Vec3d& v) { return &v; },
+      [&](const Vec3d* a, const Vec3d* b) {
+        const auto from = k.polygon_direction(seeded(frame.to_local(*a - position), 0));
+        const auto to = k.polygon_direction(seeded(frame.to_local(*b - position), 3));
+        const auto walk = k.polygon_add_edge(k.polygon_begin(), from, to);
+        R term = walk.edges.z;
+        if (walk.horizon.x.v.v < 1.0) term += 0.5 * k.trig_atan2(walk.horizon.y, walk.horizon.x);
+        const auto& d = term.v.d;
+        result[static_cast<std::size_t>(a - vertices)] += frame.to_world({d[0], d[1], d[2]});
+        result[static_cast<std::size_t>(b - vertices)] += frame.to_world({d[3], d[4], d[5]});
+      });
+  return result;
+}
+
+// Of any integral over the whole outline, in walk order, in the frame's coordinates turned back to the world's. Six directions
+// are followed at a time.
+//
+//   side      on which the light is seen
+//   integral  integral.template operator()<S>(outline, shading): an integrals::Part<S>
+template <class Integral>
+PartDerivatives by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame, const Integral& integral) {
+  using S = Dual<6>;
+  const auto shading = integrals::shading_from<S>(side, to_kernel<S>(frame.to_local(normalized(at.view))));
+  std::vector<Vec3d> local;
+  for (const Vec3d& v : light.vertices) local.push_back(frame.to_local(v - at.position));
+  PartDerivatives result;
+  for (std::size_t first = 0; first < local.size(); first += 2) {
+    const auto direction = [&](const Vec3d& v) {
+      const auto i = static_cast<std::size_t>(&v - light.vertices.data());
+      auto r = to_kernel<S>(local[i]);
+      if (i - first < 2) {  // unsigned: not below first either
+        const std::size_t d = 3 * (i - first);
+        r.x.v.d[d] = r.y.v.d[d + 1] = r.z.v.d[d + 2] = 1.0;
+      }
+      return Kernels<S>().polygon_direction(r);
+    };
+    const auto value = integral.template operator()<S>(integrals::contours_of(light, direction), shading);
+    for (std::size_t i = first; i < std::min(first + 2, local.size()); ++i) {
+      const auto of_vertex = [&](const auto& d) {
+        const std::size_t k = 3 * (i - first);
+        return frame.to_world({d[k], d[k + 1], d[k + 2]});
+      };
+      result.plain.push_back(of_vertex(value.x.v.d));
+      result.fresnel.push_back(of_vertex(value.y.v.d));
+    }
+  }
+  return result;
+}
+
+VertexDerivatives solid_angle_by_vertices(const PreparedPolygon& light, Vec3d position, int side) {
+  const auto solid_angle = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    integrals::SolidAngle<S> integral(outline.direction(light.vertices.front()));
+    return integrate(outline, shading, integral);
+  };
+  return by_vertices(light, side, {position, {0, 0, 1}, {0, 0, 1}}, Frame::from_normal({0, 0, 1}), solid_angle).plain;
+}
+
+// By the normal, of the function of n/|n|, the light, the point and the view held: one evaluation, in which the frame turns.
+//
+//   toward   what the frame's x axis follows: the tangent, or the view
+template <class Integral>
+PartByNormal by_normal(const PreparedPolygon& light, int side, const ShadingPoint& at, Vec3d toward, const Integral& integral) {
+  using S = Dual<3>;
+  Kernels<S> k;
+  auto normal = to_kernel<S>(at.normal);
+  normal.x.v.d[0] = normal.y.v.d[1] = normal.z.v.d[2] = 1.0;
+  const auto frame = k.frame_from_normal_and_view(k.polygon_direction(normal), to_kernel<S>(toward));
+  const auto shading = integrals::shading_from<S>(side, transform_transposed(frame, to_kernel<S>(normalized(at.view))));
+  const auto value = integral.template operator()<S>(integrals::contours_in<S>(light, frame, at.position), shading);
+  const auto& plain = value.x.v.d;
+  const auto& fresnel = value.y.v.d;
+  return {{plain[0], plain[1], plain[2]}, {fresnel[0], fresnel[1], fresnel[2]}};
+}
+
+// Point and normal move as the vertices do the other way: the integral sees only vertices relative to the point, turned
+// into the normal's frame. `back` is -1 where the walk ran the wrong way round.
+LightDerivatives gather(const PolygonLight& stored, const PreparedPolygon& light, Vec3d position, Vec3d normal, double value,
+                        const VertexDerivatives& by_vertex, double back) {
+  LightDerivatives result;
+  result.value = value;
+  result.vertices.resize(stored_count(stored));
+  const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
+  Vec3d moment{};
+  for (std::size_t i = 0; i < by_vertex.size(); ++i) {
+    const Vec3d derivative = by_vertex[i] * back;
+    result.vertices[stored_index[i]] = derivative;
+    result.position += -derivative;
+    moment += cross(light.vertices[i] - position, derivative);
+  }
+  result.normal = cross(normal, moment);
+  return result;
+}
+
+LightDerivatives no_light(const PolygonLight& light) {
+  LightDerivatives result;
+  result.vertices.resize(stored_count(light));
+  return result;
+}
+
+}  // namespace
+
+LightDerivatives polygon_irradiance_derivatives(const PolygonLight& stored, Vec3d position, Vec3d normal) {
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = shapes::lit_side(light, position);
+  if (side == 0) return no_light(stored);
+  return gather(stored, light, position, normal, polygon_irradiance(light, position, normal),
+                irradiance_by_vertices(light, position, Frame::from_normal(normal)), side);
+}
+
+LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec3d position) {
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = shapes::lit_side(light, position);
+  if (side == 0) return no_light(stored);
+  return gather(stored, light, position, {}, polygon_solid_angle(light, position), solid_angle_by_vertices(light, position, side), 1);
+}
+
+namespace {
+
+// The channels of an integral's two parts.
+//
+//   plain, fresnel  factors on the parts, a number a channel
+RadianceDerivatives of_channels(const PolygonLight& stored, const PreparedPolygon& light, const PartDerivatives& parts,
+                                const PartByNormal& normal, Vec3d plain, Vec3d fresnel) {
+  RadianceDerivatives result(stored_count(stored));
+  const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
+  const auto channels = [&](Vec3d p, Vec3d f) -> std::array<Vec3d, 3> {
+    return {p * plain.x + f * fresnel.x, p * plain.y + f * fresnel.y, p * plain.z + f * fresnel.z};
+  };
+  for (std::size_t i = 0; i < parts.plain.size(); ++i) result.vertices[stored_index[i]] = channels(parts.plain[i], parts.fresnel[i]);
+  result.normal = channels(normal.plain, normal.fresnel);
+  return result;
+}
+
+}  // namespace
+
+RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material, Quality quality) {
+  const Material m = with_multiple_scattering(material, at);
+  if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
+    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
+  if (m.brdf == Brdf::phong && m.foreshortening)
+    throw Error("derivatives", "phong with foreshortening has none", "leave foreshortening out");
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = shapes::lit_side(light, at.position);
+  if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
+  if (m.brdf == Brdf::ggx) {
+    const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+      integrals::Ggx<S> ggx;
+      ggx.alpha_x = m.alpha_x;
+      ggx.alpha_y = m.alpha_y;
+      ggx.smith = m.shadowing ? 1.0 : 0.0;
+      ggx.quality = quality;
+      return integrate(outline, shading, ggx);
+    };
+    const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
+    return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
+                       light.radiance * m.f0, light.radiance * (m.f90 - m.f0));
+  }
+  const Frame frame = Frame::from_normal(at.normal);
+  if (m.brdf == Brdf::phong) {
+    const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+      const integrals::PhongLobe<S> lobe(m.exponent, 0.0);
+      // Of the series alone: the other methods in dual numbers would take the compiler's budget for inlining.
+      const auto share = [&](const auto& a, const auto& b, const auto& axis) {
+        return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
+                                        : lobe.template share<Method::series, Quality::normal>(a, b, axis);
+      };
+      integrals::Phong<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
+      return integrate(outline, shading, phong);
+    };
+    return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
+                       light.radiance * m.albedo, {});
+  }
+  const VertexDerivatives by_vertex = irradiance_by_vertices(light, at.position, frame);
+  Vec3d moment{};
+  for (std::size_t i = 0; i < by_vertex.size(); ++i) moment += cross(light.vertices[i] - at.position, by_vertex[i]);
+  return of_channels(stored, light, {by_vertex, VertexDerivatives(by_vertex.size())}, {cross(at.normal, moment), {}},
+                     m.albedo * light.radiance * (side / std::numbers::pi), {});
+}
+
+RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& stored, const ShadingPoint& at,
+                                             const Material& material) {
+  const Material m = with_multiple_scattering(material, at);
+  if (method != LtcMethod::classic && method != LtcMethod::compact)
+    throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
+  if (!serves(method, m) || m.brdf != Brdf::ggx)
+    throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = shapes::lit_side(light, at.position);
+  if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
+  const Vec3d view = normalized(at.view);
+  const double alpha = std::max(m.alpha_x, kSmallestAlpha);
+  // The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
+  const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    integrals::Ltc<S> ltc(method == LtcMethod::classic ? classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z)
+                                                       : compact_lobe<S>(ggx_compact_table(), alpha, shading.view.z, shading.view));
+    return integrate(outline, shading, ltc);
+  };
+  const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
+  return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, view, integral),
+                     light.radiance * m.f0, light.radiance * (m.f90 - m.f0));
+}
+
+std::array<Vec3d, 3> by_position(const RadianceDerivatives& by_vertices) {
+  std::array<Vec3d, 3> result{};
+  for (const auto& vertex : by_vertices.vertices)
+    for (std::size_t channel = 0; channel < 3; ++channel) result[channel] += -vertex[channel];
+  return result;
+}
+
+}  // namespace steradian

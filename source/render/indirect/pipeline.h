@@ -1,0 +1,43 @@
+// The indirect light of a picture, pass by pass.
+#pragma once
+
+#include <optional>
+
+#include "render/indirect/receivers.h"
+#include "render/cpu/gbuffer.h"
+#include "render/cpu/ltc_points.h"
+#include "steradian/render.h"
+
+namespace steradian::indirect {
+
+class Pipeline {
+ public:
+  // Keeps references to all but the options.
+  Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads);
+
+  // Takes the surfaces of a tile of the picture. From any thread, each tile once.
+  void take(const SurfaceTile& tile, TileArea area);
+
+  // Adds the indirect light of all tiles taken, and keeps it as the layer "indirect".
+  void add_to(Picture& picture);
+
+  const std::vector<PassTime>& passes() const { return passes_; }
+
+ private:
+  void add_sum(Picture& picture);
+  void add_true(Picture& picture);
+  template <class Work>
+  auto timed(const char* name, Work work);
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const RenderOptions options_;
+  const int threads_;
+  const LtcPackTables tables_;
+  FrameSurfaces surfaces_;
+  std::vector<const SurfaceMaterial*> materials_;  // ground truth only
+  std::vector<float> fresnel_loss_;                // likewise
+  std::vector<PassTime> passes_;
+};
+
+}  // namespace steradian::indirect

@@ -1,0 +1,210 @@
+// The bounce as a whole: sums in float against doubles, culled against unculled, and against path tracing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/indirect/blue_noise.h"
+#include "render/indirect/filter.h"
+#include "render/indirect/light_receivers.h"
+#include "render/indirect/test_corner.h"
+#include "render/indirect/true_light.h"
+#include "render/cpu/camera_rays.h"
+#include "steradian/compare.h"
+#include "steradian/render.h"
+
+namespace steradian::indirect {
+namespace {
+
+TEST(IndirectShadowMap, CarriesTheConesFlux) {
+  Scene scene = mixed_corner();
+  scene.punctual_lights[0].cos_inner = scene.punctual_lights[0].cos_outer + 1e-4;  // no falloff: flux = I 2 pi (1 - cos)
+  const RayScene rays(scene);
+  for (const int count : {1 << 12, 1 << 16}) {
+    const ShadowMap map = make_shadow_map(scene, rays, count);
+    double flux = 0;
+    for (std::size_t i = 0; i < map.count; ++i) flux += static_cast<double>(map.flux.x[i]);
+    // The cone's rim cuts texels: about its circumference over their number's root.
+    EXPECT_NEAR(flux, 10 * 2 * 3.14159265 * (1 - std::cos(0.35)), 10 * 0.38 * 4 / std::sqrt(count)) << count;
+    for (std::size_t i = 0; i < map.count; i += 97)
+      EXPECT_NEAR(map.area[i], length(cross(map.edge_x[i], map.edge_y[i])) * 4, 1e-4 * map.area[i]);
+  }
+}
+
+TEST(IndirectShadowMap, AreaLightsCarryTheirPower) {
+  Scene scene = mixed_corner();
+  scene.punctual_lights.clear();
+  AreaLight light;
+  light.polygon.vertices = {{-0.5, 1, 0.5}, {-0.5, 1, 1.5}, {0.5, 1, 1.5}, {0.5, 1, 0.5}};  // faces up or down
+  light.polygon.radiance = {2, 2, 2};
+  light.polygon.two_sided = true;
+  scene.area_lights = {light};
+  scene.meshes.push_back(quad_mesh({-9, 9, -9}, {9, 9, -9}, {9, 9, 9}, {-9, 9, 9}, 0));  // a lid, so that light goes nowhere
+  scene.meshes.push_back(quad_mesh({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, 0));
+  const RayScene rays(scene);
+  const ShadowMap map = make_shadow_map(scene, rays, 1 << 14);
+  double flux = 0;
+  for (std::size_t i = 0; i < map.count; ++i) flux += static_cast<double>(map.flux.x[i]);
+  EXPECT_GT(flux, 0.6 * 2 * 3.14159265 * 2);  // two sides; some leaves between lid and floor
+  EXPECT_LE(flux, 2 * 3.14159265 * 2 * 1.0001);
+}
+
+TEST(IndirectLighting, BlueNoiseHoldsEveryRankOnceAndLittleOfLowFrequencies) {
+  std::vector<int> seen(kMaskSide * kMaskSide);
+  for (const auto& row : blue_noise())
+    for (const float v : row) ++seen[static_cast<std::size_t>(v * kMaskSide * kMaskSide)];
+  for (const int n : seen) EXPECT_EQ(n, 1);
+  // Means of 8 x 8 blocks of white noise vary by 1/(12 64); the mask's vary far less.
+  double variance = 0;
+  for (std::size_t by = 0; by < 8; ++by)
+    for (std::size_t bx = 0; bx < 8; ++bx) {
+      double sum = 0;
+      for (std::size_t y = 0; y < 8; ++y)
+        for (std::size_t x = 0; x < 8; ++x) sum += static_cast<double>(blue_noise()[8 * by + y][8 * bx + x]);
+      variance += std::pow(sum / 64 - 0.5, 2) / 64;
+    }
+  EXPECT_LT(variance, 0.1 / (12 * 64));
+}
+
+// On packs in float, and in double: the same sum. Fresnel by pair differs: the pack takes it at virtual lights below
+// F0 0.1, as the double does.
+TEST(IndirectLighting, SumOnPacksIsTheSumInDouble) {
+  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx})
+    for (const Scene& scene : {metal_corner(), mixed_corner()}) {
+      const Difference d = difference(plain_sum(scene, mode, 1 << 12), true_sum(scene, mode, 1 << 12));
+      EXPECT_LT(d.relative_l2, 2e-4) << "mode " << static_cast<int>(mode) << ", mean ratio " << d.mean_ratio;
+    }
+}
+
+// The bounce between two metals, F0 = 1: transformed cosines at both ends against GGX at both ends in double.
+TEST(IndirectLighting, TwoGlossyEndsAreNearGgx) {
+  for (const float roughness : {0.35f, 0.5f, 0.7f}) {
+    const Scene scene = metal_corner(roughness);
+    const Picture truth = true_sum(scene, IndirectMode::ggx, 1 << 12);
+    const Difference d = difference(true_sum(scene, IndirectMode::ltc, 1 << 12), truth);
+    std::cout << "roughness " << roughness << ": relative L2 " << d.relative_l2 << ", energy " << d.mean_ratio << "\n";
+    EXPECT_LE(d.relative_l2, 0.10) << roughness;
+    EXPECT_NEAR(d.mean_ratio, 1, 0.05) << roughness;
+  }
+}
+
+TEST(IndirectLighting, DielectricsNeedFresnelByPair) {
+  const Scene scene = corner(plastic(0.6f, 0.45f), plastic(0.0f, 0.5f));  // a black, shiny wall feeds the floor
+  const Picture truth = true_sum(scene, IndirectMode::ggx, 1 << 12);
+  const Difference d = difference(true_sum(scene, IndirectMode::ltc, 1 << 12), truth);
+  std::cout << "dielectric wall: relative L2 " << d.relative_l2 << ", energy " << d.mean_ratio << "\n";
+  EXPECT_LE(d.relative_l2, 0.14);
+}
+
+// The same sets of virtual lights, all of them and culled: the mean over seeds is the whole, and what a seed changes of
+// the frame's mean is little.
+TEST(IndirectLighting, CullingKeepsTheMean) {
+  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
+    const Scene scene = mode == IndirectMode::ltc ? mixed_corner() : metal_corner();
+    RenderOptions o = options(mode, 1 << 12);
+    o.indirect.interleave = 4;
+    o.indirect.filter = false;
+    o.indirect.kept_pairs = 0;
+    const Picture whole = bounce(scene, o);
+    o.indirect.kept_pairs = 8;
+    constexpr int kSeeds = 256;
+    std::vector<double> sum(whole.pixels.size()), squares(whole.pixels.size());
+    double frame_sum = 0, frame_squares = 0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      o.seed = static_cast<std::uint64_t>(seed);
+      const Picture culled = bounce(scene, o);
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double v = static_cast<double>(culled.pixels[i].x + culled.pixels[i].y + culled.pixels[i].z);
+        sum[i] += v;
+        squares[i] += v * v;
+      }
+      frame_sum += mean(culled);
+      frame_squares += mean(culled) * mean(culled);
+    }
+    int tested = 0, outside = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      const double m = sum[i] / kSeeds, variance = std::max(squares[i] / kSeeds - m * m, 0.0) / (kSeeds - 1);
+      const double truth = static_cast<double>(whole.pixels[i].x + whole.pixels[i].y + whole.pixels[i].z);
+      if (!(truth > 0)) continue;
+      ++tested;
+      outside += std::fabs(m - truth) > 3 * std::sqrt(variance) + 1e-4 * truth;
+    }
+    const double m = frame_sum / kSeeds, deviation = std::sqrt(std::max(frame_squares / kSeeds - m * m, 0.0));
+    std::cout << "mode " << static_cast<int>(mode) << ": " << outside << " of " << tested << " pixels beyond 3 sigma; frame mean "
+              << m / mean(whole) << " of the whole, deviation from seed to seed " << deviation / mean(whole) << "\n";
+    // 0.27 % of normal deviates lie beyond; the estimates are skewed, so a few times that.
+    EXPECT_LE(outside, 0.015 * tested);
+    EXPECT_NEAR(m / mean(whole), 1, 3 * deviation / mean(whole) / std::sqrt(kSeeds) + 1e-4);
+    EXPECT_LT(deviation / mean(whole), 0.02);
+  }
+}
+
+// R2: path tracing knows nothing of virtual lights.
+TEST(IndirectLighting, SumApproachesPathTracing) {
+  const Scene scene = mixed_corner();
+  RenderOptions o = options(IndirectMode::path, 0);
+  o.spp = 512;
+  const Picture all = render(scene, o);
+  Picture path(all.width, all.height);
+  path.pixels = all.layers.at("indirect");
+  double noise = 0, light = 0;
+  for (std::size_t i = 0; i < path.pixels.size(); ++i) {
+    const Vec3f v = all.layers.at("indirect_variance")[i], c = path.pixels[i];
+    noise += static_cast<double>(v.x + v.y + v.z);
+    light += static_cast<double>(dot(c, c));
+  }
+  const Difference d = difference(plain_sum(scene, IndirectMode::ggx, 1 << 14), path);
+  std::cout << "GGX sum against path tracing: relative L2 " << d.relative_l2 << ", noise " << std::sqrt(noise / light) << ", energy "
+            << d.mean_ratio << "\n";
+  EXPECT_NEAR(d.mean_ratio, 1, 0.02);
+  EXPECT_LT(d.relative_l2, 3 * std::sqrt(noise / light) + 0.05);
+}
+
+TEST(IndirectLighting, SameBytesAtAnyNumberOfThreads) {
+  const Scene scene = mixed_corner();
+  RenderOptions o = options(IndirectMode::ltc, 1 << 12);
+  o.indirect.shadow_rays = 2;
+  o.threads = 1;
+  const Picture one = bounce(scene, o);
+  o.threads = 2;
+  const Picture two = bounce(scene, o);
+  EXPECT_TRUE(std::equal(one.pixels.begin(), one.pixels.end(), two.pixels.begin(), [](Vec3f a, Vec3f b) { return a == b; }));
+}
+
+// A board between wall and floor: the rays must take away what the doubles with visibility do not have.
+TEST(IndirectLighting, RatioEstimatorFindsTheShadows) {
+  Scene scene = mixed_corner();
+  scene.meshes.push_back(quad_mesh({-1, 0.35f, 0.1f}, {1, 0.35f, 0.1f}, {1, 0.35f, 0.9f}, {-1, 0.35f, 0.9f}, 0));
+  RenderOptions o = options(IndirectMode::ltc, 1 << 12);
+  o.indirect.quads = o.indirect.soften = false;
+  o.indirect.interleave = 1;
+  o.indirect.kept_pairs = 0;
+  const Picture lit = bounce(scene, o);
+  o.indirect.shadow_rays = 16;
+  const Picture shadowed = bounce(scene, o);
+  RenderOptions r = options(IndirectMode::ltc, 1 << 12);
+  r.method = "reference";
+  r.target_error = 1;
+  r.indirect.shadow_rays = 1;
+  const Picture truth = bounce(scene, r);
+  const Difference with = difference(shadowed, truth), without = difference(lit, truth);
+  std::cout << "relative L2 with rays " << with.relative_l2 << ", without " << without.relative_l2 << "; energy " << with.mean_ratio << ", "
+            << without.mean_ratio << "\n";
+  EXPECT_NEAR(with.mean_ratio, 1, 0.02);
+  EXPECT_LT(with.relative_l2, 0.3 * without.relative_l2);
+}
+
+TEST(IndirectFilter, WeighsAllPlacesOfThePatternAlike) {
+  for (const int stride : {2, 4, 8}) {
+    const FilterWeights w = filter_weights(stride);
+    for (const auto& taps : {w.diffuse, w.glossy, w.sharp})
+      for (int phase = 0; phase < stride; ++phase) {
+        double sum = 0;
+        for (int k = -kFilterReach; k <= kFilterReach; ++k)
+          if ((k + 64) % stride == phase) sum += static_cast<double>(taps[k + kFilterReach]);
+        EXPECT_NEAR(sum, 1.0 / stride, 1e-6) << stride << " " << phase;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace steradian::indirect
