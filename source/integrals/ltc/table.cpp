@@ -1,6 +1,7 @@
 #include "integrals/ltc/table.h"
 
 #include "integrals/ltc/table_lookup.h"
+#include "steradian/material.h"  // alpha_from_roughness
 
 namespace steradian {
 
