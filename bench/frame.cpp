@@ -63,8 +63,8 @@ SurfaceMaterial glossy() {
 
 AreaLight ceiling_quad(double x, double z, double half) {
   AreaLight light;
-  light.polygon.vertices = {{x - half, 1.5, z - half}, {x + half, 1.5, z - half}, {x + half, 1.5, z + half}, {x - half, 1.5, z + half}};
-  light.polygon.radiance = {1, 1, 1};
+  light.shape = Polygon{{{x - half, 1.5, z - half}, {x + half, 1.5, z - half}, {x + half, 1.5, z + half}, {x - half, 1.5, z + half}}, {}};
+  light.radiance = {1, 1, 1};
   return light;
 }
 

@@ -47,29 +47,21 @@ std::shared_ptr<Floor> make_floor() {
 }
 
 // A ball and a tube where the quad is.
-PackLight round_light(LightShape shape) {
+const Vec3d kCenter{0, 0.5, -0.6}, kHalf{1, 0.1, 0};
+const Ellipsoid kBall = {kCenter, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}};
+const Capsule kTube = {kCenter - kHalf, kCenter + kHalf, 0.1};
+
+PackLight pack_light(const Shape& shape) {
   Scene scene;
-  AreaLight light;
-  light.shape = shape;
-  light.center = {0, 0.5, -0.6};
-  if (shape == LightShape::capsule) {
-    light.x = {1, 0.1, 0};
-    light.radius = 0.1;
-  } else {
-    light.x = {0.5, 0, 0};
-    light.y = {0, 0.5, 0};
-    light.z = {0, 0, 0.5};
-  }
-  light.polygon.radiance = {1, 1, 1};
-  scene.area_lights = {light};
+  scene.area_lights = {AreaLight{shape}};
   PackLight result = prepare_lights(scene).front();
   result.area = nullptr;  // goes with the scene; the irradiance does not ask for it
   return result;
 }
 
-Bench packs(const std::string& name, Simd simd, std::optional<LightShape> shape = {}) {
+Bench packs(const std::string& name, Simd simd, std::optional<Shape> shape = {}) {
   auto floor = make_floor();
-  if (shape) floor->pack_light = round_light(*shape);
+  if (shape) floor->pack_light = pack_light(*shape);
   const auto irradiance = irradiance_table_for(simd).irradiance;
   return {name, floor->x.size(), name_of(simd), [floor, irradiance] {
             irradiance(floor->pack_light, floor->points(), floor->result.data());
@@ -98,7 +90,7 @@ void add_lambert(BenchList& list) {
     const std::string one = name + "/" + name_of(simd);
     list.add(one, [one, simd](const BenchOptions&) { return packs(one, simd); });
   }
-  for (const auto& [end, shape] : {std::pair{"sphere", LightShape::sphere}, std::pair{"capsule", LightShape::capsule}}) {
+  for (const auto& [end, shape] : {std::pair<const char*, Shape>{"sphere", kBall}, {"capsule", kTube}}) {
     const std::string other = std::string("kernel/lambert/") + end;
     list.add(other, [other, kind = shape](const BenchOptions& options) { return packs(other, options.simd, kind); });
   }

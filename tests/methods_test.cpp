@@ -143,16 +143,9 @@ TEST(Methods, RadianceIsWhatTheRowAnswers) {
 // Round lights by the same call: Lambert in closed form, and what the ground truth says.
 TEST(Methods, RadianceOfRoundLightsIsNearTheReference) {
   const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
-  AreaLight disk, sphere, tube;
-  disk.shape = LightShape::disk;
-  disk.center = sphere.center = tube.center = {0, 2, 0};
-  disk.x = tube.x = sphere.x = {1, 0, 0};
-  disk.y = {0, 0, 1};
-  sphere.shape = LightShape::sphere;
-  sphere.y = {0, 1, 0};
-  sphere.z = {0, 0, 1};
-  tube.shape = LightShape::capsule;
-  tube.radius = 0.25;
+  const AreaLight disk = {Ellipse{{0, 2, 0}, {1, 0, 0}, {0, 0, 1}}};
+  const AreaLight sphere = {Ellipsoid{{0, 2, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const AreaLight tube = {Capsule{{-1, 2, 0}, {1, 2, 0}, 0.25}};
   for (const AreaLight& round : {disk, sphere, tube})
     for (const Material& lobe : {lobes()[0].lobe, lobes()[1].lobe, lobes()[4].lobe}) {
       const RadianceResult r = radiance(round, at, lobe), truth = radiance(round, at, lobe, {.method = Method::reference});
@@ -189,7 +182,7 @@ Scene scene_with(const Material& lobe) {
   scene.materials = {material};
   scene.meshes = {quad_mesh({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
   AreaLight panel;
-  panel.polygon.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+  panel.shape = Polygon{{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {}};
   scene.area_lights = {panel};
   Camera camera;
   camera.position = {0, 3, 4};

@@ -15,7 +15,7 @@ double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal);
 float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d normal);
 
 // The same of an ellipsoid center + x u + y v + z w, |(u,v,w)| = 1; 0 from inside.
-double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position, Vec3d normal);
+double ellipsoid_irradiance(const Ellipsoid& ellipsoid, Vec3d position, Vec3d normal);
 
 // The polygon with that many vertices (even, 6 to 64) that stands in for an ellipse seen from a point, its corners
 // gathered where the lobe is sharp. 8 serve a Phong lobe to 0.75 % of it, 12 to 0.1 %.

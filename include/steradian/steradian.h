@@ -29,6 +29,7 @@
 #include "steradian/render.h"
 #include "steradian/scene.h"
 #include "steradian/shading_point.h"
+#include "steradian/shape.h"
 #include "steradian/texture.h"
 #include "steradian/vec.h"
 #include "steradian/vector.h"

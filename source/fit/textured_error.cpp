@@ -60,11 +60,11 @@ Setup random_setup(Random& random, double distance) {
   const Frame plane = Frame::from_normal(normal);
   const Vec3d x = plane.to_world({std::cos(turn), std::sin(turn), 0}), y = plane.to_world({-std::sin(turn), std::cos(turn), 0});
   const Vec3d center = mirror * distance + x * random.uniform(-0.5, 0.5) + y * random.uniform(-0.5, 0.5);
-  s.light.polygon.vertices = {center - x * 0.5 - y * 0.5, center + x * 0.5 - y * 0.5, center + x * 0.5 + y * 0.5,
-                              center - x * 0.5 + y * 0.5};
+  s.light.shape =
+      Polygon{{center - x * 0.5 - y * 0.5, center + x * 0.5 - y * 0.5, center + x * 0.5 + y * 0.5, center - x * 0.5 + y * 0.5}, {}};
   s.light.texture = LightTexture{};
   LightTexture& t = *s.light.texture;
-  t.origin = s.light.polygon.vertices[0];
+  t.origin = std::get<Polygon>(s.light.shape).vertices[0];
   t.du = x;
   t.dv = y;
   return s;
@@ -135,7 +135,7 @@ std::vector<TexturedErrorRow> measure_textured_error(const TexturedErrorOptions&
       s.light.texture->use.image = 0;
       s.light.texture->use.wrap_u = s.light.texture->use.wrap_v = Wrap::clamp_to_edge;
       std::vector<TexturedLight> lights;
-      for (const auto& image : images) lights.emplace_back(s.light, prepare_polygon(s.light.polygon), image);
+      for (const auto& image : images) lights.emplace_back(s.light, prepare_polygon(flat_polygon(s.light)), image);
       for (std::size_t r = 0; r < rows.size(); ++r) {
         const double roughness = rows[r].roughness;
         if (rows[r].distance != kDistances[d]) continue;

@@ -16,6 +16,13 @@ namespace {
 constexpr double kPi = 3.14159265358979324;
 
 // Calls use(length) with each of a shape's vectors and numbers, seen from the position.
+void each_length(Polygon& polygon, Vec3d position, auto use) {
+  const auto each = [&](std::vector<Vec3d>& contour) {
+    for (Vec3d& v : contour) v = v - position, use(v);
+  };
+  each(polygon.vertices);
+  for (std::vector<Vec3d>& hole : polygon.holes) each(hole);
+}
 void each_length(Ellipse& e, Vec3d position, auto use) {
   e.center = e.center - position;
   use(e.center), use(e.x), use(e.y);
@@ -40,8 +47,8 @@ double largest_of(double x) { return std::fabs(x); }
 
 // The light from the point, in units in which its largest number is 1: no square leaves the range of double. A line's
 // radiance times width is per unit of length, too.
-CurvedLight seen_from(const CurvedLight& light, Vec3d position) {
-  CurvedLight seen = light;
+AreaLight seen_from(const AreaLight& light, Vec3d position) {
+  AreaLight seen = light;
   double largest = 0;
   bool finite = true;
   std::visit(
@@ -138,11 +145,13 @@ RadianceResult thin_answer(const Capsule& c, const Axis& axis, Vec3d radiance, c
 
 // Each of the shapes as the origin sees it.
 struct AnswerOfShape {
-  const CurvedLight& light;
+  const AreaLight& light;
   const ShadingPoint& at;
   const Material& m;
   const Row& entry;
   const RadianceOptions& options;
+
+  RadianceResult operator()(const Polygon&) const { return entry.polygon(prepare_polygon(flat_polygon(light)), at, m, options); }
 
   RadianceResult operator()(const Ellipse& e) const {
     const double height = -dot(e.center, cross(e.x, e.y));
@@ -152,7 +161,7 @@ struct AnswerOfShape {
   }
 
   RadianceResult operator()(const Ellipsoid& e) const {
-    const std::optional<Ellipse> outline = silhouette(e.center, e.x, e.y, e.z, {});
+    const std::optional<Ellipse> outline = silhouette(e, {});
     return outline ? ellipse_answer(*outline, light.radiance, at, m, entry, options) : nothing(entry.method);
   }
 
@@ -190,9 +199,9 @@ struct AnswerOfShape {
 
 }  // namespace
 
-RadianceResult curved_light_answer(const CurvedLight& light, const ShadingPoint& there, const Material& m, const Row& entry,
+RadianceResult curved_light_answer(const AreaLight& light, const ShadingPoint& there, const Material& m, const Row& entry,
                                    const RadianceOptions& options) {
-  const CurvedLight seen = seen_from(light, there.position);
+  const AreaLight seen = seen_from(light, there.position);
   const ShadingPoint at = {{}, there.normal, there.view};
   return std::visit(AnswerOfShape{seen, at, m, entry, options}, seen.shape);
 }

@@ -14,7 +14,7 @@ namespace steradian::methods {
 // capsule thinner than 1e-7 of its distance, is for them a strip across the sight: of a half width, seen, of a thousandth of
 // the lobe's width (in float 3 %), and its radiance so much the higher. The error is quadratic in that width; `reference`
 // doubles it once and holds the difference in its bound.
-RadianceResult curved_light_answer(const CurvedLight& light, const ShadingPoint& at, const Material& material, const Row& entry,
+RadianceResult curved_light_answer(const AreaLight& light, const ShadingPoint& at, const Material& material, const Row& entry,
                                    const RadianceOptions& options);
 
 }  // namespace steradian::methods

@@ -121,31 +121,24 @@ void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial
 
 // An outline that stands for an ellipse becomes a disk light: exact, with one edge.
 void become_disk(AreaLight& light) {
-  const std::optional<Ellipse> ellipse = fit_ellipse(light.polygon.vertices);
-  if (!ellipse) return;
-  const bool two_sided = light.polygon.two_sided;
-  light.shape = LightShape::disk;
-  light.center = ellipse->center;
-  light.x = ellipse->x;
-  light.y = ellipse->y;
-  light.polygon = equal_area_polygon(*ellipse, light.polygon.radiance);
-  light.polygon.two_sided = two_sided;
+  const auto& polygon = std::get<Polygon>(light.shape);
+  if (light.texture || !polygon.holes.empty()) return;
+  if (const std::optional<Ellipse> ellipse = fit_ellipse(polygon.vertices)) light.shape = *ellipse;
 }
 
 AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   AreaLight light;
   light.name = mesh.name.empty() ? m.name : mesh.name;
-  light.polygon.radiance = mean_radiance(scene, mesh, m, polygon.triangles);
-  light.polygon.two_sided = m.double_sided;
+  light.radiance = mean_radiance(scene, mesh, m, polygon.triangles);
+  light.two_sided = m.double_sided;
   if (m.emissive_texture.present()) {
     const UvMap map = uv_map(mesh, m.emissive_texture.texcoord, polygon.triangles.front());
     light.texture = LightTexture{m.emissive_texture, map.origin, map.du, map.dv, map.u0, map.v0, static_cast<Vec3d>(m.emissive)};
   }
-  light.polygon.vertices = std::move(polygon.outline);
-  light.polygon.holes = std::move(polygon.holes);
-  light.power = luminance(light.polygon.radiance) * prepare_polygon(light.polygon).area;
-  if (!light.texture && light.polygon.holes.empty()) become_disk(light);
+  light.shape = Polygon{std::move(polygon.outline), std::move(polygon.holes)};
+  light.power = luminance(light.radiance) * prepare_polygon(flat_polygon(light)).area;
+  become_disk(light);
   return light;
 }
 
@@ -153,13 +146,9 @@ AreaLight to_sphere(const Scene& scene, const Mesh& mesh, const Ellipsoid& shape
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   AreaLight light;
   light.name = mesh.name.empty() ? m.name : mesh.name;
-  light.shape = LightShape::sphere;
-  light.center = shape.center;
-  light.x = shape.x;
-  light.y = shape.y;
-  light.z = shape.z;
-  light.polygon.radiance = static_cast<Vec3d>(m.emissive);
-  light.power = luminance(light.polygon.radiance) * area;
+  light.shape = shape;
+  light.radiance = static_cast<Vec3d>(m.emissive);
+  light.power = luminance(light.radiance) * area;
   return light;
 }
 
@@ -249,7 +238,7 @@ std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& 
     if (where == Shines::outwards_and_faces_inwards) turn_outwards(polygon);
     for (const std::size_t t : polygon.triangles) mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
     AreaLight light = to_light(scene, mesh, std::move(polygon));
-    if (where != Shines::as_the_file_says) light.polygon.two_sided = false;
+    if (where != Shines::as_the_file_says) light.two_sided = false;
     scene.area_lights.push_back(std::move(light));
   }
   return merged.without_area;

@@ -75,7 +75,7 @@ Scene emitting(Mesh mesh, bool double_sided) {
 // Irradiance of polygons of the scene at a point, over the radiance.
 double irradiance(const Scene& scene, Vec3d position, Vec3d normal) {
   double sum = 0;
-  for (const AreaLight& light : scene.area_lights) sum += polygon_irradiance(prepare_polygon(light.polygon), position, normal);
+  for (const AreaLight& light : scene.area_lights) sum += polygon_irradiance(prepare_polygon(flat_polygon(light)), position, normal);
   return sum;
 }
 
@@ -84,8 +84,7 @@ TEST(Emitters, ABallIsOneSphereOfItsAreaWhateverItsSidesAndAxes) {
   for (const bool double_sided : {false, true}) {
     const Scene scene = emitting(ball(32, 16, x, y, z, center), double_sided);
     ASSERT_EQ(scene.area_lights.size(), 1u);
-    const AreaLight& light = scene.area_lights[0];
-    EXPECT_EQ(light.shape, LightShape::sphere);
+    const auto& light = std::get<Ellipsoid>(scene.area_lights[0].shape);
     EXPECT_LT(length(light.center - center), 1e-6);
     const double size = std::sqrt(area_of(ball(32, 16, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {})) / (4 * kPi));
     EXPECT_LT(size, 0.997);
@@ -107,7 +106,7 @@ TEST(Emitters, AClosedMeshShinesOutwardsWhateverItsFlagAndWinding) {
   // Of the front alone: a square of side 2, two units away.
   Scene front;
   front.area_lights.emplace_back();
-  front.area_lights[0].polygon.vertices = {{-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}};
+  front.area_lights[0].shape = Polygon{{{-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}}, {}};
   const double right = irradiance(front, point, down);
   EXPECT_GT(right, 0.5);
   for (const bool turned : {false, true}) {
@@ -121,7 +120,7 @@ TEST(Emitters, AClosedMeshShinesOutwardsWhateverItsFlagAndWinding) {
 TEST(Emitters, AnOpenMeshAndADomeShineAsTheFileSays) {
   Mesh open = box({-1, -1, -1}, {1, 1, 1});
   open.indices.resize(open.indices.size() - 6);
-  for (const AreaLight& light : emitting(open, true).area_lights) EXPECT_TRUE(light.polygon.two_sided);
+  for (const AreaLight& light : emitting(open, true).area_lights) EXPECT_TRUE(light.two_sided);
 
   Scene scene;
   SurfaceMaterial m;
@@ -147,11 +146,12 @@ TEST(Emitters, ARoundFlatPatchIsADisk) {
     const Scene scene = emitting(mesh, false);
     ASSERT_EQ(scene.area_lights.size(), 1u);
     const AreaLight& light = scene.area_lights[0];
-    EXPECT_EQ(light.shape, corners == 32 ? LightShape::disk : LightShape::polygon);
+    EXPECT_EQ(std::holds_alternative<Ellipse>(light.shape), corners == 32);
     if (corners != 32) continue;
-    const double area = kPi * length(cross(light.x, light.y));
+    const auto& disk = std::get<Ellipse>(light.shape);
+    const double area = kPi * length(cross(disk.x, disk.y));
     EXPECT_NEAR(area, 16 * std::sin(2 * kPi / 32) * 0.125, 1e-6);  // of the mesh
-    EXPECT_GT(cross(light.x, light.y).y * (dot(Vec3d{0, 1, 0}, prepare_polygon(light.polygon).normal)), 0);
+    EXPECT_GT(cross(disk.x, disk.y).y * (dot(Vec3d{0, 1, 0}, prepare_polygon(flat_polygon(light)).normal)), 0);
   }
 }
 

@@ -55,12 +55,12 @@ AreaLight square_light(const Scene& scene, const char* name, Vec3d towards, doub
   const Frame frame = Frame::from_normal(-to_light);
   AreaLight light;
   light.name = name;
-  light.center = sphere.center + to_light * (3 * r);
+  const Vec3d center = sphere.center + to_light * (3 * r);
   const Vec3d x = frame.x * r, y = frame.y * r;
-  light.polygon.vertices = {light.center - x - y, light.center + x - y, light.center + x + y, light.center - x + y};
+  light.shape = Polygon{{center - x - y, center + x - y, center + x + y, center - x + y}, {}};
   const double radiance = irradiance * 9 / 4;
-  light.polygon.radiance = {radiance, radiance, radiance};
-  light.power = luminance(light.polygon.radiance) * 4 * r * r;
+  light.radiance = {radiance, radiance, radiance};
+  light.power = luminance(light.radiance) * 4 * r * r;
   return light;
 }
 

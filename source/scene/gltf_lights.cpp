@@ -66,37 +66,28 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     const auto rect = json.find("rect");
     const double aspect = rect ? rect->number("aspect", 1, 0, 1e9) : 1;
     const Ellipse e = flat_axes(world, half * aspect, half);
-    light.polygon.vertices = {e.center - e.x - e.y, e.center + e.x - e.y, e.center + e.x + e.y, e.center - e.x + e.y};
-    light.center = e.center;
+    light.shape = Polygon{{e.center - e.x - e.y, e.center + e.x - e.y, e.center + e.x + e.y, e.center - e.x + e.y}, {}};
     area = 4 * length(cross(e.x, e.y));
   } else if (type == "disk") {
     const Ellipse e = flat_axes(world, half, half);
-    light.shape = LightShape::disk;
-    light.polygon = equal_area_polygon(e, radiance);
-    light.center = e.center;
-    light.x = e.x;
-    light.y = e.y;
+    light.shape = e;
     area = kPi * length(cross(e.x, e.y));
   } else if (type == "sphere") {
-    light.shape = LightShape::sphere;
-    light.center = world.t;
-    light.x = world.x * half;
-    light.y = world.y * half;
-    light.z = world.z * half;
-    area = ellipsoid_area(light.x, light.y, light.z);
+    const Ellipsoid e{world.t, world.x * half, world.y * half, world.z * half};
+    light.shape = e;
+    area = ellipsoid_area(e.x, e.y, e.z);
   } else if (type == "capsule") {
     // Along the node's x. Across it the tube stays round: with the geometric mean of the node's two scales there.
     const auto capsule = json.find("capsule");
     const double between = capsule ? capsule->number("length", 1, 0, 1e30) : 1;
-    light.shape = LightShape::capsule;
-    light.center = world.t;
-    light.x = world.x * (between / 2);
-    light.radius = half * std::sqrt(length(world.y)) * std::sqrt(length(world.z));
-    area = 4 * kPi * light.radius * (light.radius + length(light.x));
+    const Vec3d half_axis = world.x * (between / 2);
+    const Capsule c{world.t - half_axis, world.t + half_axis, half * std::sqrt(length(world.y)) * std::sqrt(length(world.z))};
+    light.shape = c;
+    area = 4 * kPi * c.radius * (c.radius + length(half_axis));
   } else {
     json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk, sphere and capsule");
   }
-  light.polygon.radiance = radiance;
+  light.radiance = radiance;
   light.power = luminance(radiance) * area;
   if (!std::isfinite(light.power)) json.fail("the light leaves the range of numbers");
   return light;
@@ -108,7 +99,7 @@ SurfaceMaterial material_of_light(const AreaLight& light) {
   m.base_color = {0, 0, 0, 1};
   m.specular = 0;
   m.metallic = 0;
-  m.emissive = static_cast<Vec3f>(light.polygon.radiance);
+  m.emissive = static_cast<Vec3f>(light.radiance);
   return m;
 }
 
@@ -125,9 +116,9 @@ Mesh flat_mesh(const PolygonLight& polygon) {
   return mesh;
 }
 
-Mesh ellipsoid_mesh(const AreaLight& light) {
+Mesh mesh_of(const Ellipsoid& ellipsoid) {
   constexpr std::uint32_t kAround = 64, kDown = 32;
-  const Affine m{light.x, light.y, light.z, light.center};
+  const Affine m{ellipsoid.x, ellipsoid.y, ellipsoid.z, ellipsoid.center};
   Mesh mesh;
   for (std::uint32_t j = 0; j <= kDown; ++j)
     for (std::uint32_t i = 0; i < kAround; ++i) {
@@ -148,16 +139,17 @@ Mesh ellipsoid_mesh(const AreaLight& light) {
 }
 
 // Two half balls and the wall between them.
-Mesh capsule_mesh(const AreaLight& light) {
+Mesh mesh_of(const Capsule& capsule) {
   constexpr std::uint32_t kAround = 64, kRows = 34;  // two of the rows are the wall's rims
-  const Frame frame = length(light.x) > 0 ? Frame::from_normal(normalized(light.x)) : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Vec3d axis = capsule.end_b - capsule.end_a;
+  const Frame frame = length(axis) > 0 ? Frame::from_normal(normalized(axis)) : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Mesh mesh;
   for (std::uint32_t j = 0; j < kRows; ++j)
     for (std::uint32_t i = 0; i < kAround; ++i) {
       const bool second = j >= kRows / 2;
       const double theta = kPi * (second ? j - 1 : j) / (kRows - 2), phi = 2 * kPi * i / kAround;
       const Vec3d u = frame.to_world({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-      mesh.positions.push_back(static_cast<Vec3f>(light.center + (second ? -light.x : light.x) + u * light.radius));
+      mesh.positions.push_back(static_cast<Vec3f>((second ? capsule.end_a : capsule.end_b) + u * capsule.radius));
       mesh.normals.push_back(static_cast<Vec3f>(u));
     }
   for (std::uint32_t j = 0; j + 1 < kRows; ++j)
@@ -172,9 +164,9 @@ Mesh capsule_mesh(const AreaLight& light) {
 }  // namespace
 
 Mesh mesh_of_light(const AreaLight& light) {
-  Mesh mesh = light.shape == LightShape::sphere    ? ellipsoid_mesh(light)
-              : light.shape == LightShape::capsule ? capsule_mesh(light)
-                                                   : flat_mesh(light.polygon);
+  const auto* ellipsoid = std::get_if<Ellipsoid>(&light.shape);
+  const auto* capsule = std::get_if<Capsule>(&light.shape);
+  Mesh mesh = ellipsoid != nullptr ? mesh_of(*ellipsoid) : capsule != nullptr ? mesh_of(*capsule) : flat_mesh(flat_polygon(light));
   mesh.name = light.name;
   mesh.is_light_shape = true;
   return mesh;

@@ -294,11 +294,11 @@ TEST(LoadScene, ReadsRectLightsThatShineAlongMinusZ) {
                              {{"translation", {0, 0, 9}}, {"scale", {mirror, 1, 1}}}));
     ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
     const AreaLight& light = loaded.scene.area_lights[0];
-    const PreparedPolygon p = prepare_polygon(light.polygon);
+    const PreparedPolygon p = prepare_polygon(flat_polygon(light));
     EXPECT_NEAR(p.area, 6, 1e-12);
     expect_near(p.normal, {0, 0, -1}, 1e-12);
     expect_near(p.centroid, {0, 0, 9}, 1e-12);
-    expect_near(light.polygon.radiance, {10, 5, 0}, 1e-12);
+    expect_near(light.radiance, {10, 5, 0}, 1e-12);
     EXPECT_NEAR(light.power, 6 * (0.2126 * 10 + 0.7152 * 5), 1e-12);
     // The camera sees it as a mesh of its own, facing the same way.
     ASSERT_EQ(loaded.scene.meshes.size(), 2u);
@@ -313,16 +313,15 @@ TEST(LoadScene, ReadsRectLightsThatShineAlongMinusZ) {
 TEST(LoadScene, ReadsDisksAndSpheresUnderUnevenScale) {
   const LoadedScene disk = load(with_area_light({{"type", "disk"}, {"size", 2}}, {{"scale", {3, 1, 1}}}));
   ASSERT_EQ(disk.scene.area_lights.size(), 1u);
-  EXPECT_EQ(disk.scene.area_lights[0].polygon.vertices.size(), 64u);
-  EXPECT_NEAR(prepare_polygon(disk.scene.area_lights[0].polygon).area, 3 * std::numbers::pi, 1e-12);
-  expect_near(prepare_polygon(disk.scene.area_lights[0].polygon).normal, {0, 0, -1}, 1e-12);
+  EXPECT_TRUE(std::holds_alternative<Ellipse>(disk.scene.area_lights[0].shape));
+  EXPECT_NEAR(prepare_polygon(flat_polygon(disk.scene.area_lights[0])).area, 3 * std::numbers::pi, 1e-12) << "the polygon in its place";
+  expect_near(prepare_polygon(flat_polygon(disk.scene.area_lights[0])).normal, {0, 0, -1}, 1e-12);
 
   const LoadedScene sphere = load(with_area_light({{"type", "sphere"}, {"size", 2}}, {{"scale", {3, 1, 1}}, {"translation", {0, 5, 0}}}));
-  const AreaLight& light = sphere.scene.area_lights[0];
-  EXPECT_EQ(light.shape, LightShape::sphere);
-  expect_near(light.center, {0, 5, 0}, 0);
-  expect_near(light.x, {3, 0, 0}, 1e-15);
-  expect_near(light.z, {0, 0, 1}, 1e-15);
+  const auto& ellipsoid = std::get<Ellipsoid>(sphere.scene.area_lights[0].shape);
+  expect_near(ellipsoid.center, {0, 5, 0}, 0);
+  expect_near(ellipsoid.x, {3, 0, 0}, 1e-15);
+  expect_near(ellipsoid.z, {0, 0, 1}, 1e-15);
   EXPECT_GT(signed_area(sphere.scene.meshes[1]), 0) << "faces outwards";
 }
 
@@ -332,10 +331,10 @@ TEST(LoadScene, ReadsCapsulesAlongX) {
                            {{"scale", {2, 4, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {0, 5, 0}}}));
   ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
   const AreaLight& light = loaded.scene.area_lights[0];
-  EXPECT_EQ(light.shape, LightShape::capsule);
-  expect_near(capsule_of(light).end_a, {0, 2, 0}, 1e-12);
-  expect_near(capsule_of(light).end_b, {0, 8, 0}, 1e-12);
-  EXPECT_NEAR(light.radius, 0.2, 1e-12) << "0.1 times the geometric mean of 4 and 1";
+  const auto& capsule = std::get<Capsule>(light.shape);
+  expect_near(capsule.end_a, {0, 2, 0}, 1e-12);
+  expect_near(capsule.end_b, {0, 8, 0}, 1e-12);
+  EXPECT_NEAR(capsule.radius, 0.2, 1e-12) << "0.1 times the geometric mean of 4 and 1";
   const double area = 2 * std::numbers::pi * 0.2 * 6 + 4 * std::numbers::pi * 0.04;
   EXPECT_NEAR(light.power, 2 * area, 1e-12);
   // Facing outwards, each triangle: 64 x 33 quadrilaterals inscribed lose (pi / 64)^2 * 2/3 of the area at most.
@@ -343,7 +342,7 @@ TEST(LoadScene, ReadsCapsulesAlongX) {
   EXPECT_LT(signed_area(loaded.scene.meshes[1]), area);
 
   const LoadedScene line = load(with_area_light({{"type", "capsule"}, {"size", 0}}, json::object()));
-  for (const AreaLight& l : line.scene.area_lights) EXPECT_NE(l.shape, LightShape::capsule) << "a line has no area";
+  for (const AreaLight& l : line.scene.area_lights) EXPECT_FALSE(std::holds_alternative<Capsule>(l.shape)) << "a line has no area";
   const LoadedScene ball = load(with_area_light({{"type", "capsule"}, {"size", 2}, {"capsule", {{"length", 0}}}}, json::object()));
   ASSERT_EQ(ball.scene.area_lights.size(), 1u);
   EXPECT_NEAR(ball.scene.area_lights[0].power, 4 * std::numbers::pi, 1e-12);
@@ -354,10 +353,10 @@ TEST(LoadScene, MergesAnEmissiveSquareIntoOneLight) {
   f.material() = {{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}};
   const Scene scene = load(f).scene;
   ASSERT_EQ(scene.area_lights.size(), 1u);
-  EXPECT_EQ(scene.area_lights[0].polygon.vertices.size(), 4u);
-  EXPECT_NEAR(prepare_polygon(scene.area_lights[0].polygon).area, 1, 1e-12);
-  expect_near(prepare_polygon(scene.area_lights[0].polygon).normal, {0, 0, 1}, 1e-12);
-  EXPECT_NEAR(scene.area_lights[0].polygon.radiance.x, 7, 1e-6);
+  EXPECT_EQ(std::get<Polygon>(scene.area_lights[0].shape).vertices.size(), 4u);
+  EXPECT_NEAR(prepare_polygon(flat_polygon(scene.area_lights[0])).area, 1, 1e-12);
+  expect_near(prepare_polygon(flat_polygon(scene.area_lights[0])).normal, {0, 0, 1}, 1e-12);
+  EXPECT_NEAR(scene.area_lights[0].radiance.x, 7, 1e-6);
   EXPECT_EQ(scene.meshes[0].triangle_lights, (std::vector<std::int32_t>{0, 0}));
 }
 
@@ -377,8 +376,8 @@ TEST(LoadScene, GivesATexturedEmitterItsMeanAndItsMap) {
   EXPECT_NEAR(dot(p - light.texture->origin, light.texture->du) + light.texture->u0, 0.75, 1e-6);
   EXPECT_NEAR(dot(p - light.texture->origin, light.texture->dv) + light.texture->v0, 0.75, 1e-6);
   // Red is 1 on the left half, 0.21586 on the right; a triangle's mean is sampled at texel density only.
-  EXPECT_NEAR(light.polygon.radiance.x, (1 + 0.2158605) / 2, 1e-6);
-  EXPECT_NEAR(light.polygon.radiance.y, 0.2158605 / 2, 1e-6);
+  EXPECT_NEAR(light.radiance.x, (1 + 0.2158605) / 2, 1e-6);
+  EXPECT_NEAR(light.radiance.y, 0.2158605 / 2, 1e-6);
 }
 
 TEST(LoadScene, KeepsTheStrongestLightsAndSaysWhatItDrops) {
@@ -388,8 +387,8 @@ TEST(LoadScene, KeepsTheStrongestLightsAndSaysWhatItDrops) {
   for (int i = 0; i < 4; ++i) f.append("nodes", {{"extensions", {{"EXT_lights_area", {{"light", i}}}}}});
   const LoadedScene loaded = load(f, {.max_lights = 2});
   ASSERT_EQ(loaded.scene.area_lights.size(), 2u);
-  EXPECT_EQ(loaded.scene.area_lights[0].polygon.radiance.x, 3);
-  EXPECT_EQ(loaded.scene.area_lights[1].polygon.radiance.x, 2);
+  EXPECT_EQ(loaded.scene.area_lights[0].radiance.x, 3);
+  EXPECT_EQ(loaded.scene.area_lights[1].radiance.x, 2);
   EXPECT_TRUE(warns(loaded, "1 weakest area light dropped, 16.67 %"));
   EXPECT_TRUE(warns(loaded, "1 area light without area"));
   EXPECT_EQ(loaded.scene.meshes[1].triangle_lights[0], -1);  // the weakest, still visible

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
+#include <algorithm>
 
 #include "scene/gltf_test_file.h"
 #include "steradian/load_scene.h"
@@ -47,26 +47,26 @@ TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
 TEST_F(OwnScenes, HaveTheLightsAndSizesTheyAreMadeFor) {
   const Scene gallery = made("gallery");
   ASSERT_EQ(gallery.area_lights.size(), 4u);
-  std::map<LightShape, int> shapes;
-  for (const AreaLight& light : gallery.area_lights) ++shapes[light.shape];
-  EXPECT_EQ(shapes[LightShape::polygon], 2);  // the panel and the star
-  EXPECT_EQ(shapes[LightShape::disk], 1);
-  EXPECT_EQ(shapes[LightShape::sphere], 1);
+  const auto is = [](auto shape) { return [](const AreaLight& light) { return std::holds_alternative<decltype(shape)>(light.shape); }; };
+  EXPECT_EQ(std::ranges::count_if(gallery.area_lights, is(Polygon{})), 2);  // the panel and the star
+  EXPECT_EQ(std::ranges::count_if(gallery.area_lights, is(Ellipse{})), 1);
+  EXPECT_EQ(std::ranges::count_if(gallery.area_lights, is(Ellipsoid{})), 1);
   const AreaLight& star = gallery.area_lights[3];
   EXPECT_EQ(star.name, "star");
-  EXPECT_EQ(star.polygon.vertices.size(), 10u) << "ten triangles are merged into one polygon";
+  EXPECT_EQ(std::get<Polygon>(star.shape).vertices.size(), 10u) << "ten triangles are merged into one polygon";
 
   const Scene plane = made("plane");
   ASSERT_EQ(plane.area_lights.size(), 1u);
-  const PreparedPolygon quad = prepare_polygon(plane.area_lights[0].polygon);
+  const PreparedPolygon quad = prepare_polygon(flat_polygon(plane.area_lights[0]));
   EXPECT_NEAR(quad.area, 3, 1e-6);
   EXPECT_NEAR(quad.normal.z, 1, 1e-9);
   EXPECT_NEAR(plane.cameras[0].position.z, 6, 1e-12);
 
   const Scene tubes = made("tubes");
   ASSERT_EQ(tubes.area_lights.size(), 3u);
-  for (const AreaLight& light : tubes.area_lights) EXPECT_EQ(light.shape, LightShape::capsule);
-  EXPECT_NEAR(tubes.area_lights[1].x.y, 0.45, 1e-6) << "the second stands";
+  for (const AreaLight& light : tubes.area_lights) EXPECT_TRUE(std::holds_alternative<Capsule>(light.shape));
+  const auto& second = std::get<Capsule>(tubes.area_lights[1].shape);
+  EXPECT_NEAR((second.end_b - second.end_a).y, 0.9, 2e-6) << "the second stands";
 
   EXPECT_EQ(made("ring").punctual_lights.size(), 1u);
   EXPECT_GE(made("arcade").triangle_count(), 200'000u);

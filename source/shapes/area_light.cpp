@@ -1,6 +1,8 @@
 #include "steradian/area_light.h"
 
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include "steradian/capsule_light.h"
 #include "steradian/error.h"
@@ -25,7 +27,8 @@ PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vert
   return light;
 }
 
-std::optional<Ellipse> silhouette(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position) {
+std::optional<Ellipse> silhouette(const Ellipsoid& ellipsoid, Vec3d position) {
+  const auto& [center, x, y, z] = ellipsoid;
   const double determinant = dot(cross(x, y), z);
   if (!(std::fabs(determinant) > 0)) return {};
   // Into the space where the ellipsoid is the unit sphere: the inverse of the columns x, y, z.
@@ -36,26 +39,44 @@ std::optional<Ellipse> silhouette(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d
   // A point at distance d sees the circle of radius sqrt(1 - 1/d^2) in the plane at height 1/d.
   const Frame frame = Frame::from_normal(p / distance);
   const double radius = std::sqrt((1 - 1 / distance) * (1 + 1 / distance));
-  const auto to_world = [&](Vec3d v) { return x * v.x + y * v.y + z * v.z; };
+  const auto to_world = [&ellipsoid](Vec3d v) { return ellipsoid.x * v.x + ellipsoid.y * v.y + ellipsoid.z * v.z; };
   Ellipse result{center + to_world(frame.z / distance), to_world(frame.x * radius), to_world(frame.y * radius)};
   if (determinant < 0) result.x = -result.x;
   return result;
 }
 
-Capsule capsule_of(const AreaLight& light) { return {light.center - light.x, light.center + light.x, light.radius}; }
+AreaLight area_light(PolygonLight polygon) {
+  return {Polygon{std::move(polygon.vertices), std::move(polygon.holes)}, polygon.radiance, polygon.two_sided};
+}
+
+namespace {
+
+struct SeenFrom {
+  Vec3d position;
+  int vertices;
+
+  PolygonLight operator()(const Polygon& polygon) const { return {polygon.vertices, polygon.holes, {}, false}; }
+  PolygonLight operator()(const Ellipse& ellipse) const { return equal_area_polygon(ellipse, {}, vertices); }
+  PolygonLight operator()(const Ellipsoid& ellipsoid) const {
+    const std::optional<Ellipse> outline = silhouette(ellipsoid, position);
+    return outline ? (*this)(*outline) : PolygonLight{};
+  }
+  PolygonLight operator()(const Capsule& capsule) const { return polygon_of_equal_steps(capsule, position, vertices); }
+  PolygonLight operator()(const Line&) const { return {}; }
+};
+
+}  // namespace
 
 PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int vertices) {
-  if (!light.is_solid()) return light.polygon;
-  if (light.shape == LightShape::capsule) {
-    PolygonLight seen = polygon_of_equal_steps(capsule_of(light), position, vertices);
-    seen.radiance = light.polygon.radiance;
-    return seen;
-  }
-  const auto outline = silhouette(light.center, light.x, light.y, light.z, position);
-  if (outline) return equal_area_polygon(*outline, light.polygon.radiance, vertices);
-  PolygonLight nothing;
-  nothing.radiance = light.polygon.radiance;
-  return nothing;
+  PolygonLight seen = std::visit(SeenFrom{position, vertices}, light.shape);
+  seen.radiance = light.radiance;
+  seen.two_sided = light.two_sided && light.is_flat();
+  return seen;
+}
+
+PolygonLight flat_polygon(const AreaLight& light, int vertices) {
+  if (!light.is_flat()) throw Error("light", "has a volume: its outline depends on who sees it", "polygon_seen_from");
+  return polygon_seen_from(light, {}, vertices);
 }
 
 Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& images, Vec3d p) {

@@ -21,13 +21,10 @@ TEST(AreaLight, GivesAnEllipseAPolygonOfItsArea) {
 
 TEST(AreaLight, GivesASphereTheSolidAngleItHas) {
   AreaLight light;
-  light.shape = LightShape::sphere;
-  light.center = {1, 2, 3};
-  light.x = {0.5, 0, 0};
-  light.y = {0, 0.5, 0};
-  light.z = {0, 0, -0.5};  // left-handed axes too
+  const Vec3d center{1, 2, 3};
+  light.shape = Ellipsoid{center, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, -0.5}};  // left-handed axes too
   for (const double distance : {0.6, 1.0, 4.0}) {
-    const Vec3d position = light.center + normalized(Vec3d{1, -2, 0.5}) * distance;
+    const Vec3d position = center + normalized(Vec3d{1, -2, 0.5}) * distance;
     const double s = 0.5 / distance, exact = 2 * kPi * s * s / (1 + std::sqrt(1 - s * s));
     // The K-gon's solid angle differs from the cone's by O(1/K^4) at equal area near the centre and O(1/K^2)
     // at most.
@@ -36,7 +33,7 @@ TEST(AreaLight, GivesASphereTheSolidAngleItHas) {
     const double finer = polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 640)), position);
     EXPECT_LE(std::fabs(finer / exact - 1), std::fabs(polygon / exact - 1) / 50 + 1e-9) << distance;
   }
-  EXPECT_TRUE(polygon_seen_from(light, light.center + Vec3d{0.1, 0, 0}).vertices.empty()) << "from inside";
+  EXPECT_TRUE(polygon_seen_from(light, center + Vec3d{0.1, 0, 0}).vertices.empty()) << "from inside";
 }
 
 // The rays to the outline touch the ellipsoid: the quadratic in the ray's parameter has a double root.
@@ -49,7 +46,7 @@ TEST(AreaLight, OutlinesAnEllipsoidByRaysThatTouchIt) {
     const Vec3d center = vector(), x = vector(), y = vector(), z = vector(), position = vector() * 8.0;
     const double det = dot(cross(x, y), z);
     if (std::fabs(det) < 0.05) continue;
-    const auto outline = silhouette(center, x, y, z, position);
+    const auto outline = silhouette({center, x, y, z}, position);
     const auto to_unit = [&](Vec3d v) { return Vec3d{dot(cross(y, z), v), dot(cross(z, x), v), dot(cross(x, y), v)} / det; };
     const Vec3d p = to_unit(position - center);
     ASSERT_EQ(outline.has_value(), length(p) > 1);

@@ -30,7 +30,7 @@ Capsule random_tube(Random& random, Vec3d direction) {
 }
 
 double sphere_irradiance(Vec3d center, double radius, Vec3d normal) {
-  return ellipsoid_irradiance(center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, {}, normal);
+  return ellipsoid_irradiance({center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}, normal);
 }
 
 // Share of the cosine-weighted directions that meet the capsule, times pi: strata, one sample in each.

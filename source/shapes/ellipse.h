@@ -40,20 +40,20 @@ struct Ellipsoid {
   }
 };
 
-inline Disk prepare_disk(const AreaLight& a) {
+inline Disk prepare_disk(const steradian::Ellipse& a, bool two_sided) {
   const Vec3d normal = cross(a.x, a.y);
   return {static_cast<Vec3f>(a.center), static_cast<Vec3f>(a.x), static_cast<Vec3f>(a.y), static_cast<Vec3f>(normal / length(normal)),
-          a.polygon.two_sided};
+          two_sided};
 }
 
 // Three axes of one length, at right angles, up to the rounding of a node's rotation.
-inline bool is_ball(const AreaLight& a) {
+inline bool is_ball(const steradian::Ellipsoid& a) {
   const double r2 = dot(a.x, a.x), least = 1e-6 * r2;
   const auto off = [&](double x) { return std::fabs(x) > least; };
   return !off(dot(a.y, a.y) - r2) && !off(dot(a.z, a.z) - r2) && !off(dot(a.x, a.y)) && !off(dot(a.y, a.z)) && !off(dot(a.z, a.x));
 }
 
-inline Ellipsoid prepare_ellipsoid(const AreaLight& a) {
+inline Ellipsoid prepare_ellipsoid(const steradian::Ellipsoid& a) {
   const double det = dot(a.x, cross(a.y, a.z));
   const auto single = [](Vec3d v) { return static_cast<Vec3f>(v); };
   Ellipsoid light = {single(a.center),

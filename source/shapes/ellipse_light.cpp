@@ -59,8 +59,8 @@ float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d nor
   return irradiance<float>(ellipse, position, normal);
 }
 
-double ellipsoid_irradiance(Vec3d center, Vec3d x, Vec3d y, Vec3d z, Vec3d position, Vec3d normal) {
-  const auto outline = silhouette(center, x, y, z, position);
+double ellipsoid_irradiance(const Ellipsoid& ellipsoid, Vec3d position, Vec3d normal) {
+  const auto outline = silhouette(ellipsoid, position);
   return outline ? ellipse_irradiance(*outline, position, normal) : 0.0;
 }
 

@@ -23,7 +23,7 @@ Ellipse random_round_light(Random& random, Vec3d direction) {
   const double size = std::tan(random.uniform(3, 45) * kPi / 180) * 0.7;
   const Frame f = Frame::from_normal(random_direction(random));
   const auto axis = [&](Vec3d a) { return a * (size * random.uniform(0.3, 1.1)); };
-  if (random.uniform() < 0.6) return *silhouette(direction, axis(f.x), axis(f.y), axis(f.z), {});
+  if (random.uniform() < 0.6) return *silhouette({direction, axis(f.x), axis(f.y), axis(f.z)}, {});
   const Vec3d facing = normalized(random_direction(random) * 0.8 - direction);
   const Frame g = Frame::from_normal(facing);
   return {direction, axis(g.x), axis(g.y)};
@@ -40,8 +40,8 @@ TEST(EllipseIrradiance, OfASphereIsItsClosedForm) {
     const double cosine = dot(center, normal);
     if (cosine < radius) continue;  // all of it above the horizon
     const double expected = kPi * radius * radius * cosine;
-    const double value = ellipsoid_irradiance(center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, {}, normal);
-    const auto outline = silhouette(center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, {});
+    const double value = ellipsoid_irradiance({center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}, normal);
+    const auto outline = silhouette({center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {});
     worst = std::max(worst, std::fabs(value - expected));
     worst_float = std::max(worst_float, std::fabs(static_cast<double>(ellipse_irradiance_float(*outline, {}, normal)) - expected));
   }

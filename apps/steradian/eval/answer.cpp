@@ -78,19 +78,20 @@ Answer evaluate(const Query& query) {
   const bool seen = dot(at.normal, at.view) > 0.0;
   RadianceOptions options = {query.method, query.quality, query.precision, query.spp, query.seed};
 
-  const auto* curved = std::get_if<CurvedLight>(&query.light);
-  const auto* polygon = std::get_if<PolygonLight>(&query.light);
-  const PreparedPolygon prepared = polygon != nullptr ? prepare(*polygon) : PreparedPolygon{};
-  if (query.derivatives && polygon == nullptr) throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
+  const auto* light = std::get_if<AreaLight>(&query.light);
+  const bool is_polygon = light != nullptr && std::holds_alternative<Polygon>(light->shape);
+  const PolygonLight polygon = is_polygon ? flat_polygon(*light) : PolygonLight{};
+  const PreparedPolygon prepared = is_polygon ? prepare(polygon) : PreparedPolygon{};
+  if (query.derivatives && !is_polygon) throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
   if (query.derivatives && query.occluders != nullptr)
     throw Error("derivatives", "there are none past occluders yet", "leave one of the keys out");
   Sum sum;
   for (const Material& material : query.materials) {
     const methods::Row& entry = methods::resolve(query.method, material, query.precision, query.quality);
-    if (query.derivatives) add_derivatives(sum.answer(), *polygon, at, material, entry, query.quality);
+    if (query.derivatives) add_derivatives(sum.answer(), polygon, at, material, entry, query.quality);
     const auto unoccluded = [&] {
-      if (polygon != nullptr) return entry.polygon(prepared, at, material, options);
-      if (curved != nullptr) return methods::curved_light_answer(*curved, at, material, entry, options);
+      if (is_polygon) return entry.polygon(prepared, at, material, options);
+      if (light != nullptr) return methods::curved_light_answer(*light, at, material, entry, options);
       return point_answer(std::get<PointLight>(query.light), at, material, entry.method);
     };
     if (!seen)

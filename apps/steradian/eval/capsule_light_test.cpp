@@ -48,8 +48,8 @@ Answer ask(const Light& light, const ShadingPoint& at, const Material& m, Method
   return evaluate(query_of(light, at, m, method, quality));
 }
 
-CurvedLight tube(Vec3d a, Vec3d b, double radius) { return {capsule_or_line(a, b, radius)}; }
-Light sphere(Vec3d center, double radius) { return CurvedLight{Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
+AreaLight tube(Vec3d a, Vec3d b, double radius) { return {capsule_or_line(a, b, radius)}; }
+Light sphere(Vec3d center, double radius) { return AreaLight{Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
 
 struct Case {
   const char* name;
@@ -98,7 +98,7 @@ TEST(EvalCapsule, EveryLobeAgreesWithTheReference) {
       Vec3d direction = random_direction(random);
       direction.y = std::fabs(direction.y) * (i == 3 ? 0.1 : 1.0);  // the last: across the horizon
       const Vec3d half = random_direction(random) * random.uniform(0.1, 0.8);
-      const CurvedLight light = tube(direction - half, direction + half, random.uniform(0.05, 0.19));
+      const AreaLight light = tube(direction - half, direction + half, random.uniform(0.05, 0.19));
       const ShadingPoint at = looking_near(random, direction);
       const Answer truth = ask(light, at, c.material, Method::reference);
       worst = std::max(worst, std::fabs(ask(light, at, c.material, c.method, c.quality).radiance.x - truth.radiance.x));
@@ -123,7 +123,7 @@ TEST(EvalCapsule, WithoutLengthIsASphere) {
 
 TEST(EvalCapsule, SampledAgreesWithinItsStandardError) {
   for (double radius : {0.3, 0.0}) {
-    const CurvedLight light = tube({-0.5, 1, 0}, {1, 1.5, 0.3}, radius);
+    const AreaLight light = tube({-0.5, 1, 0}, {1, 1.5, 0.3}, radius);
     const Answer truth = ask(light, kFloor, ggx(0.3), Method::reference), sampled = ask(light, kFloor, ggx(0.3), Method::sampled);
     EXPECT_NEAR(sampled.radiance.x, truth.radiance.x, 4 * *sampled.standard_error) << radius;
     EXPECT_GT(truth.radiance.x, 0.01) << radius;
@@ -140,7 +140,7 @@ TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
       direction.y = std::fabs(direction.y);
       const Vec3d half = random_direction(random) * random.uniform(0.1, 0.8);
       Vec3d a = direction - half, b = direction + half;
-      const CurvedLight light = tube(a, b, 0);
+      const AreaLight light = tube(a, b, 0);
       // Midpoints do not go well with a step: the part above the horizon.
       if (a.y < 0) a = a + (b - a) * (a.y / (a.y - b.y));
       if (b.y < 0) b = b + (a - b) * (b.y / (b.y - a.y));
@@ -201,14 +201,14 @@ TEST(EvalCapsule, ATinyOneIsAPointLight) {
 }
 
 TEST(EvalCapsule, InsideBelowAndNoWidthGiveZero) {
-  const CurvedLight dark[] = {tube({-1, 0.5, 0}, {1, 0.5, 0}, 0.6),                                 // inside
-                              tube({-1, 0, 0}, {1, 0, 0}, 0.1),                                     // on the axis, inside
-                              tube({-1, 0, 0}, {1, 0, 0}, 0),                                       // through the point
-                              tube({0, 0, 0}, {0, 0, 0}, 0),        tube({0, 1, 0}, {0, 1, 0}, 0),  // a point
-                              tube({0, 1, 0}, {0, 2, 0}, 0),                                        // towards the point
-                              tube({-1, -2, 0}, {1, -2, 0}, 1),                                     // below the horizon
-                              tube({-1, -2, 0}, {1, -2, 0}, 0)};
-  for (const CurvedLight& light : dark)
+  const AreaLight dark[] = {tube({-1, 0.5, 0}, {1, 0.5, 0}, 0.6),                                 // inside
+                            tube({-1, 0, 0}, {1, 0, 0}, 0.1),                                     // on the axis, inside
+                            tube({-1, 0, 0}, {1, 0, 0}, 0),                                       // through the point
+                            tube({0, 0, 0}, {0, 0, 0}, 0),        tube({0, 1, 0}, {0, 1, 0}, 0),  // a point
+                            tube({0, 1, 0}, {0, 2, 0}, 0),                                        // towards the point
+                            tube({-1, -2, 0}, {1, -2, 0}, 1),                                     // below the horizon
+                            tube({-1, -2, 0}, {1, -2, 0}, 0)};
+  for (const AreaLight& light : dark)
     for (const Material& m : {material_of(Brdf::lambert), ggx(0.3)})
       for (Method method : {Method::automatic, Method::reference, Method::sampled})
         EXPECT_EQ(ask(light, kFloor, m, method).radiance, Vec3d{}) << name_of(m.brdf) << " light " << (&light - dark);

@@ -14,7 +14,9 @@ namespace {
 
 // What the keys of any light type say, before it is known to be whole.
 struct LightKeys {
-  PolygonLight polygon;
+  Polygon polygon;
+  Vec3d radiance{1, 1, 1};
+  bool two_sided = false;
   Vec3d center, x, y, z;
   double radius = 0;
   Capsule shape;  // without its radius
@@ -24,9 +26,9 @@ struct LightKeys {
 using LightField = Field<LightKeys>;
 
 constexpr LightField kRadiance = {"radiance",
-                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.radiance = read_colour(p, at, v); }};
+                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radiance = read_colour(p, at, v); }};
 constexpr LightField kTwoSided = {"two_sided",
-                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.two_sided = read_bool(p, at, v); }};
+                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.two_sided = read_bool(p, at, v); }};
 constexpr LightField kCenter = {"center", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.center = read_vector(p, at, v); },
                                 true};
 constexpr LightField kHalfAxisX = {"x", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.x = read_vector(p, at, v); }, true};
@@ -65,20 +67,17 @@ constexpr LightField kPointFields[] = {
     {"intensity", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
 };
 
-Light polygon_of(LightKeys&& k) { return std::move(k.polygon); }
+Light flat(Shape shape, const LightKeys& k) { return AreaLight{std::move(shape), k.radiance, k.two_sided}; }
+Light solid(Shape shape, const LightKeys& k) { return AreaLight{std::move(shape), k.radiance}; }
+
+Light polygon_of(LightKeys&& k) { return flat(std::move(k.polygon), k); }
 Light rect_of(LightKeys&& k) {
-  k.polygon.vertices = {k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y};
-  return std::move(k.polygon);
+  return flat(Polygon{{k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y}, {}}, k);
 }
-Light disk_of(LightKeys&& k) { return CurvedLight{Ellipse{k.center, k.x, k.y}, k.polygon.radiance, k.polygon.two_sided}; }
-Light ellipsoid_of(LightKeys&& k) { return CurvedLight{Ellipsoid{k.center, k.x, k.y, k.z}, k.polygon.radiance}; }
-Light sphere_of(LightKeys&& k) {
-  k.x = {k.radius, 0, 0};
-  k.y = {0, k.radius, 0};
-  k.z = {0, 0, k.radius};
-  return ellipsoid_of(std::move(k));
-}
-Light capsule_of(LightKeys&& k) { return CurvedLight{capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k.polygon.radiance}; }
+Light disk_of(LightKeys&& k) { return flat(Ellipse{k.center, k.x, k.y}, k); }
+Light ellipsoid_of(LightKeys&& k) { return solid(Ellipsoid{k.center, k.x, k.y, k.z}, k); }
+Light sphere_of(LightKeys&& k) { return solid(Ellipsoid{k.center, {k.radius, 0, 0}, {0, k.radius, 0}, {0, 0, k.radius}}, k); }
+Light capsule_of(LightKeys&& k) { return solid(capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k); }
 Light point_of(LightKeys&& k) { return k.point_light; }
 
 struct LightRow {

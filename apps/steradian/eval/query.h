@@ -12,11 +12,11 @@
 #include "shadow/visible_part.h"
 #include "shapes/shape.h"
 #include "steradian/material.h"
-#include "steradian/polygon_light.h"
+#include "steradian/area_light.h"
 
 namespace steradian::eval {
 
-using Light = std::variant<PolygonLight, CurvedLight, PointLight>;
+using Light = std::variant<AreaLight, PointLight>;
 
 struct Query {
   Light light;

@@ -16,8 +16,8 @@ using reference::Random;
 using reference::random_direction;
 constexpr double kPi = std::numbers::pi;
 
-CurvedLight sphere(Vec3d center, double radius) { return {Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
-CurvedLight disk(Vec3d center, Vec3d x, Vec3d y) { return {Ellipse{center, x, y}}; }
+AreaLight sphere(Vec3d center, double radius) { return {Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
+AreaLight disk(Vec3d center, Vec3d x, Vec3d y) { return {Ellipse{center, x, y}}; }
 
 Material material_of(Brdf brdf) {
   Material m;
@@ -30,7 +30,7 @@ Material ggx(double alpha) {
   return m;
 }
 
-Answer ask(const CurvedLight& light, const ShadingPoint& at, const Material& m, Method method = Method::automatic,
+Answer ask(const AreaLight& light, const ShadingPoint& at, const Material& m, Method method = Method::automatic,
            Quality quality = Quality::normal) {
   Query q;
   q.light = light;
@@ -91,7 +91,7 @@ TEST(EvalRoundLight, EveryLobeAgreesWithTheReference) {
       Vec3d direction = random_direction(random);
       direction.y = std::fabs(direction.y);
       const double size = random.uniform(0.1, 0.6);
-      CurvedLight light = sphere(direction, size);
+      AreaLight light = sphere(direction, size);
       if (i % 3 == 1) std::get<Ellipsoid>(light.shape).z *= 0.4;
       if (i % 3 == 2) {
         light = disk(direction, {size, 0, 0}, Vec3d{0.2, 0.3, 0.9} * size);
@@ -113,7 +113,7 @@ TEST(EvalRoundLight, EveryLobeAgreesWithTheReference) {
 }
 
 TEST(EvalRoundLight, AutoTakesGgxByQuality) {
-  const CurvedLight light = sphere({0, 2, 0}, 0.5);
+  const AreaLight light = sphere({0, 2, 0}, 0.5);
   Material stretched = ggx(0.2);
   stretched.alpha_y = 0.4;
   EXPECT_EQ(ask(light, kFloor, ggx(0.2), Method::automatic, Quality::draft).method, "ltc-compact");
@@ -123,26 +123,26 @@ TEST(EvalRoundLight, AutoTakesGgxByQuality) {
 }
 
 TEST(EvalRoundLight, SampledAgreesWithinItsStandardError) {
-  const CurvedLight light = sphere({0.5, 1, 0}, 0.4);
+  const AreaLight light = sphere({0.5, 1, 0}, 0.4);
   const Answer truth = ask(light, kFloor, ggx(0.3), Method::reference), sampled = ask(light, kFloor, ggx(0.3), Method::sampled);
   EXPECT_NEAR(sampled.radiance.x, truth.radiance.x, 4 * *sampled.standard_error);
   EXPECT_LT(*sampled.standard_error, 0.05 * truth.radiance.x);
 }
 
 TEST(EvalRoundLight, HiddenSidesInsidesAndNoAreaGiveZero) {
-  const CurvedLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),  // its back
-                              disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),  // its plane
-                              disk({0, 2, 0}, {1, 0, 0}, {2, 0, 0}),  // no area
-                              disk({0, 2, 0}, {}, {}),
-                              sphere({0, 0.5, 0}, 1),  // inside
-                              sphere({0, 1, 0}, 0),
-                              sphere({0, 0, 0}, 0),
-                              sphere({0, -2, 0}, 1)};  // below the horizon
-  for (const CurvedLight& light : dark)
+  const AreaLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),  // its back
+                            disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),  // its plane
+                            disk({0, 2, 0}, {1, 0, 0}, {2, 0, 0}),  // no area
+                            disk({0, 2, 0}, {}, {}),
+                            sphere({0, 0.5, 0}, 1),  // inside
+                            sphere({0, 1, 0}, 0),
+                            sphere({0, 0, 0}, 0),
+                            sphere({0, -2, 0}, 1)};  // below the horizon
+  for (const AreaLight& light : dark)
     for (const Material& m : {material_of(Brdf::lambert), ggx(0.3)})
       for (Method method : {Method::automatic, Method::reference, Method::sampled})
         EXPECT_EQ(ask(light, kFloor, m, method).radiance, Vec3d{}) << name_of(m.brdf) << " light " << (&light - dark);
-  CurvedLight both = dark[0];
+  AreaLight both = dark[0];
   both.two_sided = true;
   EXPECT_NEAR(ask(both, kFloor, material_of(Brdf::lambert)).radiance.x, 0.2, 1e-14);
 }

@@ -16,31 +16,10 @@ namespace {
 constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
 constexpr int kRoundReference = 512;
 
-// The polygon that stands for a curved light.
-PreparedPolygon polygon_of(const CurvedLight& light, Vec3d from, int corners) {
-  AreaLight area;
-  area.polygon.radiance = light.radiance;
-  area.polygon.two_sided = light.two_sided;
-  if (const auto* disk = std::get_if<Ellipse>(&light.shape)) {
-    area.shape = LightShape::disk;
-    area.center = disk->center;
-    area.x = disk->x;
-    area.y = disk->y;
-  } else if (const auto* ball = std::get_if<Ellipsoid>(&light.shape)) {
-    area.shape = LightShape::sphere;
-    area.center = ball->center;
-    area.x = ball->x;
-    area.y = ball->y;
-    area.z = ball->z;
-  } else if (const auto* tube = std::get_if<Capsule>(&light.shape)) {
-    area.shape = LightShape::capsule;
-    area.center = (tube->end_a + tube->end_b) * 0.5;
-    area.x = (tube->end_b - tube->end_a) * 0.5;
-    area.radius = tube->radius;
-  } else {
-    throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
-  }
-  return shadow::polygon_of_round(area, from, corners);
+// The polygon that stands for a light of any shape.
+PreparedPolygon polygon_of(const AreaLight& light, Vec3d from, int corners) {
+  if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
+  return shadow::polygon_of_round(light, from, corners);
 }
 
 RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoint& from, const Query& query, const ShadingPoint& at,
@@ -78,14 +57,15 @@ RadianceResult shadowed_answer(const Query& query, const ShadingPoint& surface, 
     const bool blocked = !(dot(to, geometric) > 0) || query.occluders->rays.between(from.position, light->position);
     return blocked ? methods::nothing(entry.method) : unoccluded();
   }
-  if (const auto* light = std::get_if<PolygonLight>(&query.light)) {
-    const PreparedPolygon polygon = prepare_polygon(*light);
+  const auto& light = std::get<AreaLight>(query.light);
+  if (std::holds_alternative<Polygon>(light.shape)) {
+    const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
     if (polygon.vertices.empty()) return methods::nothing(entry.method);
     return over_polygon(polygon, from, query, at, m, entry, options);
   }
   const bool judge = entry.method == Method::reference || entry.method == Method::sampled;
   const int corners = judge ? kRoundReference : options.quality == Quality::high ? 48 : 24;
-  const PreparedPolygon polygon = polygon_of(std::get<CurvedLight>(query.light), from.position, corners);
+  const PreparedPolygon polygon = polygon_of(light, from.position, corners);
   if (polygon.vertices.empty()) return methods::nothing(entry.method);
   RadianceResult part = over_polygon(polygon, from, query, at, m, entry, options);
   if (judge) return part;

@@ -40,7 +40,7 @@ K::vec3 hit(const K::LtcMatrix& m, K::vec3 w, K::vec3 normal, double height) {
 // A square light of side 2 in the plane z = 1 that shines downwards, with a texture of n x n texels over it.
 AreaLight square_light(int n, const std::vector<std::uint8_t>& grey, std::vector<Image>& images) {
   AreaLight light;
-  light.polygon.vertices = {{-1, 1, 1}, {1, 1, 1}, {1, -1, 1}, {-1, -1, 1}};
+  light.shape = Polygon{{{-1, 1, 1}, {1, 1, 1}, {1, -1, 1}, {-1, -1, 1}}, {}};
   Image image{"texture", n, n, {}};
   for (const std::uint8_t g : grey) image.rgba.insert(image.rgba.end(), {g, g, g, 255});
   images = {image};
@@ -182,7 +182,7 @@ TEST(FilteredTexture, LevelsAreGaussianBlurs) {
     for (int x = 0; x < kTexels; ++x) grey.push_back(x < kTexels / 2 ? 0 : 204);
   std::vector<Image> images;
   const AreaLight light = square_light(kTexels, grey, images);
-  const FilteredTexture texture(light, prepare_polygon(light.polygon), images);
+  const FilteredTexture texture(light, prepare_polygon(flat_polygon(light)), images);
   // A blurred step of height 0.8 has a second derivative of at most 0.242 0.8 / sigma^2, bilinear look-up between texels of
   // half a sigma an eighth of a quarter of that: 0.006. A blur cut at 3 sigma leaves out 0.0027 of 0.8.
   double worst = 0;
@@ -212,7 +212,7 @@ TEST(FilteredTexture, LevelsAreGaussianBlurs) {
 TEST(FilteredTexture, ConstantStaysConstantEverywhere) {
   std::vector<Image> images;
   const AreaLight light = square_light(4, std::vector<std::uint8_t>(16, 102), images);
-  const FilteredTexture texture(light, prepare_polygon(light.polygon), images);
+  const FilteredTexture texture(light, prepare_polygon(flat_polygon(light)), images);
   const float expected = 102.0f / 255;
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
@@ -250,7 +250,7 @@ TEST(TexturedLight, LitCornersAndHalvesOverAFloor) {
       for (int x = 0; x < 64; ++x) grey.push_back(x < (corner ? 16 : 32) && (!corner || y < 16) ? 255 : 0);
     std::vector<Image> images;
     const AreaLight light = square_light(64, grey, images);
-    const TexturedLight textured(light, prepare_polygon(light.polygon), images);
+    const TexturedLight textured(light, prepare_polygon(flat_polygon(light)), images);
     double error = 0, signal = 0;
     for (int j = 0; j < 9; ++j)
       for (int i = 0; i < 9; ++i) {

@@ -111,21 +111,16 @@ TEST(LambertUnderFresnel, PicturesShowIt) {
   ggx.f0 = {0.04, 0.04, 0.04};
   // Behind the floor, low: a panel and a disk.
   AreaLight panel;
-  panel.polygon.vertices = {{-1, 0.2, -5}, {1, 0.2, -5}, {1, 1.2, -5}, {-1, 1.2, -5}};
-  panel.polygon.radiance = {3, 3, 3};
-  AreaLight disk;
-  disk.shape = LightShape::disk;
-  disk.center = {0, 0.9, -5};
-  disk.x = {0.8, 0, 0};
-  disk.y = {0, 0.8, 0};
-  disk.polygon = equal_area_polygon({disk.center, disk.x, disk.y}, {3, 3, 3}, 64);
+  panel.shape = Polygon{{{-1, 0.2, -5}, {1, 0.2, -5}, {1, 1.2, -5}, {-1, 1.2, -5}}, {}};
+  panel.radiance = {3, 3, 3};
+  const AreaLight disk = {Ellipse{{0, 0.9, -5}, {0.8, 0, 0}, {0, 0.8, 0}}, {3, 3, 3}};
   for (const AreaLight& light : {panel, disk})
     for (const std::string method : {"closed-form", "ltc"}) {
-      if (method == "ltc" && light.shape == LightShape::disk) continue;  // its glossy lobe sees another polygon
+      if (method == "ltc" && std::holds_alternative<Ellipse>(light.shape)) continue;  // its glossy lobe sees another polygon
       options.method = method;
       scene.area_lights = {light};
       const Picture picture = render(scene, options);
-      const PreparedPolygon polygon = prepare_polygon(light.polygon);
+      const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
       double error = 0, signal = 0, constant = 0;
       for (int y = 0; y < options.height; ++y)
         for (int x = 0; x < options.width; ++x) {

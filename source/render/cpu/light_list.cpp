@@ -9,15 +9,23 @@
 namespace steradian {
 namespace {
 
-PackLight from_area_light(const AreaLight& a) {
-  PackLight light;
-  switch (a.shape) {
-    case LightShape::polygon: light = prepare_light(prepare_polygon(a.polygon)); break;
-    case LightShape::disk: light.shape = packed::prepare_disk(a); break;
-    case LightShape::sphere: light.shape = packed::prepare_ellipsoid(a); break;
-    case LightShape::capsule: light.shape = packed::prepare_capsule(capsule_of(a)); break;
+struct Packed {
+  const AreaLight& light;
+  PackLight of(auto shape) const {
+    PackLight result;
+    result.shape = shape;
+    return result;
   }
-  light.radiance = static_cast<Vec3f>(a.polygon.radiance);
+  PackLight operator()(const Polygon&) const { return prepare_light(prepare_polygon(flat_polygon(light))); }
+  PackLight operator()(const Ellipse& e) const { return of(packed::prepare_disk(e, light.two_sided)); }
+  PackLight operator()(const Ellipsoid& e) const { return of(packed::prepare_ellipsoid(e)); }
+  PackLight operator()(const Capsule& c) const { return of(packed::prepare_capsule(c)); }
+  PackLight operator()(const Line& l) const { return (*this)(Capsule{l.end_a, l.end_b, 0}); }
+};
+
+PackLight from_area_light(const AreaLight& a) {
+  PackLight light = std::visit(Packed{a}, a.shape);
+  light.radiance = static_cast<Vec3f>(a.radiance);
   light.area = &a;
   return light;
 }

@@ -43,8 +43,8 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows)
     : scene_(scene), shadows_(shadows), scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
-    if (!area.is_solid()) {
-      light.flat = prepare_polygon(area.polygon);
+    if (area.is_flat()) {
+      light.flat = prepare_polygon(flat_polygon(area));
       if (light.flat->vertices.empty()) continue;
     }
     lights_.push_back(std::move(light));
@@ -112,18 +112,18 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
     if (!(sampler.measure() > 0)) continue;
 
     const double plane_height = dot(polygon.centroid - p, polygon.normal), eta = shadow::margin_of_plane(polygon);
+    const auto* capsule = std::get_if<Capsule>(&light.area->shape);
     const LightTexture* texture = light.area->texture ? &*light.area->texture : nullptr;
     // What arrives from the light's point in direction l.
     const auto incident = [&](Vec3d l) -> Vec3d {
       if (shadows_ == nullptr && texture == nullptr) return polygon.radiance;
       const Vec3d direction = frame.to_world(l);
       // A tube is too long for one plane to stand for it.
-      const double distance = light.area->shape == LightShape::capsule ? distance_along(capsule_of(*light.area), p, direction)
-                                                                       : plane_height / dot(direction, polygon.normal);
+      const double distance = capsule != nullptr ? distance_along(*capsule, p, direction) : plane_height / dot(direction, polygon.normal);
       const Vec3d there = p + direction * distance;
       if (shadows_ != nullptr) {
         if (!(dot(direction, geometric) > 0)) return {};
-        const double height = std::fabs(light.area->shape == LightShape::capsule ? distance : plane_height);
+        const double height = std::fabs(capsule != nullptr ? distance : plane_height);
         if (shadows_->between(p, p + (there - p) * std::max(1 - eta / height, 0.0), Casters::all)) return {};
       }
       return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;

@@ -46,18 +46,14 @@ Scene floor_scene() {
 
 AreaLight polygon(std::vector<Vec3d> vertices, Vec3d radiance) {
   AreaLight light;
-  light.polygon.vertices = std::move(vertices);
-  light.polygon.radiance = radiance;
+  light.shape = Polygon{std::move(vertices), {}};
+  light.radiance = radiance;
   return light;
 }
 
 AreaLight tube_light(Vec3d center, Vec3d half_axis, double radius) {
   AreaLight light;
-  light.shape = LightShape::capsule;
-  light.center = center;
-  light.x = half_axis;
-  light.radius = radius;
-  light.polygon.radiance = {1, 1, 1};
+  light.shape = Capsule{center - half_axis, center + half_axis, radius};
   return light;
 }
 
@@ -95,7 +91,7 @@ TEST(Render, DiffuseFloorIsThePolygonIntegralAtEveryPixel) {
       if (std::fabs(p.x) > 7.9 || std::fabs(p.z) > 7.9) continue;
       Vec3d expected{};
       for (const AreaLight& light : scene.area_lights)
-        expected += light.polygon.radiance * (polygon_irradiance(prepare_polygon(light.polygon), p, {0, 1, 0}) * 0.5 / M_PI);
+        expected += light.radiance * (polygon_irradiance(prepare_polygon(flat_polygon(light)), p, {0, 1, 0}) * 0.5 / M_PI);
       worst = std::max(worst, length(static_cast<Vec3d>(picture.at(x, y)) - expected));
     }
   // Radiance up to 5: float irradiances are good to 5e-7 (docs/accuracy.md), hit points to 2e-6 of 10 m.
@@ -104,26 +100,15 @@ TEST(Render, DiffuseFloorIsThePolygonIntegralAtEveryPixel) {
 
 // A light of a thousandth of the size and a million times the radiance is the same light, to the square of its size over its distance.
 TEST(Render, SmallLightsKeepTheirPower) {
-  const auto light = [](LightShape shape, double size) {
+  const auto lights = [](double size) {
     const Vec3d power = Vec3d{3, 2, 1} / (size * size), center{0.3, 3, -0.5};
     const Vec3d x = Vec3d{1, 0.1, 0} * size, y = Vec3d{0, 0.2, 1} * size;
-    AreaLight result = polygon({center - x - y, center + x - y, center + x + y, center - x + y}, power);
-    result.shape = shape;
-    result.center = center;
-    if (shape == LightShape::disk) {
-      result.x = x;
-      result.y = y;
-    } else if (shape == LightShape::sphere) {
-      result.x = {size, 0, 0};
-      result.y = {0, size, 0};
-      result.z = {0, 0, 0.7 * size};
-    } else if (shape == LightShape::capsule) {
-      result.x = x;
-      result.radius = 0.1 * size;
-    }
-    return result;
+    return std::vector<AreaLight>{{Polygon{{center - x - y, center + x - y, center + x + y, center - x + y}, {}}, power},
+                                  {Ellipse{center, x, y}, power},
+                                  {Ellipsoid{center, {size, 0, 0}, {0, size, 0}, {0, 0, 0.7 * size}}, power},
+                                  {Capsule{center - x, center + x, 0.1 * size}, power}};
   };
-  for (const LightShape shape : {LightShape::polygon, LightShape::disk, LightShape::sphere, LightShape::capsule})
+  for (std::size_t shape = 0; shape < lights(1).size(); ++shape)
     for (const std::string method : {"closed-form", "ltc", "ltc-compact"}) {
       Scene scene = floor_scene();
       scene.materials[0].specular = 1;
@@ -133,7 +118,7 @@ TEST(Render, SmallLightsKeepTheirPower) {
       Picture pictures[4];
       const double sizes[] = {3e-2, 1e-3, 1e-4, 1e-6};
       for (int k = 0; k < 4; ++k) {
-        scene.area_lights = {light(shape, sizes[k])};
+        scene.area_lights = {lights(sizes[k])[shape]};
         pictures[k] = render(scene, options);
       }
       float largest = 0, worst[4] = {};
@@ -143,22 +128,16 @@ TEST(Render, SmallLightsKeepTheirPower) {
       }
       EXPECT_GT(largest, 0.01f);
       // 3 cm at 3 m: 1e-4 of the value times the lobe's curvature; polygons of round lights are off by a thousandth.
-      EXPECT_LT(worst[0], 5e-3f * largest) << static_cast<int>(shape) << " " << method;
-      EXPECT_LT(worst[1], 2e-4f * largest) << static_cast<int>(shape) << " " << method;
-      EXPECT_LT(worst[2], 2e-4f * largest) << static_cast<int>(shape) << " " << method;
+      EXPECT_LT(worst[0], 5e-3f * largest) << shape << " " << method;
+      EXPECT_LT(worst[1], 2e-4f * largest) << shape << " " << method;
+      EXPECT_LT(worst[2], 2e-4f * largest) << shape << " " << method;
     }
 }
 
 TEST(Render, SphereLightIsItsClosedForm) {
   Scene scene = floor_scene();
-  AreaLight sphere;
-  sphere.shape = LightShape::sphere;
-  sphere.center = {0, 2, 0};
-  sphere.x = {0.5, 0, 0};
-  sphere.y = {0, 0.5, 0};
-  sphere.z = {0, 0, 0.5};
-  sphere.polygon.radiance = {2, 2, 2};
-  scene.area_lights = {sphere};
+  const Ellipsoid sphere = {{0, 2, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}};
+  scene.area_lights = {AreaLight{sphere, {2, 2, 2}}};
   const RenderOptions options = small();
   const Picture picture = render(scene, options);
   double worst = 0;
@@ -178,14 +157,8 @@ TEST(Render, SphereLightIsItsClosedForm) {
 // A slanted ellipse that the floor cuts, two-sided, against the form factor in double.
 TEST(Render, DiskLightIsItsFormFactor) {
   Scene scene = floor_scene();
-  AreaLight disk;
-  disk.shape = LightShape::disk;
-  disk.center = {-2, 0.5, 0};
-  disk.x = {0.3, 1, 0};
-  disk.y = {0, 0, 1.5};
-  disk.polygon = equal_area_polygon({disk.center, disk.x, disk.y}, {2, 2, 2});
-  disk.polygon.two_sided = true;
-  scene.area_lights = {disk};
+  const Ellipse disk = {{-2, 0.5, 0}, {0.3, 1, 0}, {0, 0, 1.5}};
+  scene.area_lights = {AreaLight{disk, {2, 2, 2}, true}};
   const RenderOptions options = small();
   const Picture picture = render(scene, options);
   double worst = 0;
@@ -210,17 +183,8 @@ TEST(Render, RoundLightsOnGlossAgreeWithFinePolygons) {
     Scene scene = floor_scene();
     scene.materials[0].specular = 1;
     scene.materials[0].roughness = roughness;
-    AreaLight disk;
-    disk.shape = LightShape::disk;
-    disk.center = {0, 2, -3};
-    disk.x = {-1.2, 0, 0};
-    disk.y = {0, 0.8, -0.2};
-    disk.polygon = equal_area_polygon({disk.center, disk.x, disk.y}, {1, 1, 1});
-    disk.polygon.two_sided = true;
-    AreaLight fine = disk;
-    fine.shape = LightShape::polygon;
-    fine.polygon = equal_area_polygon({disk.center, disk.x, disk.y}, {1, 1, 1}, 256);
-    fine.polygon.two_sided = true;
+    const AreaLight disk = {Ellipse{{0, 2, -3}, {-1.2, 0, 0}, {0, 0.8, -0.2}}, {1, 1, 1}, true};
+    const AreaLight fine = area_light(flat_polygon(disk, 256));
     const RenderOptions options = small();
     scene.area_lights = {disk};
     const Picture round = render(scene, options);
@@ -253,7 +217,7 @@ TEST(Render, TubesAreTheirClosedForm) {
       const Vec3d p = floor_point(scene, options, x, y);
       if (std::fabs(p.x) > 7.9 || std::fabs(p.z) > 7.9) continue;
       double e = 0;
-      for (const AreaLight& light : scene.area_lights) e += capsule_irradiance(capsule_of(light), p, {0, 1, 0});
+      for (const AreaLight& light : scene.area_lights) e += capsule_irradiance(std::get<Capsule>(light.shape), p, {0, 1, 0});
       worst = std::max(worst, std::fabs(static_cast<double>(picture.at(x, y).x) - e * 0.5 / M_PI));
       lit += e > 0.01;
     }
@@ -435,7 +399,7 @@ TEST(Render, SheenIsItsCubatureOverADimmedBase) {
   scene.materials[0].sheen_color = {0.8f, 0.5f, 0.2f};
   scene.materials[0].sheen_roughness = 0.5f;
   scene.area_lights = {ceiling_light()};
-  const PreparedPolygon light = prepare_polygon(scene.area_lights[0].polygon);
+  const PreparedPolygon light = prepare_polygon(flat_polygon(scene.area_lights[0]));
   RenderOptions options = small();
   const Picture picture = render(scene, options);
   Material sheen;

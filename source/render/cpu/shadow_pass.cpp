@@ -72,34 +72,41 @@ void split(std::vector<std::uint32_t> slots, const std::vector<Viewpoint>& point
   groups.push_back(std::move(slots));
 }
 
-// The radius of a ball about the centre that holds a sphere, ellipsoid or tube.
-double ball_around(const AreaLight& area) {
-  if (area.shape == LightShape::capsule) return length(area.x) + area.radius;
-  const double x2 = dot(area.x, area.x), y2 = dot(area.y, area.y), z2 = dot(area.z, area.z);
-  const double skew = std::fabs(dot(area.x, area.y)) + std::fabs(dot(area.y, area.z)) + std::fabs(dot(area.z, area.x));
-  return skew < 1e-6 * (x2 + y2 + z2) ? std::sqrt(std::max({x2, y2, z2})) * (1 + 1e-5) : std::sqrt(x2 + y2 + z2);
+struct Ball {
+  Vec3d center;
+  double radius = 0;
+};
+
+// Holds a sphere, ellipsoid or tube.
+Ball ball_around(const AreaLight& area) {
+  if (const auto* c = std::get_if<Capsule>(&area.shape)) return {(c->end_a + c->end_b) * 0.5, length(c->end_b - c->end_a) / 2 + c->radius};
+  const auto& e = std::get<Ellipsoid>(area.shape);
+  const double x2 = dot(e.x, e.x), y2 = dot(e.y, e.y), z2 = dot(e.z, e.z);
+  const double skew = std::fabs(dot(e.x, e.y)) + std::fabs(dot(e.y, e.z)) + std::fabs(dot(e.z, e.x));
+  const bool right_angles = skew < 1e-6 * (x2 + y2 + z2);
+  return {e.center, right_angles ? std::sqrt(std::max({x2, y2, z2})) * (1 + 1e-5) : std::sqrt(x2 + y2 + z2)};
 }
 
 // A frame whose shaft holds a round light for all points of a group: a square behind its bounding ball.
 std::optional<LightFrame> frame_behind(const PackLight& light, const std::vector<Vec3d>& points) {
-  const AreaLight& area = *light.area;
-  const double radius = 1.5 * ball_around(area);  // the box around the polygon has corners
+  const Ball ball = ball_around(*light.area);
+  const double radius = 1.5 * ball.radius;  // the box around the polygon has corners
   Vec3d middle{};
   for (const Vec3d& p : points) middle += p / static_cast<double>(points.size());
-  const Vec3d axis = area.center - middle;
+  const Vec3d axis = ball.center - middle;
   const double distance = length(axis);
   if (!(distance > 0)) return std::nullopt;
   double nearest = INFINITY, farthest = 0, spread = 0;
   LightFrame frame;
   frame.axes = Frame::from_normal(axis / distance);
   for (const Vec3d& p : points) {
-    const Vec3d d = frame.axes.to_local(area.center - p);
+    const Vec3d d = frame.axes.to_local(ball.center - p);
     nearest = std::min(nearest, length(d));
     farthest = std::max(farthest, length(d));
     spread = std::max(spread, std::hypot(d.x, d.y));
   }
   if (nearest < 1.2 * radius || distance < 2 * spread) return std::nullopt;
-  frame.origin = area.center + frame.axes.z * radius;
+  frame.origin = ball.center + frame.axes.z * radius;
   // The tangent cone from the nearest point, at the square's plane, and its tilt for points off the axis.
   const double tangent = radius / std::sqrt(nearest * nearest - radius * radius), tilt = spread / (distance - spread);
   const double half = (farthest + radius) * (tangent * (1 + tilt) * (1 + tilt)) + radius * tilt;
@@ -110,11 +117,12 @@ std::optional<LightFrame> frame_behind(const PackLight& light, const std::vector
 
 // Triangles whose box meets that of a round light, enlarged: the polygon's box in its plane reaches beyond the ball.
 std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& area) {
-  const double reach = 1.6 * ball_around(area);
+  const Ball ball = ball_around(area);
+  const double reach = 1.6 * ball.radius;
   std::vector<std::uint32_t> result;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - area.center, b = mesh.vertices[mesh.triangles[t][1]] - area.center,
-                c = mesh.vertices[mesh.triangles[t][2]] - area.center;
+    const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - ball.center, b = mesh.vertices[mesh.triangles[t][1]] - ball.center,
+                c = mesh.vertices[mesh.triangles[t][2]] - ball.center;
     const auto apart = [&](double x, double y, double z) { return std::min({x, y, z}) > reach || std::max({x, y, z}) < -reach; };
     if (!apart(a.x, b.x, c.x) && !apart(a.y, b.y, c.y) && !apart(a.z, b.z, c.z)) result.push_back(t);
   }
@@ -152,10 +160,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     Flat flat;
     if (light.is_polygon()) flat.polygon = light.polygon;
     if (is_disk(light)) {
-      PolygonLight seen =
-          equal_area_polygon({light.area->center, light.area->x, light.area->y}, light.area->polygon.radiance, kRoundCorners);
-      seen.two_sided = light.area->polygon.two_sided;
-      flat.polygon = prepare_polygon(seen);
+      flat.polygon = prepare_polygon(flat_polygon(*light.area, kRoundCorners));
     }
     if (!flat.polygon.vertices.empty())
       for (int s = 0; s < (flat.polygon.two_sided ? 2 : 1); ++s) {

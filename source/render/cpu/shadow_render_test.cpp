@@ -73,31 +73,12 @@ Scene still_life() {
   return scene;
 }
 
-AreaLight light_of(LightShape shape) {
-  AreaLight light;
-  light.shape = shape;
-  light.center = {0.3, 2.2, 0.2};
-  light.polygon.radiance = {3, 2, 1};
-  const Vec3d c = light.center, x{0.5, 0, 0}, z{0, 0.1, 0.4};
-  switch (shape) {
-    case LightShape::polygon: light.polygon.vertices = {c - x - z, c + x - z, c + x + z, c - x + z}; break;
-    case LightShape::disk:
-      light.x = x;
-      light.y = z;
-      light.polygon = equal_area_polygon({c, x, z}, light.polygon.radiance);
-      break;
-    case LightShape::sphere:
-      light.x = {0.4, 0, 0};
-      light.y = {0, 0.4, 0};
-      light.z = {0, 0, 0.4};
-      break;
-    case LightShape::capsule:
-      light.x = {0.6, 0.1, 0};
-      light.radius = 0.15;
-      break;
-  }
-  return light;
-}
+constexpr Vec3d kCenter{0.3, 2.2, 0.2}, kX{0.5, 0, 0}, kZ{0, 0.1, 0.4};
+
+AreaLight panel() { return {Polygon{{kCenter - kX - kZ, kCenter + kX - kZ, kCenter + kX + kZ, kCenter - kX + kZ}, {}}, {3, 2, 1}}; }
+AreaLight disk() { return {Ellipse{kCenter, kX, kZ}, {3, 2, 1}}; }
+AreaLight ball() { return {Ellipsoid{kCenter, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}}, {3, 2, 1}}; }
+AreaLight tube() { return {Capsule{kCenter - Vec3d{0.6, 0.1, 0}, kCenter + Vec3d{0.6, 0.1, 0}, 0.15}, {3, 2, 1}}; }
 
 RenderOptions small() {
   RenderOptions options;
@@ -109,9 +90,9 @@ RenderOptions small() {
 
 // Every lobe's value at every pixel is that of rays, contacts and curved meshes' terminators included.
 TEST(ShadowRender, AgreesWithTheReferenceAtEveryPixel) {
-  for (const LightShape shape : {LightShape::polygon, LightShape::disk, LightShape::sphere, LightShape::capsule}) {
+  for (const AreaLight& light : {panel(), disk(), ball(), tube()}) {
     Scene scene = still_life();
-    scene.area_lights = {light_of(shape)};
+    scene.area_lights = {light};
     RenderOptions options = small();
     options.shadows = Shadows::exact;
     const Picture analytic = render(scene, options);
@@ -131,9 +112,9 @@ TEST(ShadowRender, AgreesWithTheReferenceAtEveryPixel) {
     }
     // Round lights: polygons of 24 corners against 64 in the reference, 1e-3 of the light at most, which is a larger share of
     // what a penumbra leaves.
-    const ZTest z = z_test(analytic, reference, shape == LightShape::polygon ? 2e-4 : 5e-3);
+    const ZTest z = z_test(analytic, reference, std::holds_alternative<Polygon>(light.shape) ? 2e-4 : 5e-3);
     EXPECT_GT(z.tested, 3000u);
-    EXPECT_GE(z.share(), 0.9975) << "shape " << static_cast<int>(shape) << ", worst " << z.worst;
+    EXPECT_GE(z.share(), 0.9975) << "shape " << light.shape.index() << ", worst " << z.worst;
   }
 }
 
@@ -143,7 +124,7 @@ TEST(ShadowRender, LobesUnderPartsOfLightsAgreeWithTheReference) {
   scene.materials[0].roughness = 0.5f;
   scene.materials[1].metallic = 1;
   scene.materials[1].roughness = 0.4f;
-  scene.area_lights = {light_of(LightShape::polygon)};
+  scene.area_lights = {panel()};
   RenderOptions options = small();
   const Picture analytic = render(scene, options);
   options.method = "reference";
@@ -155,7 +136,7 @@ TEST(ShadowRender, LobesUnderPartsOfLightsAgreeWithTheReference) {
 
 TEST(ShadowRender, GivesTheSameBytesAtAnyNumberOfThreads) {
   Scene scene = still_life();
-  scene.area_lights = {light_of(LightShape::polygon), light_of(LightShape::sphere)};
+  scene.area_lights = {panel(), ball()};
   RenderOptions options = small();
   options.threads = 1;
   const Picture one = render(scene, options);
@@ -166,7 +147,7 @@ TEST(ShadowRender, GivesTheSameBytesAtAnyNumberOfThreads) {
 TEST(ShadowRender, NothingBetweenChangesNothing) {
   Scene scene = still_life();
   scene.meshes.resize(1);
-  scene.area_lights = {light_of(LightShape::polygon), light_of(LightShape::sphere)};
+  scene.area_lights = {panel(), ball()};
   RenderOptions options = small();
   const Picture shadowed = render(scene, options);
   options.shadows = Shadows::off;

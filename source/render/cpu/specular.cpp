@@ -60,9 +60,10 @@ ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) { return shad
 
 // The ellipse that a point sees of a round light, if it shines there.
 std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
-  if (light.shape == LightShape::sphere) return silhouette(light.center, light.x, light.y, light.z, position);
-  const double height = dot(position - light.center, cross(light.x, light.y));
-  if (height > 0 || (height < 0 && light.polygon.two_sided)) return Ellipse{light.center, light.x, light.y};
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&light.shape)) return silhouette(*ellipsoid, position);
+  const auto& disk = std::get<Ellipse>(light.shape);
+  const double height = dot(position - disk.center, cross(disk.x, disk.y));
+  if (height > 0 || (height < 0 && light.two_sided)) return disk;
   return {};
 }
 
@@ -71,13 +72,13 @@ PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const
   if (light.is_polygon()) return light.polygon;
   const int corners = quality == Quality::high ? 16 : 12;
   PolygonLight seen;
-  if (light.area->shape == LightShape::capsule) {
-    seen = polygon_for_lobe(capsule_of(*light.area), at.position, lobe_axis(material, at), corners);
+  if (const auto* capsule = std::get_if<Capsule>(&light.area->shape)) {
+    seen = polygon_for_lobe(*capsule, at.position, lobe_axis(material, at), corners);
   } else if (const std::optional<Ellipse> outline = outline_at(*light.area, at.position)) {
     seen = polygon_for_lobe(*outline, at.position, lobe_axis(material, at), corners);
   }
   if (seen.vertices.empty()) return {};
-  seen.radiance = light.area->polygon.radiance;
+  seen.radiance = light.area->radiance;
   return prepare_polygon(seen);
 }
 

@@ -112,8 +112,8 @@ TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
   m.normal_texture = add_texel(scene, 60, 128, 220);
   m.clearcoat_normal_texture = add_texel(scene, 128, 90, 250);
   AreaLight light;
-  light.polygon.vertices = {{-1, 2, -3}, {1, 2, -3}, {1, 2, -1}, {-1, 2, -1}};
-  light.polygon.radiance = {5, 4, 3};
+  light.shape = Polygon{{{-1, 2, -3}, {1, 2, -3}, {1, 2, -1}, {-1, 2, -1}}, {}};
+  light.radiance = {5, 4, 3};
   scene.area_lights = {light};
   Camera camera;
   camera.position = {0, 3, 4};
@@ -144,7 +144,7 @@ TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
       base.alpha_x = base.alpha_y = static_cast<double>(s.alpha_x);
       base.f0 = {};
       base.f90 = static_cast<Vec3d>(s.f90);
-      const PreparedPolygon polygon = prepare_polygon(light.polygon);
+      const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
       const double expected = closed_form_radiance(polygon, {p, normalized(normal), normalized(-d)}, coat).x +
                               closed_form_radiance(polygon, {p, normalized(static_cast<Vec3d>(s.normal)), normalized(-d)}, base).x;
       worst = std::max(worst, std::fabs(static_cast<double>(picture.at(x, y).x) - expected));

@@ -40,7 +40,7 @@ Scene textured_scene(const std::vector<std::uint8_t>& rgb) {
   scene.images = {image};
   AreaLight light;
   light.name = "window";
-  light.polygon.vertices = {{-1, 0.2, -1}, {1, 0.2, -1}, {1, 2.2, -1}, {-1, 2.2, -1}};
+  light.shape = Polygon{{{-1, 0.2, -1}, {1, 0.2, -1}, {1, 2.2, -1}, {-1, 2.2, -1}}, {}};
   LightTexture t;
   t.use.image = 0;
   t.use.wrap_u = t.use.wrap_v = Wrap::clamp_to_edge;
@@ -49,7 +49,7 @@ Scene textured_scene(const std::vector<std::uint8_t>& rgb) {
   t.dv = {0, -0.5, 0};
   t.factor = {3, 3, 3};
   light.texture = t;
-  light.polygon.radiance = {1, 1, 1};  // the mean; its value is the loader's matter
+  light.radiance = {1, 1, 1};  // the mean; its value is the loader's matter
   scene.area_lights = {light};
   return scene;
 }
@@ -77,7 +77,7 @@ TEST(TexturedRender, AConstantTextureIsTheUntexturedLight) {
   for (int i = 0; i < 16; ++i) rgb.insert(rgb.end(), {102, 51, 204});
   Scene textured = textured_scene(rgb);
   AreaLight& light = textured.area_lights[0];
-  light.polygon.radiance = Vec3d{102, 51, 204} * (3.0 / 255);
+  light.radiance = Vec3d{102, 51, 204} * (3.0 / 255);
   Scene plain = textured;
   plain.area_lights[0].texture.reset();
   for (const std::string method : {"auto", "ltc", "ltc-compact", "ltc-clipless", "representative-point"}) {

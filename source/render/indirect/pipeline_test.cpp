@@ -34,9 +34,9 @@ TEST(IndirectShadowMap, AreaLightsCarryTheirPower) {
   Scene scene = mixed_corner();
   scene.punctual_lights.clear();
   AreaLight light;
-  light.polygon.vertices = {{-0.5, 1, 0.5}, {-0.5, 1, 1.5}, {0.5, 1, 1.5}, {0.5, 1, 0.5}};  // faces up or down
-  light.polygon.radiance = {2, 2, 2};
-  light.polygon.two_sided = true;
+  light.shape = Polygon{{{-0.5, 1, 0.5}, {-0.5, 1, 1.5}, {0.5, 1, 1.5}, {0.5, 1, 0.5}}, {}};  // faces up or down
+  light.radiance = {2, 2, 2};
+  light.two_sided = true;
   scene.area_lights = {light};
   scene.meshes.push_back(quad_mesh({-9, 9, -9}, {9, 9, -9}, {9, 9, 9}, {-9, 9, 9}, 0));  // a lid, so that light goes nowhere
   scene.meshes.push_back(quad_mesh({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, 0));

@@ -98,8 +98,8 @@ struct LightTriangle {
 // Points spread evenly over the light's triangles, directions by the cosine: every ray carries the same flux.
 Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles, double total) {
   if (!(total > 0)) return {};
-  const Vec3d radiance = light.polygon.radiance;
-  const double sides = light.polygon.two_sided ? 2 : 1;
+  const Vec3d radiance = light.radiance;
+  const double sides = light.two_sided ? 2 : 1;
   const double lum = luminance(radiance);
   const double surface = lum > 0 && light.power > 0 ? light.power / lum : total;  // without the tessellation's deficit
   return {lum * kPi * surface * sides, [=](int i, int j, int side) {

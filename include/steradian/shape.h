@@ -1,0 +1,40 @@
+// Shape: what a light with an extent looks like. Each shape's outline, as a point sees it, is in source/shapes/.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "steradian/vector.h"
+
+namespace steradian {
+
+// Flat. Lit side: the one from which the outline runs counter-clockwise. Holes run the other way; either order is taken.
+struct Polygon {
+  std::vector<Vec3d> vertices;
+  std::vector<std::vector<Vec3d>> holes;
+};
+
+// Flat: points center + x u + y v, |(u, v)| <= 1. Lit side: that of x cross y.
+struct Ellipse {
+  Vec3d center, x, y;
+};
+
+// Points center + x u + y v + z w, |(u, v, w)| <= 1.
+struct Ellipsoid {
+  Vec3d center, x, y, z;
+};
+
+// A tube: all points within the radius of the segment between the ends.
+struct Capsule {
+  Vec3d end_a, end_b;
+  double radius = 0;
+};
+
+// A segment without width.
+struct Line {
+  Vec3d end_a, end_b;
+};
+
+using Shape = std::variant<Polygon, Ellipse, Ellipsoid, Capsule, Line>;
+
+}  // namespace steradian
