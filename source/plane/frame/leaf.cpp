@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "plane/frame/overlap.h"
 
 namespace steradian::plane {
 namespace {
@@ -36,6 +39,8 @@ SeenLight LeafBuilder::see(const Emitter& e) const {
   seen.at = light_.a;
   seen.margin = (seen.edge ? extent(e.normal) : tile_.radius) + 1e-3;
   const Vec2d axis = light_.center;
+  // Where some pixel may lie within the bounding circle of an ellipse, slopes are not from its centre: see TileArc.
+  if (e.kind == Emitter::Kind::arc && length(axis) <= e.bound + tile_.radius) seen.margin = 1e30;
   const double d = std::sqrt(std::max(dot(axis, axis), 1e-300));
   const double sine = std::clamp((tile_.radius - light_.bound) / d, -0.99, 0.99), cosine = std::sqrt(1 - sine * sine);
   const Vec2d along = axis / d, left{-along.y, along.x};
@@ -58,11 +63,14 @@ bool LeafBuilder::passes_by(Vec2d center, double radius) const {
 
 // A line between emitter and blocker, which do not overlap.
 LeafBuilder::Depth LeafBuilder::depth_of_round(const Blocker& b, Vec2d center) const {
-  const bool lens = b.kind == Blocker::Kind::lens;
-  const Vec2d at = lens ? light_.a : nearest_on(light_.a, light_.b, center), to = center - at;
+  if (b.line >= 0) {
+    const DividingLine& line = frame_.lines[static_cast<std::size_t>(b.line)];
+    return {line.normal, -dot(line.normal, line.point - tile_.center)};
+  }
+  const Vec2d at = nearest_on(light_.a, light_.b, center), to = center - at;
   const double d = length(to);
   const Vec2d normal = to / d;
-  const Vec2d through = lens ? b.crossing[0] - tile_.center : at + to * ((light_.radius + 0.5 * (d - light_.radius - b.bound)) / d);
+  const Vec2d through = at + to * ((light_.radius + 0.5 * (d - light_.radius - b.bound)) / d);
   return {normal, -dot(normal, through)};
 }
 
@@ -76,14 +84,17 @@ bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
     return true;
   };
   if (!seen_.edge) {
+    // In the space where the light is the unit circle: the line through the blocker's nearest point.
+    const Ellipse& space = light_.ellipse;
     Vec2d best;
     double best_d2 = 1e300;
     for (int k = 0; k < count; ++k) {
-      const Vec2d p = nearest_on(s.at(k), next(k), light_.a);
-      const double d2 = dot(p - light_.a, p - light_.a);
+      const Vec2d p = nearest_on(space.to_unit(s.at(k)), space.to_unit(next(k)), {0, 0});
+      const double d2 = dot(p, p);
       if (d2 < best_d2) best_d2 = d2, best = p;
     }
-    return best_d2 > 0 && through((best - light_.a) / std::sqrt(best_d2), best);
+    const Vec2d normal{space.y.y * best.x - space.x.y * best.y, space.x.x * best.y - space.y.x * best.x};
+    return best_d2 > 0 && through(normal / length(normal), space.center + space.x * best.x + space.y * best.y);
   }
   const Vec2d n = seen_.normal;
   const double slack = 1e-8;
@@ -175,50 +186,54 @@ void LeafBuilder::add_convex(int blocker) {
   shadows_.take_front(slot, marks.ahead, from_low, to_high);
 }
 
+TileRound LeafBuilder::round_of(const Ellipse& e) const {
+  TileRound r{};
+  const double det = cross(e.x, e.y);
+  r.cx = f(e.center.x);
+  r.cy = f(e.center.y);
+  r.xx = f(e.x.x);
+  r.xy = f(e.x.y);
+  r.yx = f(e.y.x);
+  r.yy = f(e.y.y);
+  r.ux = f(e.y.y / det);
+  r.uy = f(-e.y.x / det);
+  r.vx = f(-e.x.y / det);
+  r.vy = f(e.x.x / det);
+  return r;
+}
+
+void LeafBuilder::add_lens(const Blocker& b) {
+  const Lens& lens = frame_.lenses[static_cast<std::size_t>(b.lens)];
+  TileLens l{};
+  l.round = round_of({b.center - tile_.center, b.x_axis, b.y_axis});
+  l.count = lens.count;
+  for (int k = 0; k < lens.count; ++k) {
+    const Lens::Crossing& c = lens.crossings[k];
+    const Vec2d at = c.at - tile_.center;
+    l.crossings[k] = {f(at.x), f(at.y), f(c.light_normal.x), f(c.light_normal.y), f(c.blocker_normal.x), f(c.blocker_normal.y), c.begins};
+  }
+  shadows_.take(l);
+}
+
 void LeafBuilder::add_round(int blocker) {
   const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
   const Vec2d center = b.center - tile_.center;
   if (passes_by(center, b.bound)) return;
+  if (b.kind == Blocker::Kind::lens) return add_lens(b);
   const Depth depth = depth_of_round(b, center);
-  const bool lens = b.kind == Blocker::Kind::lens;
   const Side side = side_of(depth);
-  if (!lens && side == Side::behind) return;
-  if (!lens && side == Side::front && b.round && ahead(center, b.bound)) {
+  if (side == Side::behind) return;
+  if (side == Side::front && b.round && ahead(center, b.bound)) {
     // A point of it beside the light is enough.
     const auto beside = [&](const HullSide& h) { return dot(h.normal, center) - h.offset > -b.bound && dot(h.forward, center) < h.limit; };
     shadows_.take_front(silhouette(blocker), 3, beside(seen_.low), beside(seen_.high));
     return;
   }
-  TileRound r;
-  const double det = cross(b.x_axis, b.y_axis);
-  r.cx = f(center.x);
-  r.cy = f(center.y);
-  r.xx = f(b.x_axis.x);
-  r.xy = f(b.x_axis.y);
-  r.yx = f(b.y_axis.x);
-  r.yy = f(b.y_axis.y);
-  r.ux = f(b.y_axis.y / det);
-  r.uy = f(-b.y_axis.x / det);
-  r.vx = f(-b.x_axis.y / det);
-  r.vy = f(b.x_axis.x / det);
+  TileRound r = round_of({center, b.x_axis, b.y_axis});
   r.depth_x = f(depth.normal.x);
   r.depth_y = f(depth.normal.y);
   r.depth_c = f(depth.offset);
-  if (!lens) {
-    shadows_.take(r, b.bound);
-    return;
-  }
-  TileLens l;
-  l.round = r;
-  for (int k = 0; k < 2; ++k) {
-    l.x[k] = f(b.crossing[k].x - tile_.center.x);
-    l.y[k] = f(b.crossing[k].y - tile_.center.y);
-    l.lx[k] = f(b.light_normal[k].x);
-    l.ly[k] = f(b.light_normal[k].y);
-    l.bx[k] = f(b.blocker_normal[k].x);
-    l.by[k] = f(b.blocker_normal[k].y);
-  }
-  shadows_.take(l);
+  shadows_.take(r, b.bound);
 }
 
 // Is a disk in front of every pixel's axis? As for vertices.
@@ -230,14 +245,66 @@ bool LeafBuilder::ahead(Vec2d v, double radius) const {
   return side > 0 && side * side > clear * clear * dot(apart, apart);
 }
 
+TileArc LeafBuilder::arc_of(const Emitter& e) const {
+  TileArc arc{};
+  const auto unit = [](double tau) { return Vec2d{std::cos(tau), std::sin(tau)}; };
+  const double last = e.tau0 + e.tau_span;
+  const Vec2d u0 = unit(e.tau0), u1 = unit(last), um = unit(e.tau0 + 0.5 * e.tau_span);
+  const Vec2d p0 = light_.ellipse.at(e.tau0), p1 = light_.ellipse.at(last);
+  arc.x0 = f(p0.x);
+  arc.y0 = f(p0.y);
+  arc.x1 = f(p1.x);
+  arc.y1 = f(p1.y);
+  arc.u0 = f(u0.x);
+  arc.v0 = f(u0.y);
+  arc.u1 = f(u1.x);
+  arc.v1 = f(u1.y);
+  arc.um = f(um.x);
+  arc.vm = f(um.y);
+  arc.least_cosine = f(std::cos(0.5 * e.tau_span));
+  arc.whole = e.whole;
+  arc.between_tangents = seen_.margin > 1e29;
+  arc.det = f(cross(e.ellipse.x, e.ellipse.y));
+  arc.ramp_x = f(e.ramp.x);
+  arc.ramp_y = f(e.ramp.y);
+  return arc;
+}
+
+namespace {
+
+// Seen from where the light arrives, the spot's axis turned round.
+TileSpot spot_of(const PlaneEmission& emission) {
+  TileSpot spot{};
+  const Vec2d axis = -emission.spot_axis;
+  const double half = emission.spot_half_angle, c = std::cos(half), s = std::sin(half);
+  spot.present = (axis.x != 0 || axis.y != 0) && half < std::numbers::pi;
+  if (!spot.present) return spot;
+  const Vec2d a = axis / length(axis);
+  spot.wide = half > 0.5 * std::numbers::pi;
+  spot.low_x = f(a.x * c + a.y * s);
+  spot.low_y = f(a.y * c - a.x * s);
+  spot.high_x = f(a.x * c - a.y * s);
+  spot.high_y = f(a.y * c + a.x * s);
+  return spot;
+}
+
+}  // namespace
+
 TileLight LeafBuilder::light_of(const Emitter& e) const {
   const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
   TileLight light{};
   light.inverse_range = emission.range < 1e300 ? f(1 / emission.range) : 0;
   light.profile = static_cast<int>(emission.profile);
+  light.spot = spot_of(emission);
   Vec3d from = emission.radiance, slope;
+  if (e.kind == Emitter::Kind::arc) {
+    light.kind = TileKind::arc;
+    light.arc = arc_of(e);
+    from = e.radiance.a;
+    slope = e.radiance.b;
+  }
   if (seen_.edge) {
-    light.edge = true;
+    light.kind = TileKind::edge;
     const Vec2d n = seen_.normal, t{n.y, -n.x};
     light.nx = f(n.x);
     light.ny = f(n.y);
@@ -245,8 +312,10 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
     light.end = f(dot(light_.a, t));
     from = e.radiance.b;
     slope = (e.radiance.a - e.radiance.b) / length(e.b - e.a);
-    light.linear = slope.x != 0 || slope.y != 0 || slope.z != 0;
+  } else {
+    light.shape = round_of(light_.ellipse);
   }
+  light.linear = slope.x != 0 || slope.y != 0 || slope.z != 0;
   light.x = f(light_.a.x);
   light.y = f(light_.a.y);
   light.radius = f(light_.radius);
@@ -260,7 +329,11 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
 }
 
 LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, std::size_t count) {
-  light_ = {e.a - tile_.center, e.b - tile_.center, e.center - tile_.center, e.radius, e.bound};
+  light_ = {e.a - tile_.center, e.b - tile_.center, e.center - tile_.center, e.radius, e.bound, {}};
+  if (e.kind != Emitter::Kind::edge) {
+    light_.ellipse = ellipse_of(e);
+    light_.ellipse.center = light_.center;
+  }
   seen_ = see(e);
   shadows_.clear(pool_, light_.center);
   for (std::size_t i = 0; i < count; ++i) {

@@ -36,6 +36,7 @@ class LeafBuilder {
   struct Light {
     Vec2d a, b, center;
     double radius = 0, bound = 0;
+    Ellipse ellipse;  // disk, arc
   };
 
   double extent(Vec2d normal) const;
@@ -49,7 +50,10 @@ class LeafBuilder {
   bool ahead(Vec2d v, double radius) const;
   void add_convex(int blocker);
   void add_round(int blocker);
+  void add_lens(const Blocker& b);
+  TileRound round_of(const Ellipse& e) const;
   TileLight light_of(const Emitter& e) const;
+  TileArc arc_of(const Emitter& e) const;
 
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());

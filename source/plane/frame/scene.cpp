@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "plane/frame/blocker_bins.h"
+#include "plane/frame/emitters.h"
+#include "plane/frame/overlap.h"
 
 namespace steradian::plane {
 namespace {
@@ -15,19 +17,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr std::size_t kMostVertices = 8;  // of a convex blocker; more, and edges stand alone: their tangents move less
-constexpr double kTouching = 1e-9;
-
-bool is_full_circle(const Curve& c) {
-  const double xx = dot(c.ellipse.x, c.ellipse.x), yy = dot(c.ellipse.y, c.ellipse.y);
-  return c.kind == Curve::Kind::arc && c.tau_span > 2 * pi - 1e-9 && std::fabs(xx - yy) <= 1e-12 * xx &&
-         std::fabs(dot(c.ellipse.x, c.ellipse.y)) <= 1e-12 * xx;
-}
-
-double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
-  const Vec2d ab = b - a;
-  const double t = std::clamp(dot(p - a, ab) / std::max(dot(ab, ab), 1e-300), 0.0, 1.0);
-  return length(p - a - ab * t);
-}
 
 class Preparation {
  public:
@@ -94,8 +83,7 @@ class Preparation {
       ++lights;
       steps += kPixels * (1000 + 4 * world_.curves.size() + 80 * (gradient ? gradient->stops.size() : 0));
     }
-    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are ellipses, strokes, spots or shaded by profile", lights),
-                      steps);
+    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are very thin ellipses", lights), steps);
   }
 
   // Steps that are known only as they are made.
@@ -104,8 +92,8 @@ class Preparation {
     if (steps != 0 && steps_ < 10'000'000) return;
     budget_.take_work(world_.scene.name, "the overlaps of its lights with other shapes", steps_);
     budget_.take_memory(world_.scene.name, "the parts of shapes that overlap its lights",
-                        (frame_.outlines.size() - outlines_held_) * kBlockerBytes);
-    outlines_held_ = frame_.outlines.size();
+                        (frame_.blockers.size() - blockers_held_) * (kBlockerBytes + sizeof(Lens)));
+    blockers_held_ = frame_.blockers.size();
     steps_ = 0;
   }
 
@@ -141,10 +129,6 @@ class Preparation {
     b.bound = b.round ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
     frame_.blockers.push_back(b);
   }
-  static bool is_round(const Ellipse& e) {
-    return std::fabs(dot(e.x, e.x) - dot(e.y, e.y)) <= 1e-12 * dot(e.x, e.x) && std::fabs(dot(e.x, e.y)) <= 1e-12 * dot(e.x, e.x);
-  }
-
   // The outline as one convex counter-clockwise polygon, if it is one.
   std::vector<Vec2d> convex_outline(std::size_t i) const {
     const PlaneBody& b = body(i);
@@ -197,51 +181,9 @@ class Preparation {
   }
 
   void add_emitters(std::size_t i) {
-    const PlaneEmission& light = *body(i).light;
-    const bool spot = light.spot_axis.x != 0 || light.spot_axis.y != 0;
-    const bool plain = light.profile == PlaneProfile::uniform && !light.gradient;
-    const std::size_t first = world_.first_curve[i], last = world_.first_curve[i + 1];
-    const std::size_t before = frame_.emitters.size();
-    for (std::size_t c = first; c < last; ++c) {
-      const Curve& curve = world_.curves[c];
-      Emitter e;
-      e.body = static_cast<int>(i);
-      if (curve.kind == Curve::Kind::segment && !spot) {
-        e.kind = Emitter::Kind::edge;
-        // Cut where the gradient has a stop, so that radiance is linear on each.
-        const std::vector<double> cuts = light.gradient ? gradient_cuts(*light.gradient, curve) : std::vector<double>{0, 1};
-        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-          const Curve part = part_of(curve, cuts[k], cuts[k + 1]);
-          if (part.a == part.b) continue;
-          e.a = part.a;
-          e.b = part.b;
-          e.radiance = radiance_ends(light, e.a, e.b);
-          add_emitter(e);
-          if (!curve.two_sided) continue;
-          std::swap(e.a, e.b);
-          std::swap(e.radiance.a, e.radiance.b);
-          add_emitter(e);
-        }
-      } else if (is_full_circle(curve) && plain && !spot) {
-        e.a = e.b = curve.ellipse.center;
-        e.radius = length(curve.ellipse.x);
-        add_emitter(e);
-      } else {
-        frame_.emitters.resize(before);
-        frame_.general[i] = 1;
-        return;
-      }
-    }
-  }
-
-  void add_emitter(Emitter e) {
-    const Vec2d along = e.b - e.a;
-    const double size = length(along);
-    e.center = (e.a + e.b) * 0.5;
-    e.bound = e.radius + 0.5 * size;
-    if (size > 0) e.normal = Vec2d{along.y, -along.x} / size;
-    e.range = body(static_cast<std::size_t>(e.body)).light->range;
-    frame_.emitters.push_back(e);
+    const std::optional<std::vector<Emitter>> emitters = emitters_of(world_, i);
+    frame_.general[i] = !emitters;
+    if (emitters) frame_.emitters.insert(frame_.emitters.end(), emitters->begin(), emitters->end());
   }
 
   void interior() {
@@ -301,8 +243,9 @@ class Preparation {
     if (!is_full_circle(curve)) return true;
     Emitter disk;
     disk.a = disk.b = disk.center = curve.ellipse.center;
-    disk.radius = disk.bound = length(curve.ellipse.x);
-    return overlaps(disk, b);
+    disk.radius = length(curve.ellipse.x);
+    if (b.kind != Blocker::Kind::convex) return length(disk.center - b.center) < disk.radius + b.bound - kTouching;
+    return overlaps(disk, &frame_.vertices[b.first], b.count);
   }
 
   bool reaches_into(std::size_t polygon, const Blocker& b) {
@@ -323,7 +266,7 @@ class Preparation {
   }
 
   void find_nearby(std::size_t index) {
-    const Emitter e = frame_.emitters[index];
+    Emitter& e = frame_.emitters[index];
     std::vector<int> list, overlapping;
     // What is further from the light than its range stands behind the last lit point.
     bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
@@ -333,16 +276,13 @@ class Preparation {
         if (e.kind == Emitter::Kind::edge && b.count == 2) own_edge(e, k, list);
         return;
       }
-      if (overlaps(e, b))
+      const bool near = length(e.center - b.center) < e.bound + b.bound;
+      if (near && (b.kind != Blocker::Kind::convex || overlaps(e, &frame_.vertices[b.first], b.count)))
         overlapping.push_back(k);
       else
         list.push_back(k);
     });
-    for (int k : overlapping)
-      if (!stand_in(e, frame_.blockers[static_cast<std::size_t>(k)], list)) {
-        frame_.general[static_cast<std::size_t>(e.body)] = 1;
-        return;
-      }
+    for (int k : overlapping) stand_in(e, k, list);
     for (int k : list) {
       const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       const Vec2d center = b.center - world_.scene.origin;
@@ -350,37 +290,6 @@ class Preparation {
       frame_.nearby.add(static_cast<float>(center.x), static_cast<float>(center.y), radius,
                         b.kind == Blocker::Kind::convex ? radius : -1.0f, k);
     }
-  }
-
-  bool overlaps(const Emitter& e, const Blocker& b) const {
-    if (length(e.center - b.center) >= e.bound + b.bound) return false;
-    if (b.kind != Blocker::Kind::convex) {
-      // Round against what is round or thin: by distance; other ellipses by their bounding circle.
-      return distance_to_segment(b.center, e.a, e.b) < e.radius + b.bound - kTouching;
-    }
-    const Vec2d* v = &frame_.vertices[b.first];
-    if (e.kind == Emitter::Kind::disk) {
-      double nearest = 1e300;
-      bool inside = b.count > 2;
-      for (std::size_t k = 0; k < b.count; ++k) {
-        const Vec2d p = v[k], q = v[(k + 1) % b.count];
-        nearest = std::min(nearest, distance_to_segment(e.a, p, q));
-        inside = inside && cross(q - p, e.a - p) > 0;
-      }
-      return inside || nearest < e.radius - kTouching;
-    }
-    // Separating axes: the edges of both.
-    const auto separates = [&](Vec2d p, Vec2d q) {
-      const Vec2d n = Vec2d{q.y - p.y, p.x - q.x} / length(q - p);
-      double low = 1e300, high = -1e300;
-      for (std::size_t k = 0; k < b.count; ++k) low = std::min(low, dot(v[k] - p, n)), high = std::max(high, dot(v[k] - p, n));
-      const double s = dot(e.a - p, n), t = dot(e.b - p, n);
-      return std::min(s, t) >= high - kTouching || std::max(s, t) <= low + kTouching;
-    };
-    if (separates(e.a, e.b)) return false;
-    for (std::size_t k = 0; k < b.count; ++k)
-      if (separates(v[k], v[(k + 1) % b.count])) return false;
-    return true;
   }
 
   void add_private(std::vector<Vec2d> vertices, int owner, std::vector<int>& list) {
@@ -410,56 +319,39 @@ class Preparation {
       add_in_front(e, p, q, b.body, list);
   }
 
-  // Replaces a blocker that overlaps the emitter; false where no rule serves.
-  bool stand_in(const Emitter& e, Blocker b, std::vector<int>& list) {
+  // Replaces a blocker that overlaps the emitter, or whose bounding circle does.
+  void stand_in(Emitter& e, int blocker, std::vector<int>& list) {
+    Blocker b = frame_.blockers[static_cast<std::size_t>(blocker)];
     if (b.kind == Blocker::Kind::convex) {
       for (std::size_t k = 0; k < b.count; ++k) {
         const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
-        if (e.kind == Emitter::Kind::edge)
+        if (e.kind == Emitter::Kind::edge) {
           add_in_front(e, p, q, b.body, list);
-        else
-          add_outside_disk(e, p, q, b.body, list);
+        } else {
+          const SegmentParts parts = parts_outside(ellipse_of(e), p, q);
+          for (int i = 0; i < parts.count; ++i) add_private({parts.from[i], parts.to[i]}, b.body, list);
+        }
         if (b.count == 2) break;
       }
-      return true;
+      return;
     }
-    if (e.kind != Emitter::Kind::disk || !b.round) return false;
-    return add_lens(e, b, list);
-  }
-
-  void add_outside_disk(const Emitter& e, Vec2d p, Vec2d q, int owner, std::vector<int>& list) {
-    const Vec2d d = q - p, c = p - e.a;
-    const double a = dot(d, d), h = dot(c, d), k = dot(c, c) - e.radius * e.radius, det = h * h - a * k;
-    if (det <= 0) return add_private({p, q}, owner, list);
-    const double root = std::sqrt(det), t0 = (-h - root) / a, t1 = (-h + root) / a;
-    if (t0 >= 1 || t1 <= 0) return add_private({p, q}, owner, list);
-    const double size = std::sqrt(a);
-    if (t0 * size > kTouching) add_private({p, p + d * t0}, owner, list);
-    if ((1 - t1) * size > kTouching) add_private({p + d * t1, q}, owner, list);
-  }
-
-  bool add_lens(const Emitter& e, Blocker b, std::vector<int>& list) {
-    const Vec2d to = b.center - e.a;
-    const double d = length(to), r = e.radius, s = length(b.x_axis);
-    if (d + s <= r) return true;  // within the light: seen from inside only
-    if (d + r <= s) {             // the light is within: not seen from outside. A box around it, as its own edges.
-      frame_.general[static_cast<std::size_t>(e.body)] = 1;
-      return false;
-    }
-    const double along = (d * d + r * r - s * s) / (2 * d), across = std::sqrt(std::max(r * r - along * along, 0.0));
-    const Vec2d u = to / d, v{-u.y, u.x};
-    b.kind = Blocker::Kind::lens;
-    for (int k = 0; k < 2; ++k) {
-      const Vec2d at = e.a + u * along + v * (k == 0 ? across : -across);
-      const Vec2d nl = (at - e.a) / r, nb = (at - b.center) / s;
-      const int place = cross(nl, nb) > 0 ? 0 : 1;
-      b.crossing[place] = at;
-      b.light_normal[place] = nl;
-      b.blocker_normal[place] = nb;
+    spend(2000);
+    const Meeting meeting = meet(e, {b.center, b.x_axis, b.y_axis});
+    switch (meeting.kind) {
+      case Meeting::Kind::within: return;  // seen from inside the light only
+      case Meeting::Kind::hides: e.hidden = true; return;
+      case Meeting::Kind::apart:
+        if (b.round && e.kind != Emitter::Kind::arc) return list.push_back(blocker);
+        b.line = static_cast<int>(frame_.lines.size());
+        frame_.lines.push_back(meeting.line);
+        break;
+      case Meeting::Kind::cross:
+        b.kind = Blocker::Kind::lens;
+        b.lens = static_cast<int>(frame_.lenses.size());
+        frame_.lenses.push_back(meeting.lens);
     }
     list.push_back(static_cast<int>(frame_.blockers.size()));
     frame_.blockers.push_back(b);
-    return true;
   }
 
   const World& world_;
@@ -468,7 +360,7 @@ class Preparation {
   BlockerBins bins_;
   Budget& budget_;
   std::uint64_t steps_ = 0;
-  std::size_t outlines_held_ = 0;
+  std::size_t blockers_held_ = 0;
   double slack_ = 0;  // of circles in float: a few roundings of the scene's size
 };
 

@@ -1,8 +1,8 @@
 // What a frame needs of a scene: lights taken apart into emitters, bodies into convex blockers.
 //
-// An emitter is a disk or one side of a segment. Against a convex blocker that does not overlap it, a separating line
+// An emitter is a disk, one side of a segment, or an arc. Against a convex blocker that does not overlap it, a separating line
 // says which is nearer, for all directions at once; a blocker that does overlap it is replaced, for this emitter only,
-// by pieces that do not: the parts of its edges outside the emitter, or the lens rule for two disks.
+// by pieces that do not: the parts of its edges outside the emitter, or the lens rule for what is round.
 #pragma once
 
 #include <vector>
@@ -16,17 +16,37 @@
 namespace steradian::plane {
 
 struct Emitter {
-  enum class Kind { disk, edge };
+  enum class Kind { disk, edge, arc };
   Kind kind = Kind::disk;
   int body = 0;
-  Vec2d a, b;             // an edge's ends, lit side to the right of a -> b; a disk's centre, twice
-  double radius = 0;      // disk
-  RadianceEnds radiance;  // of an edge; linear between
+  Vec2d a, b;             // an edge's ends, lit side to the right of a -> b; a disk's or an ellipse's centre, twice
+  double radius = 0;      // disk; of an arc's ellipse, about its centre
+  RadianceEnds radiance;  // of an edge; linear between. Of an arc: a + b dot(ramp, p - centre)
+  Vec2d ramp;
+  Ellipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
+  double tau0 = 0, tau_span = 0;
+  bool whole = false;
+  bool hidden = false;  // all of it lies within a blocker: not seen from outside
 
   Vec2d center;  // of a bounding circle
   double bound = 0;
   Vec2d normal;  // edge: unit, to the lit side
   double range = 0;
+};
+
+struct DividingLine {
+  Vec2d normal;  // unit, towards the blocker
+  Vec2d point;
+};
+
+// A blocker whose outline crosses a light's.
+struct Lens {
+  struct Crossing {
+    Vec2d at, light_normal, blocker_normal;  // outward
+    bool begins;                             // where it is seen on both, the blocker is nearer counter-clockwise beyond it; else before it
+  };
+  int count = 0;
+  Crossing crossings[4];
 };
 
 struct Blocker {
@@ -38,11 +58,10 @@ struct Blocker {
   std::size_t first = 0;  // convex: vertices, counter-clockwise; two for a segment
   std::size_t count = 0;
   int outline = -1;
-  Vec2d x_axis, y_axis;     // ellipse, lens: half axes, cross(x, y) > 0
-  bool round = false;       // ellipse: of equal half axes
-  Vec2d crossing[2];        // lens: where the disks' outlines cross; beyond the first, seen counter-clockwise, the
-  Vec2d light_normal[2];    // blocker is nearer, before the second; outward normals there of the light's disk
-  Vec2d blocker_normal[2];  // and of the blocker
+  Vec2d x_axis, y_axis;  // ellipse, lens: half axes, cross(x, y) > 0
+  bool round = false;    // ellipse: of equal half axes
+  int lens = -1;         // in FrameScene::lenses
+  int line = -1;         // ellipse: in FrameScene::lines, where its bounding circle overlaps the emitter's
 };
 
 struct FrameScene {
@@ -52,6 +71,8 @@ struct FrameScene {
   bool any_general = false;
   std::vector<Blocker> blockers;  // of all bodies, then those that stand in for overlapping ones
   std::vector<Vec2d> vertices;
+  std::vector<Lens> lenses;
+  std::vector<DividingLine> lines;
   std::vector<PaddedOutline> outlines;    // of convex blockers, by Blocker::outline
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
   std::vector<std::size_t> first_nearby;  // by emitter, and one more

@@ -237,7 +237,8 @@ void ShadowEnds::write(TileLight& light) {
 }
 
 std::size_t ShadowEnds::intervals() const {
-  return disks_.size() + spans_.size() + bodies_.size() + chords_.size() + deep_.size() + rounds_.size() + 2 * lenses_.size();
+  return disks_.size() + spans_.size() + bodies_.size() + chords_.size() + deep_.size() + rounds_.size() + 3 * lenses_.size() +
+         1;  // and a spot's dark side
 }
 
 }  // namespace steradian::plane

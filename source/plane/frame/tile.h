@@ -44,13 +44,40 @@ struct TileRound {
   float depth_x, depth_y, depth_c;
 };
 
+// A round blocker that overlaps the light.
 struct TileLens {
   TileRound round;
-  float x[2], y[2];  // crossings, their outward normals on the light and on the blocker
-  float lx[2], ly[2], bx[2], by[2];
+  int count;
+  struct Crossing {
+    float x, y, lx, ly, bx, by;  // where the outlines cross, outward normals on the light and on the blocker
+    bool begins;                 // Lens::Crossing
+  } crossings[4];
 };
 
+// An arc of an ellipse: in its unit space, counter-clockwise from direction 0 over the middle one to direction 1.
+struct TileArc {
+  float x0, y0, x1, y1;          // its ends,
+  float u0, v0, u1, v1, um, vm;  // in unit space,
+  float least_cosine;            // of the angle between the middle and what is on the arc
+  bool whole;                    // all of the ellipse
+  bool between_tangents;         // slopes are from the middle of the tangents, not from the centre
+  float det;                     // of the half axes
+  float ramp_x, ramp_y;          // radiance at p: red + red_slope dot(ramp, p - centre), ...
+};
+
+// Directions in which a spot's light arrives: counter-clockwise from low to high.
+struct TileSpot {
+  bool present, wide;  // wide: more than half a turn
+  float low_x, low_y, high_x, high_y;
+};
+
+enum class TileKind { disk, edge, arc };
+
 struct TileLight {
+  TileKind kind;
+  TileRound shape;  // disk, arc
+  TileArc arc;
+  TileSpot spot;
   // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along.
   float x, y, radius;
   float nx, ny, begin, end;
@@ -58,7 +85,7 @@ struct TileLight {
   float red, green, blue;                    // at the disk, or at `begin` ...
   float red_slope, green_slope, blue_slope;  // ... and their change per distance along the edge
   int profile;                               // PlaneProfile as int
-  bool linear, edge;
+  bool linear;
 
   const TileVertex* lows;  // ends of blockers that begin before the light
   int low_count;
@@ -83,7 +110,7 @@ struct TileLight {
   int round_count;
   const TileLens* lenses;
   int lens_count;
-  float* scratch;  // 32 floats for each item, 64 for each lens
+  float* scratch;  // 32 floats for each interval that may be taken
 };
 
 // The accumulators of a tile's pixels.

@@ -173,27 +173,39 @@ STERADIAN_INLINE void take_body(const TileBody& body, const TileVertex* vertices
   cut.take(from, to, valid);
 }
 
-// Tangent directions of an ellipse, in the axis' components.
+// A point in the space where an ellipse is the unit circle.
+struct UnitPoint {
+  PackReal u, v, outside2;  // outside2: above 0 outside
+  STERADIAN_INLINE UnitPoint(const TileRound& r, PackReal px, PackReal py) {
+    const PackReal x = px - broadcast(r.cx), y = py - broadcast(r.cy);
+    u = x * broadcast(r.ux) + y * broadcast(r.uy);
+    v = x * broadcast(r.vx) + y * broadcast(r.vy);
+    outside2 = u * u + v * v - PackReal(1.0);
+  }
+};
+
+// Tangent directions of an ellipse seen from a point: p the clockwise one.
+struct TangentVectors {
+  PackReal px, py, qx, qy;
+  STERADIAN_INLINE TangentVectors(const TileRound& r, const UnitPoint& eye) {
+    const PackReal tangent = sqrt(max(eye.outside2, PackReal(0.0))), u = -eye.u, v = -eye.v;
+    // The centre's direction turned by the angle whose sine is 1 / d, to both sides, and back out of the unit space.
+    const PackReal pu = u * tangent + v, pv = v * tangent - u, qu = u * tangent - v, qv = v * tangent + u;
+    px = pu * broadcast(r.xx) + pv * broadcast(r.yx);
+    py = pu * broadcast(r.xy) + pv * broadcast(r.yy);
+    qx = qu * broadcast(r.xx) + qv * broadcast(r.yx);
+    qy = qu * broadcast(r.xy) + qv * broadcast(r.yy);
+  }
+};
+
+// The same in the axis' components.
 struct Tangents {
   PackReal pw, pt, qw, qt;
   PackMask outside;
 };
-STERADIAN_INLINE Tangents tangents(const TileRound& r, const Axis& axis) {
-  const PackReal cx = broadcast(r.cx) - axis.px, cy = broadcast(r.cy) - axis.py;
-  const PackReal u = cx * broadcast(r.ux) + cy * broadcast(r.uy), v = cx * broadcast(r.vx) + cy * broadcast(r.vy);
-  const PackReal d2 = u * u + v * v - PackReal(1.0);
-  Tangents result;
-  result.outside = d2 > PackReal(0.0);
-  const PackReal tangent = sqrt(max(d2, PackReal(0.0)));
-  // The centre's direction turned by the angle whose sine is 1 / d, to both sides, and back out of the unit space.
-  const PackReal pu = u * tangent + v, pv = v * tangent - u, qu = u * tangent - v, qv = v * tangent + u;
-  const PackReal px = pu * broadcast(r.xx) + pv * broadcast(r.yx), py = pu * broadcast(r.xy) + pv * broadcast(r.yy);
-  const PackReal qx = qu * broadcast(r.xx) + qv * broadcast(r.yx), qy = qu * broadcast(r.xy) + qv * broadcast(r.yy);
-  result.pw = axis.w(px, py);
-  result.pt = axis.t(px, py);
-  result.qw = axis.w(qx, qy);
-  result.qt = axis.t(qx, qy);
-  return result;
+STERADIAN_INLINE Tangents tangents(const TileRound& r, const UnitPoint& eye, const Axis& axis) {
+  const TangentVectors t(r, eye);
+  return {axis.w(t.px, t.py), axis.t(t.px, t.py), axis.w(t.qx, t.qy), axis.t(t.qx, t.qy), eye.outside2 > PackReal(0.0)};
 }
 
 // Slopes of a disk's tangents, the disk in front of the axis: its clockwise one and the other.
@@ -210,38 +222,68 @@ struct DiskTangents {
   STERADIAN_INLINE static PackReal along(const Axis& axis, PackReal dx, PackReal dy) { return quotient(axis.t(dx, dy), axis.w(dx, dy)); }
 };
 
-// Two disks that overlap: which is nearer changes only at a crossing of their outlines that is seen on both.
-STERADIAN_INLINE void take_lens(const TileLens& lens, const Axis& axis, Cut& cut) {
-  const Tangents t = tangents(lens.round, axis);
+// On the line from the eye through a point of the ellipse, a share 1 of the way: the share at which it enters.
+STERADIAN_INLINE PackReal entry_before(const TileRound& r, const UnitPoint& eye, PackReal x, PackReal y) {
+  const PackReal u = x * broadcast(r.ux) + y * broadcast(r.uy), v = x * broadcast(r.vx) + y * broadcast(r.vy);
+  return min(quotient(max(eye.outside2, PackReal(0.0)), max(u * u + v * v, PackReal(1e-30))), PackReal(1.0));
+}
+
+// Two convex outlines that cross: which is nearer changes only at a crossing that is seen on both.
+STERADIAN_INLINE void take_lens(const TileLens& lens, const TileLight& light, const Axis& axis, Cut& cut) {
+  const UnitPoint eye(lens.round, axis.px, axis.py);
+  const Tangents t = tangents(lens.round, eye, axis);
   const PackReal p = slope(t.pw, t.pt, PackReal(-kBeyond)), q = slope(t.qw, t.qt, PackReal(kBeyond));
-  PackMask on_light[2], on_blocker[2];
-  PackReal crossing[2];
-  for (int i = 0; i < 2; ++i) {
-    const PackReal x = broadcast(lens.x[i]) - axis.px, y = broadcast(lens.y[i]) - axis.py;
-    on_light[i] = x * broadcast(lens.lx[i]) + y * broadcast(lens.ly[i]) < PackReal(0.0);
-    on_blocker[i] = x * broadcast(lens.bx[i]) + y * broadcast(lens.by[i]) < PackReal(0.0);
-    crossing[i] = slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
+  const PackMask valid = t.outside && (t.pw > PackReal(1e-12) || t.qw > PackReal(1e-12)) && p < q;
+  const PackMask never = PackReal(1.0) < PackReal(0.0);
+  PackMask seen[4], any = never;
+  PackReal at[4];
+  for (int i = 0; i < lens.count; ++i) {
+    const TileLens::Crossing& c = lens.crossings[i];
+    const PackReal x = broadcast(c.x) - axis.px, y = broadcast(c.y) - axis.py;
+    seen[i] = x * broadcast(c.lx) + y * broadcast(c.ly) < PackReal(0.0) && x * broadcast(c.bx) + y * broadcast(c.by) < PackReal(0.0);
+    at[i] = slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
+    any = any || seen[i];
   }
-  const PackMask seen0 = on_light[0] && on_blocker[0], seen1 = on_light[1] && on_blocker[1];
-  // None seen: the order is the same everywhere. A crossing on the light's near side but the blocker's far side has
-  // the blocker in front; seen on neither, the side of the common chord decides.
-  const PackMask front = (on_light[0] && !on_blocker[0]) || (on_light[1] && !on_blocker[1]);
-  const PackMask behind = (on_blocker[0] && !on_light[0]) || (on_blocker[1] && !on_light[1]);
-  const PackMask none = !(seen0 || seen1) && (front || (!behind && nearer(lens.round, axis)));
-  const PackMask both = seen0 && seen1;
-  const PackMask middle = both && crossing[0] < crossing[1];
-  const PackMask valid = t.outside && (t.pw > PackReal(1e-12) || t.qw > PackReal(1e-12));
-  const PackReal from = select(seen0, crossing[0], p), to = select(seen1, crossing[1], q);
-  const PackMask split = both && !middle;
-  cut.take(from, to, valid && (none || middle || (!both && (seen0 || seen1))) && from < to);
-  if (any_lane(split)) {
-    cut.take(p, crossing[1], valid && split);
-    cut.take(crossing[0], q, valid && split);
+  // None seen: the order is the same everywhere, also towards the first crossing.
+  const PackReal x = broadcast(lens.crossings[0].x) - axis.px, y = broadcast(lens.crossings[0].y) - axis.py;
+  PackReal light_entry(1.0);
+  if (light.kind != TileKind::edge) light_entry = entry_before(light.shape, UnitPoint(light.shape, axis.px, axis.py), x, y);
+  const PackMask in_front = !any && entry_before(lens.round, eye, x, y) < light_entry;
+  if (any_lane(in_front && valid)) cut.take(p, q, in_front && valid);
+  if (!any_lane(any && valid)) return;
+  // In front from each crossing where it begins to be, up to the next where it ends; from its tangent up to one where
+  // it ends and none has begun.
+  for (int i = 0; i < lens.count; ++i) {
+    const bool begins = lens.crossings[i].begins;
+    PackReal from = begins ? at[i] : p, to = begins ? q : at[i];
+    PackMask counts = seen[i] && valid;
+    for (int k = 0; k < lens.count; ++k) {
+      if (k == i) continue;
+      if (begins && !lens.crossings[k].begins) to = select(seen[k] && at[k] > at[i], min(to, at[k]), to);
+      if (!begins && lens.crossings[k].begins) counts = counts && !(seen[k] && at[k] < at[i]);
+    }
+    cut.take(from, to, counts && from < to);
   }
+}
+
+// Leaves the directions in which a spot's light arrives.
+STERADIAN_INLINE void cut_spot(const TileSpot& spot, const Axis& axis, Cut& cut) {
+  const PackReal low_x = broadcast(spot.low_x), low_y = broadcast(spot.low_y), high_x = broadcast(spot.high_x),
+                 high_y = broadcast(spot.high_y);
+  const PackReal lw = axis.w(low_x, low_y), lt = axis.t(low_x, low_y), hw = axis.w(high_x, high_y), ht = axis.t(high_x, high_y);
+  const PackMask either = lw > PackReal(1e-12) || hw > PackReal(1e-12);
+  if (spot.wide) {
+    // The rest is less than half a turn, from high to low.
+    cut.take(slope(hw, ht, PackReal(-kBeyond)), slope(lw, lt, PackReal(kBeyond)), either);
+    return;
+  }
+  cut.low = max(cut.low, slope(lw, lt, PackReal(-kBeyond)));
+  cut.high = select(either, min(cut.high, slope(hw, ht, PackReal(kBeyond))), cut.low);
 }
 
 // False where nothing is left on any lane.
 STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut& cut) {
+  if (light.spot.present) cut_spot(light.spot, axis, cut);
   for (int i = 0; i < light.low_count; ++i) cut.low = max(cut.low, slope_to(light.lows[i], axis));
   for (int i = 0; i < light.high_count; ++i) cut.high = min(cut.high, slope_to(light.highs[i], axis));
   for (int i = 0; i < light.low_disk_count; ++i) cut.low = max(cut.low, DiskTangents(light.low_disks[i], axis).end(axis));
@@ -267,10 +309,10 @@ STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut
   }
   for (int i = 0; i < light.deep_count; ++i) take_chord(light.deep[i], axis, nearer(light.deep[i], axis), cut);
   for (int i = 0; i < light.round_count; ++i) {
-    const Tangents t = tangents(light.rounds[i], axis);
+    const Tangents t = tangents(light.rounds[i], UnitPoint(light.rounds[i], axis.px, axis.py), axis);
     take_span(t.pw, t.pt, t.qw, t.qt, t.outside && nearer(light.rounds[i], axis), cut);
   }
-  for (int i = 0; i < light.lens_count; ++i) take_lens(light.lenses[i], axis, cut);
+  for (int i = 0; i < light.lens_count; ++i) take_lens(light.lenses[i], light, axis, cut);
   return !cut.dark();
 }
 

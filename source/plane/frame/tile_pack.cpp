@@ -1,5 +1,6 @@
 // The inner loop of a frame: one light on the pixels of one tile. What the blockers leave of it is integrated in closed
 // form.
+#include "plane/frame/tile_arc.h"
 #include "plane/frame/tile_cut.h"
 
 namespace steradian::plane::STERADIAN_ISA {
@@ -181,13 +182,74 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
   add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * at_foot);
 }
 
+// The slopes of an arc that face the pixels, by its tangents and ends.
+STERADIAN_INLINE void open_arc(const TileLight& light, const UnitPoint& eye, Axis& axis, Cut& cut) {
+  const TileArc& arc = light.arc;
+  const TangentVectors t(light.shape, eye);
+  if (arc.between_tangents) {
+    const PackReal p = inversesqrt(max(t.px * t.px + t.py * t.py, PackReal(1e-30))),
+                   q = inversesqrt(max(t.qx * t.qx + t.qy * t.qy, PackReal(1e-30)));
+    axis.x = t.px * p + t.qx * q;
+    axis.y = t.py * p + t.qy * q;
+  } else {
+    axis.x = broadcast(light.x) - axis.px;
+    axis.y = broadcast(light.y) - axis.py;
+  }
+  cut.low = slope(axis.w(t.px, t.py), axis.t(t.px, t.py), PackReal(-kBeyond));
+  cut.high = slope(axis.w(t.qx, t.qy), axis.t(t.qx, t.qy), PackReal(kBeyond));
+  PackMask outside = eye.outside2 > PackReal(1e-6);
+  if (!arc.whole) {
+    // Seen from outside, the near side runs clockwise: the arc's first end is the high one.
+    const PackMask first = eye.u * broadcast(arc.u0) + eye.v * broadcast(arc.v0) > PackReal(1.0),
+                   last = eye.u * broadcast(arc.u1) + eye.v * broadcast(arc.v1) > PackReal(1.0);
+    const PackReal d = sqrt(eye.outside2 + PackReal(1.0)), middle = eye.u * broadcast(arc.um) + eye.v * broadcast(arc.vm);
+    cut.high = select(first, min(cut.high, slope_to({arc.x0, arc.y0}, axis)), cut.high);
+    cut.low = select(last, max(cut.low, slope_to({arc.x1, arc.y1}, axis)), cut.low);
+    outside = outside && (first || last || middle > broadcast(arc.least_cosine) * d);
+  }
+  cut.high = select(outside, cut.high, cut.low);
+}
+
+STERADIAN_INLINE void add_arc(const TileLight& light, TileBuffer& tile, int i) {
+  Axis axis;
+  axis.px = load(tile.x + i);
+  axis.py = load(tile.y + i);
+  const UnitPoint eye(light.shape, axis.px, axis.py);
+  Cut cut;
+  cut.kept = light.scratch;
+  open_arc(light, eye, axis, cut);
+  if (cut.dark() || !cut_blockers(light, axis, cut)) return;
+  ArcSum sum;
+  const bool plain = light.profile == 0 && light.inverse_range == 0.0f && !light.linear;
+  const ArcIntegrand integrand(light, eye);
+  cut.for_each_gap([&](PackReal from, PackReal to) {
+    if (plain)
+      sum.constant += PackKernels().trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
+    else
+      integrand.add(integrand.place_of(axis, from), integrand.place_of(axis, to), sum);
+  });
+  const PackReal scale(0.159154943091895336), constant = sum.constant * scale, ramp = sum.ramp * scale;
+  add(tile.red + i, broadcast(light.red) * constant + broadcast(light.red_slope) * ramp);
+  add(tile.green + i, broadcast(light.green) * constant + broadcast(light.green_slope) * ramp);
+  add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * ramp);
+}
+
+__attribute__((flatten)) void add_arcs(const TileLight& light, TileBuffer& tile) {
+  for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) add_arc(light, tile, i);
+}
+
 __attribute__((flatten)) void add_light(const TileLight& light, TileBuffer& tile) {
-  if (!light.edge && light.inverse_range > 0.0f) {
+  if (light.kind == TileKind::arc) {
+    add_arcs(light, tile);
+    return;
+  }
+  const bool edge = light.kind == TileKind::edge;
+  if (!edge && light.inverse_range > 0.0f) {
     add_ranged_disk(light, tile);
     return;
   }
   for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
-    if (light.edge)
+    if (edge)
       add_edge(light, tile, i);
     else
       add_disk(light, tile, i);

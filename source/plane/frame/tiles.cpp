@@ -116,7 +116,8 @@ class Worker {
     const double half = tile.radius, bound = e.bound;
     const Vec2d axis = e.center - tile.center;
     const double length2 = dot(axis, axis), reach = e.range + bound + half;
-    if (length2 >= reach * reach) return;
+    if (e.hidden || length2 >= reach * reach) return;
+    if (e.kind == Emitter::Kind::arc && !e.whole && faces_away(e, tile)) return;
     if (e.kind == Emitter::Kind::edge) {
       const Vec2d n = e.normal;
       if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return;
@@ -145,6 +146,19 @@ class Worker {
         return;
       }
     to.entries.push_back({index, first, to.blockers.size});
+  }
+
+  // Is the arc on the far side of its ellipse for all of the tile? Seen are the places n of the unit circle with n . p > 1:
+  // some of an arc if one of its ends, or, from its middle's side, others.
+  static bool faces_away(const Emitter& arc, const TileArea& tile) {
+    const double det = cross(arc.ellipse.x, arc.ellipse.y);
+    const Vec2d center = arc.ellipse.to_unit(tile.center);
+    const auto most = [&](double tau) {
+      const Vec2d n{std::cos(tau), std::sin(tau)};
+      const Vec2d along{n.x * arc.ellipse.y.y - n.y * arc.ellipse.x.y, n.y * arc.ellipse.x.x - n.x * arc.ellipse.y.x};
+      return dot(n, center) + (std::fabs(along.x) * tile.half.x + std::fabs(along.y) * tile.half.y) / det;
+    };
+    return most(arc.tau0) <= 1 && most(arc.tau0 + arc.tau_span) <= 1 && most(arc.tau0 + 0.5 * arc.tau_span) <= 0;
   }
 
   bool hides(int blocker, const Emitter& e, const TileArea& tile) const {

@@ -1,0 +1,146 @@
+#include "plane/frame/emitters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace steradian::plane {
+namespace {
+
+using std::numbers::pi;
+
+// In the space where an ellipse is round, floats lose as much as its half axes differ: 1e-7 times this in a direction.
+constexpr double kThinnest = 60;
+
+double stretch(const Ellipse& e) {
+  const double sum = dot(e.x, e.x) + dot(e.y, e.y), det = cross(e.x, e.y);
+  const double root = std::sqrt(std::max(sum * sum - 4 * det * det, 0.0));
+  return std::sqrt((sum + root) / std::max(sum - root, 1e-300));
+}
+
+bool is_spot(const PlaneEmission& e) { return e.spot_axis.x != 0 || e.spot_axis.y != 0; }
+
+// A gradient between two of its stops: radiance c + slope dot(axis, p - origin), for all p whose colour lies there.
+struct Ramp {
+  Vec3d at_origin, slope;
+  Vec2d axis;
+};
+Ramp ramp_at(const PlaneGradient& g, Vec2d origin, Vec2d p) {
+  const Vec2d along = g.to - g.from;
+  const double length2 = dot(along, along);
+  if (length2 == 0) return {g.stops.front().radiance, {}, {}};
+  const auto offset = [&](Vec2d at) { return dot(at - g.from, along) / length2; };
+  const double t = offset(p);
+  const auto next = std::find_if(g.stops.begin(), g.stops.end(), [&](const PlaneStop& stop) { return t < stop.offset; });
+  if (next == g.stops.begin()) return {g.stops.front().radiance, {}, {}};
+  if (next == g.stops.end()) return {g.stops.back().radiance, {}, {}};
+  const PlaneStop& before = *(next - 1);
+  const Vec3d slope = (next->radiance - before.radiance) / (next->offset - before.offset);
+  return {before.radiance + slope * (offset(origin) - before.offset), slope, along / length2};
+}
+
+class Taking {
+ public:
+  Taking(const World& world, std::size_t body) : world_(world), body_(body), light_(*world.scene.bodies[body].light) {}
+
+  std::optional<std::vector<Emitter>> run() {
+    const bool plain = light_.profile == PlaneProfile::uniform && !light_.gradient && !is_spot(light_);
+    for (std::size_t c = world_.first_curve[body_]; c < world_.first_curve[body_ + 1]; ++c) {
+      const Curve& curve = world_.curves[c];
+      if (curve.kind == Curve::Kind::segment) {
+        add_edges(curve);
+      } else if (is_full_circle(curve) && plain) {
+        Emitter e;
+        e.a = e.b = curve.ellipse.center;
+        e.radius = length(curve.ellipse.x);
+        add(e);
+      } else {
+        if (stretch(curve.ellipse) > kThinnest) return {};
+        add_arcs(curve);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  std::vector<double> cuts_of(const Curve& curve) const {
+    return light_.gradient ? gradient_cuts(*light_.gradient, curve) : std::vector<double>{0, 1};
+  }
+
+  // Cut where the gradient has a stop, so that radiance is linear on each.
+  void add_edges(const Curve& curve) {
+    const std::vector<double> cuts = cuts_of(curve);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const Curve part = part_of(curve, cuts[k], cuts[k + 1]);
+      if (part.a == part.b) continue;
+      Emitter e;
+      e.kind = Emitter::Kind::edge;
+      e.a = part.a;
+      e.b = part.b;
+      e.radiance = radiance_ends(light_, e.a, e.b);
+      add(e);
+      if (!curve.two_sided) continue;
+      std::swap(e.a, e.b);
+      std::swap(e.radiance.a, e.radiance.b);
+      add(e);
+    }
+  }
+
+  void add_arcs(const Curve& curve) {
+    const std::vector<double> cuts = cuts_of(curve);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      Curve part = part_of(curve, cuts[k], cuts[k + 1]);
+      const bool whole = part.tau_span > 2 * pi - 1e-9;
+      // What a point sees of less than half the outline is one piece.
+      const int pieces = whole ? 1 : static_cast<int>(std::ceil(part.tau_span / pi - 1e-9));
+      for (int i = 0; i < pieces; ++i) {
+        Emitter e;
+        e.kind = Emitter::Kind::arc;
+        e.ellipse = part.ellipse;
+        e.a = e.b = part.ellipse.center;
+        e.radius = is_round(part.ellipse) ? length(part.ellipse.x)
+                                          : std::sqrt(dot(part.ellipse.x, part.ellipse.x) + dot(part.ellipse.y, part.ellipse.y));
+        e.whole = whole;
+        e.tau_span = part.tau_span / pieces;
+        e.tau0 = part.tau0 + i * e.tau_span;
+        e.radiance.a = light_.radiance;
+        if (light_.gradient) {
+          const Ramp ramp = ramp_at(*light_.gradient, e.a, part.ellipse.at(e.tau0 + 0.5 * e.tau_span));
+          e.radiance.a = ramp.at_origin;
+          e.radiance.b = ramp.slope;
+          e.ramp = ramp.axis;
+        }
+        add(e);
+      }
+    }
+  }
+
+  void add(Emitter e) {
+    const Vec2d along = e.b - e.a;
+    const double size = length(along);
+    e.body = static_cast<int>(body_);
+    e.center = (e.a + e.b) * 0.5;
+    e.bound = e.radius + 0.5 * size;
+    if (size > 0) e.normal = Vec2d{along.y, -along.x} / size;
+    e.range = light_.range;
+    result_.push_back(e);
+  }
+
+  const World& world_;
+  std::size_t body_;
+  const PlaneEmission& light_;
+  std::vector<Emitter> result_;
+};
+
+}  // namespace
+
+bool is_round(const Ellipse& e) {
+  const double xx = dot(e.x, e.x);
+  return std::fabs(xx - dot(e.y, e.y)) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
+}
+
+bool is_full_circle(const Curve& c) { return c.kind == Curve::Kind::arc && c.tau_span > 2 * pi - 1e-9 && is_round(c.ellipse); }
+
+std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t body) { return Taking(world, body).run(); }
+
+}  // namespace steradian::plane

@@ -1,0 +1,18 @@
+// A light taken apart into emitters: whole disks, sides of edges, arcs of ellipses.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plane/frame/scene.h"
+
+namespace steradian::plane {
+
+// Emitters of a light, each with a radiance that is linear in the place on it. Nothing for ellipses so thin that packs
+// would lose them in rounding.
+std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t body);
+
+bool is_round(const Ellipse& e);
+bool is_full_circle(const Curve& c);
+
+}  // namespace steradian::plane

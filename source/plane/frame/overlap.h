@@ -1,0 +1,42 @@
+// How a blocker and an emitter lie to each other: apart, or overlapping in a way that directions decide.
+//
+// Where two convex outlines overlap, which of them is nearer changes, from one direction to the next, only at a crossing
+// of the two that is seen on both.
+#pragma once
+
+#include <vector>
+
+#include "plane/frame/scene.h"
+
+namespace steradian::plane {
+
+inline constexpr double kTouching = 1e-9;  // overlaps of less are none
+
+// Does a convex polygon, or a segment, overlap the emitter?
+bool overlaps(const Emitter& e, const Vec2d* vertices, std::size_t count);
+
+struct Meeting {
+  enum class Kind {
+    apart,   // a line divides them
+    cross,   // their outlines cross
+    within,  // all of the blocker lies in the light
+    hides,   // all of the emitter lies in the blocker
+  };
+  Kind kind = Kind::apart;
+  DividingLine line;  // apart
+  Lens lens;          // cross
+};
+// A round or elliptic blocker and an emitter.
+Meeting meet(const Emitter& e, const Ellipse& blocker);
+
+// The parts of a segment outside an ellipse.
+struct SegmentParts {
+  int count = 0;
+  Vec2d from[2], to[2];
+};
+SegmentParts parts_outside(const Ellipse& ellipse, Vec2d p, Vec2d q);
+
+// The ellipse of a disk or an arc.
+Ellipse ellipse_of(const Emitter& e);
+
+}  // namespace steradian::plane
