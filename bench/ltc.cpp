@@ -12,6 +12,8 @@
 namespace steradian::bench {
 namespace {
 
+using namespace fit;
+
 constexpr std::size_t kSide = 128;
 
 struct GlossyFloor {

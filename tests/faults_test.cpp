@@ -18,6 +18,8 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
 class Faults : public Program {
  protected:
   void SetUp() override {

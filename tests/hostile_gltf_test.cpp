@@ -12,6 +12,8 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
 using nlohmann::json;
 
 constexpr double kMostSeconds = 2;

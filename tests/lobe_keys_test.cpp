@@ -11,6 +11,8 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
 using lobes::KeyKind;
 using nlohmann::json;
 

@@ -20,6 +20,8 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
 using methods::Row;
 
 struct NamedLobe {

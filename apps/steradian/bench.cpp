@@ -16,6 +16,8 @@
 namespace steradian::app {
 namespace {
 
+using namespace fit;
+
 struct Options {
   std::string filter, simd;
   double min_time = 0.5;

@@ -15,6 +15,8 @@
 namespace steradian::app {
 namespace {
 
+using namespace fit;
+
 struct Options {
   std::string lobe = "ggx", layout = "classic", output, picture, normalisation = "middle";
   bool report = false, fresnel_lobe = false;

@@ -7,7 +7,7 @@
 #include "lobes/cosine_sampler.h"
 #include "fit/lobe.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -66,4 +66,4 @@ Lobe oren_nayar_lobe(double sigma, Vec3d v) {
   return lobe;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

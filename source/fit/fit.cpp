@@ -13,7 +13,7 @@
 #include "fit/test_lights.h"
 #include "lobes/cosine_sampler.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -239,4 +239,4 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   return table;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -7,7 +7,7 @@
 #include "fit/lobe.h"
 #include "integrals/ltc/ltc_shape.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 struct LtcCell {
   LtcShape shape;
@@ -60,4 +60,4 @@ std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, cons
 
 LtcTable fit_table(const LobeFamily& family, const FitOptions& options = {});
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -10,7 +10,7 @@
 
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -182,4 +182,4 @@ Picture draw(const Report& report, const ReportOptions& options) {
   return picture;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

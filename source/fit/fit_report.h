@@ -11,7 +11,7 @@
 #include "fit/test_lights.h"
 #include "steradian/picture.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 // Reads a table at (roughness, cos theta).
 using LookUp = std::function<LtcValue(double roughness, double cos_theta)>;
@@ -74,4 +74,4 @@ FresnelError measure_fresnel(const LobeFamily& family, const LookUp& table, cons
 // Integral of |lobe - table's lobe| over the lobe's albedo, by quadrature in the lobe's coordinates, n x n on a half.
 double lobe_l1(const Lobe& lobe, const LtcValue& value, int n);
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -6,7 +6,7 @@
 
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 Lobe with_grazing_fresnel(const Lobe& lobe) {
   Lobe result = lobe;
@@ -44,4 +44,4 @@ const LobeFamily& lobe_family(const std::string& name) {
   throw Error("--lobe", "unknown lobe '" + name + "'", "one of " + known);
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -11,7 +11,7 @@
 #include "steradian/material.h"       // alpha_from_roughness
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 struct Lobe {
   Vec3d view;
@@ -46,4 +46,4 @@ const std::vector<LobeFamily>& lobe_families();
 // Throws Error with the known names.
 const LobeFamily& lobe_family(const std::string& name);
 
-}  // namespace steradian
+}  // namespace steradian::fit

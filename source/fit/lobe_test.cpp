@@ -8,7 +8,7 @@
 #include "reference/chi2.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 double albedo(const Lobe& lobe, int n) {
@@ -102,4 +102,4 @@ TEST(Lobes, UnknownNamesAreRefusedWithTheKnownOnes) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -7,7 +7,7 @@
 #include "fit/lobe.h"
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -56,4 +56,4 @@ Lobe beckmann_lobe(double alpha, Vec3d v) {
   return lobe;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -16,7 +16,7 @@
 #include "integrals/ltc/half.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 using Texels = std::vector<std::array<float, 4>>;
@@ -266,4 +266,4 @@ void write_files(const std::vector<TableFile>& files) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

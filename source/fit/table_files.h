@@ -6,7 +6,7 @@
 
 #include "integrals/ltc/table.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 // The bytes of each file to write. Classic tables as .dds (half floats) or .exr are two files: NAME_1 holds the
 // matrix, NAME_2 the magnitudes; all else is one. Throws Error for an ending that the layout has no form for.
@@ -20,4 +20,4 @@ std::vector<TableFile> compact_files(const CompactTable& table, const std::strin
 // Beside and then renamed.
 void write_files(const std::vector<TableFile>& files);
 
-}  // namespace steradian
+}  // namespace steradian::fit

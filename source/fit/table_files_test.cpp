@@ -10,7 +10,7 @@
 #include "steradian/error.h"
 #include "paths.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 std::uint32_t word(const std::string& bytes, std::size_t at) {
@@ -82,4 +82,4 @@ TEST(LtcFiles, UnknownEndingsAreRefused) {
   EXPECT_THROW(compact_files(ggx_compact_table(), "ggx", "x.dds"), Error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

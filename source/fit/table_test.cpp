@@ -9,7 +9,7 @@
 #include "fit/fit_report.h"
 #include "integrals/ltc/ggx_tables.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 struct CellCheck {
@@ -155,4 +155,4 @@ TEST(LtcTable, CompactStaysWithinFourKilobytesAndHoldsNarrowLobesTogether) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

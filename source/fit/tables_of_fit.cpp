@@ -7,7 +7,7 @@
 #include "integrals/ltc/half.h"
 #include "integrals/ltc/table_lookup.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 // Values on a coarse grid whose bilinear interpolation is nearest to the fine values, in the sense of weighted least
@@ -115,4 +115,4 @@ LtcValue look_up_shapes(const LtcTable& fit, double roughness, double cos_theta)
   return value;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -4,7 +4,7 @@
 #include "fit/fit.h"
 #include "integrals/ltc/table.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 ClassicTable classic_table(const LtcTable& fit, ClassicNormalisation normalisation = ClassicNormalisation::middle);
 
@@ -19,4 +19,4 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes = {});
 // The fit itself at its nodes, and interpolated in the shapes between them.
 LtcValue look_up_shapes(const LtcTable& fit, double roughness, double cos_theta);
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -88,4 +88,4 @@ double integrate_rectangle(const LtcInverse& inverse, const TestRectangle& recta
   return k.ltc_integral(walk, Mask<double>(false)).v;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -8,7 +8,7 @@
 #include "fit/lobe.h"
 #include "integrals/ltc/ltc_shape.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 // A light of radiance 1 seen from the origin; corners counter-clockwise as the origin sees them.
 using TestRectangle = std::array<Vec3d, 4>;
@@ -27,4 +27,4 @@ std::vector<double> true_radiance(const Lobe& lobe, const std::vector<TestRectan
 // Integral over the rectangle of the fitted lobe, by the kernels ltc_* in double; times n_A: the radiance.
 double integrate_rectangle(const LtcInverse& inverse, const TestRectangle& rectangle);
 
-}  // namespace steradian
+}  // namespace steradian::fit

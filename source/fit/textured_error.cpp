@@ -9,7 +9,7 @@
 #include "lobes/lobe.h"
 #include "core/random.h"
 
-namespace steradian {
+namespace steradian::fit {
 namespace {
 
 using reference::Random;
@@ -194,4 +194,4 @@ std::string textured_error_text(const std::vector<TexturedErrorRow>& rows) {
   return text;
 }
 
-}  // namespace steradian
+}  // namespace steradian::fit

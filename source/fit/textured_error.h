@@ -6,7 +6,7 @@
 
 #include "steradian/texture.h"
 
-namespace steradian {
+namespace steradian::fit {
 
 // gradient: one ramp. checker: 8 x 8 squares. noise: power falls as 1/frequency^2, as photographs' does.
 struct NamedImage {
@@ -34,4 +34,4 @@ std::vector<TexturedErrorRow> measure_textured_error(const TexturedErrorOptions&
 // Markdown.
 std::string textured_error_text(const std::vector<TexturedErrorRow>& rows);
 
-}  // namespace steradian
+}  // namespace steradian::fit

@@ -5,7 +5,7 @@
 #include "image/jpeg.h"
 #include "image/png.h"
 
-namespace steradian {
+namespace steradian::image {
 
 ImageFormat format_of(std::span<const std::uint8_t> bytes) {
   const auto begins = [&](const char* magic, std::size_t n) { return bytes.size() >= n && std::memcmp(bytes.data(), magic, n) == 0; };
@@ -34,4 +34,4 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& place
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::image

@@ -8,7 +8,7 @@
 #include "core/budget.h"
 #include "steradian/texture.h"
 
-namespace steradian {
+namespace steradian::image {
 
 enum class ImageFormat { png, jpeg, known_but_not_read, unknown };
 ImageFormat format_of(std::span<const std::uint8_t> bytes);
@@ -20,4 +20,4 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& place
 // width times height; throws Error for none and for more than may be read.
 std::size_t checked_texels(std::size_t width, std::size_t height, const std::string& place, std::size_t max_texels);
 
-}  // namespace steradian
+}  // namespace steradian::image

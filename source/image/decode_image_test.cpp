@@ -19,6 +19,8 @@
 namespace steradian {
 namespace {
 
+using namespace image;
+
 constexpr std::size_t kMost = 1 << 24;
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {

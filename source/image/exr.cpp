@@ -16,7 +16,7 @@
 
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::image {
 namespace {
 
 const char* const kSuffix[3] = {"R", "G", "B"};
@@ -183,4 +183,4 @@ Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::image

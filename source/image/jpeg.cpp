@@ -10,7 +10,7 @@
 
 #include "image/decode_image.h"
 
-namespace steradian {
+namespace steradian::image {
 namespace {
 
 // A progressive picture may hold any number of scans, each of which costs a pass over all its coefficients although it
@@ -107,4 +107,4 @@ Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& place,
   return image;
 }
 
-}  // namespace steradian
+}  // namespace steradian::image

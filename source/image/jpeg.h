@@ -8,9 +8,9 @@
 #include "core/budget.h"
 #include "steradian/texture.h"
 
-namespace steradian {
+namespace steradian::image {
 
 // Throws Error(place, ...) for bytes that are no whole picture, and for more than max_texels before any memory is taken.
 Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget);
 
-}  // namespace steradian
+}  // namespace steradian::image

@@ -47,9 +47,9 @@ void write(const std::string& path, const std::string& bytes) {
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops) {
   const std::string e = ending(path);
   if (e == ".exr")
-    write(path, encode_exr(picture));
+    write(path, image::encode_exr(picture));
   else if (e == ".png")
-    write(path, encode_png(picture, exposure_stops));
+    write(path, image::encode_png(picture, exposure_stops));
   else
     throw Error(path, "unknown picture format '" + e + "'", "use .exr (linear) or .png (tone mapped)");
 }
@@ -61,12 +61,12 @@ Picture read_picture(const std::string& path, const Limits& limits) {
   Budget budget(limits);
   try {
     const Bytes bytes = read_file(path, path, budget);
-    if (e == ".exr") return decode_exr(bytes, path, budget);
+    if (e == ".exr") return image::decode_exr(bytes, path, budget);
     // The ending says what was asked for; the bytes must be just that.
-    if (format_of(bytes) != (png ? ImageFormat::png : ImageFormat::jpeg))
+    if (image::format_of(bytes) != (png ? image::ImageFormat::png : image::ImageFormat::jpeg))
       throw Error(path, std::string("is not a ") + (png ? "PNG" : "JPEG") + " picture: its first bytes are another format's",
                   "name the file by its format, or save it again");
-    return linear_picture(decode_image(bytes, path, kMostPixels, budget), path, budget);
+    return linear_picture(image::decode_image(bytes, path, kMostPixels, budget), path, budget);
   } catch (const std::bad_alloc&) {
     throw budget.out_of_memory();
   }

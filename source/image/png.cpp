@@ -9,7 +9,7 @@
 
 #include "image/decode_image.h"
 
-namespace steradian {
+namespace steradian::image {
 namespace {
 
 // What libpng knows of us; its errors jump out of its calls, so nothing here may need a destructor.
@@ -153,4 +153,4 @@ Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, 
   return image;
 }
 
-}  // namespace steradian
+}  // namespace steradian::image

@@ -9,7 +9,7 @@
 #include "steradian/picture.h"
 #include "steradian/texture.h"
 
-namespace steradian {
+namespace steradian::image {
 
 // 8 bits a channel of tone_map(pixel); metadata as tEXt chunks.
 std::string encode_png(const Picture& picture, float exposure_stops);
@@ -18,4 +18,4 @@ std::string encode_png(const Picture& picture, float exposure_stops);
 // Throws Error(place, ...) for bytes that are no whole picture, and for more than max_texels before any memory is taken.
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget);
 
-}  // namespace steradian
+}  // namespace steradian::image

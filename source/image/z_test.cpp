@@ -5,7 +5,7 @@
 
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::image {
 namespace {
 
 // Threshold t with P(|z| > t) = p for a standard normal z, by bisection.
@@ -42,4 +42,4 @@ ZTest z_test(const Picture& picture, const Picture& estimate, double rounding) {
   return test;
 }
 
-}  // namespace steradian
+}  // namespace steradian::image

@@ -3,7 +3,7 @@
 
 #include "steradian/picture.h"
 
-namespace steradian {
+namespace steradian::image {
 
 struct ZTest {
   std::size_t tested = 0;  // channels of pixels with variance or difference
@@ -19,4 +19,4 @@ struct ZTest {
 // Source: Mitsuba's image tests (Subr, Arvo, "Statistical hypothesis testing for assessing Monte Carlo estimators", 2007).
 ZTest z_test(const Picture& picture, const Picture& estimate, double rounding);
 
-}  // namespace steradian
+}  // namespace steradian::image

@@ -3,7 +3,7 @@
 
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 struct Affine {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, t{0, 0, 0};
@@ -19,4 +19,4 @@ struct Affine {
   friend Affine operator*(const Affine& a, const Affine& b) { return {a.vector(b.x), a.vector(b.y), a.vector(b.z), a.point(b.t)}; }
 };
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 using Key = std::array<std::int64_t, 3>;
@@ -135,4 +135,4 @@ std::vector<MeshPart> mesh_parts(const std::vector<Triangle>& triangles) {
   return parts;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

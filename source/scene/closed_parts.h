@@ -6,7 +6,7 @@
 
 #include "scene/merge_polygons.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Triangles that are connected by corners equal to a millionth of the list's extent: programs that compute the corners at a
 // pole or a seam twice get them equal but for rounding.
@@ -20,4 +20,4 @@ struct MeshPart {
 // The parts of a list of triangles, in the order of their first triangles. Triangles with two equal corners belong to none.
 std::vector<MeshPart> mesh_parts(const std::vector<Triangle>& triangles);
 
-}  // namespace steradian
+}  // namespace steradian::scene

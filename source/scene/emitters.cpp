@@ -9,7 +9,7 @@
 #include "scene/fit_ellipsoid.h"
 #include "scene/merge_polygons.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 // Samples per triangle side of a mean over a texture: at most this, whatever the texture's size.
@@ -311,4 +311,4 @@ KeptLights keep_strongest(Scene& scene, std::size_t most) {
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -4,7 +4,7 @@
 #include "core/budget.h"
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Appends a light for every flat patch of every mesh whose material emits, and sets Mesh::triangle_lights.
 // Returns how many triangles were left out for having no area. Throws Error where that would
@@ -19,4 +19,4 @@ struct KeptLights {
 };
 KeptLights keep_strongest(Scene& scene, std::size_t most);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -8,7 +8,7 @@
 #include "scene/framing.h"
 #include "steradian/ellipse_light.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -176,4 +176,4 @@ TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -8,7 +8,7 @@
 
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 // Points about their mean, in units of their spread, so that the fit is well conditioned wherever they lie.
@@ -150,4 +150,4 @@ std::optional<Ellipse> fit_ellipse(const std::vector<Vec3d>& outline) {
   return Ellipse{local.center + frame.to_world(at) * local.scale, x, y};
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

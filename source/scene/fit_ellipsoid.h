@@ -8,7 +8,7 @@
 #include "shapes/shape.h"
 #include "steradian/area_light.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Tolerances of both: corners lie on the shape to kOnShape of its size, and no face or edge comes nearer to its centre
 // than kNearestFace of the way. A ball of 32 segments and 16 rings has 0.990, a circle of 16 corners 0.981; a cube, whose
@@ -22,4 +22,4 @@ std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, c
 // The ellipse of the area of a flat outline that stands for one; x cross y points to where it runs counter-clockwise.
 std::optional<Ellipse> fit_ellipse(const std::vector<Vec3d>& outline);
 
-}  // namespace steradian
+}  // namespace steradian::scene

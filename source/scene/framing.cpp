@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 struct Sphere {
@@ -111,4 +111,4 @@ void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {
     }
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -4,7 +4,7 @@
 #include "steradian/load_scene.h"
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Sets bounds_min and bounds_max from all meshes.
 void measure_bounds(Scene& scene);
@@ -23,4 +23,4 @@ bool wants_light(const Scene& scene);
 // Adds what a user asks for; none of these lights is visible itself.
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53;
@@ -231,4 +231,4 @@ std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int index
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

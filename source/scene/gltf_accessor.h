@@ -6,7 +6,7 @@
 
 #include "scene/gltf_document.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 struct FloatArray {
   std::size_t count = 0;
@@ -29,4 +29,4 @@ FloatArray read_first_floats(const GltfDocument& document, int accessor, std::st
 // Scalars (or, with types "VEC4", joints): unsigned integers only.
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int accessor, std::string_view types);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 // Deeper nesting than any real file has; parsers and destructors of nested values may recurse.
@@ -250,4 +250,4 @@ GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& pa
   return document;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

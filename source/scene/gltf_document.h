@@ -15,7 +15,7 @@
 #include "core/read_file.h"
 #include "scene/json_cursor.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Where a document's bytes are, apart from the file itself: files beside it, each read once however often it is named,
 // and decoded texts; and what is left for all that the document makes.
@@ -48,4 +48,4 @@ std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffe
 // The bytes behind a "uri": a data URI or a file beside the document. They live as long as the document.
 std::span<const std::uint8_t> read_uri(const GltfDocument& document, const JsonCursor& uri);
 
-}  // namespace steradian
+}  // namespace steradian::scene

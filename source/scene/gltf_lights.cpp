@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 constexpr double kPi = 3.14159265358979324;
@@ -219,4 +219,4 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

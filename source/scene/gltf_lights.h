@@ -4,7 +4,7 @@
 #include "scene/gltf_nodes.h"
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Appends the area lights of the visible nodes, and for each the mesh and the material by which the camera
 // sees it.
@@ -15,4 +15,4 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
 // The triangles of a light's shape: a fan for flat ones, 64 x 32 quadrilaterals for an ellipsoid, 64 x 33 for a capsule.
 Mesh mesh_of_light(const AreaLight& light);
 
-}  // namespace steradian
+}  // namespace steradian::scene

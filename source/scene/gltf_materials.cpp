@@ -2,7 +2,7 @@
 
 #include "lobes/lobe.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -176,4 +176,4 @@ std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTe
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -6,11 +6,11 @@
 #include "scene/gltf_textures.h"
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings);
 
 // A lobe as `steradian eval` takes it: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
 Material read_lobe(const JsonCursor& lobe);
 
-}  // namespace steradian
+}  // namespace steradian::scene

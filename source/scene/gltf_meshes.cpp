@@ -8,7 +8,7 @@
 #include "scene/gltf_skin.h"
 #include "scene/tangents.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 enum Mode { kTriangles = 4, kStrip = 5, kFan = 6 };
@@ -292,4 +292,4 @@ std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nod
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

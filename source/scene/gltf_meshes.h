@@ -7,11 +7,11 @@
 #include "scene/warnings.h"
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Every mesh of every visible node, one Mesh per primitive that makes triangles. Appends a default material
 // to `materials` where a primitive has none.
 std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials,
                               Warnings& warnings);
 
-}  // namespace steradian
+}  // namespace steradian::scene

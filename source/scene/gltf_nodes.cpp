@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 Affine matrix_of(const JsonCursor& matrix) {
@@ -130,4 +130,4 @@ GltfNodes read_nodes(const GltfDocument& document) {
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -8,7 +8,7 @@
 #include "scene/affine.h"
 #include "scene/gltf_document.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 struct GltfNode {
   int index = 0;
@@ -33,4 +33,4 @@ void check_reach(const JsonCursor& node, Vec3d point, const std::string& what);
 // Throws Error for cycles, nodes with two parents, children that do not exist, broken transforms.
 GltfNodes read_nodes(const GltfDocument& document);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -2,7 +2,7 @@
 
 #include "scene/gltf_accessor.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 Skin read_skin(const GltfDocument& document, const GltfNodes& nodes, int index) {
   const JsonCursor json = document.object("skins", index);
@@ -59,4 +59,4 @@ std::vector<Affine> blend_joints(const GltfDocument& document, const Skin& skin,
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

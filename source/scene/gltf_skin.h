@@ -5,7 +5,7 @@
 
 #include "scene/gltf_nodes.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 struct Skin {
   std::vector<Affine> joints;  // world transform of the joint times its inverse bind matrix
@@ -17,4 +17,4 @@ Skin read_skin(const GltfDocument& document, const GltfNodes& nodes, int skin);
 // joint's).
 std::vector<Affine> blend_joints(const GltfDocument& document, const Skin& skin, const JsonCursor& attributes, std::size_t vertices);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace steradian {
+namespace steradian::scene {
 
 // A folder for the running test alone (tests run in parallel as processes), removed when the process ends.
 class TestFolder {
@@ -136,4 +136,4 @@ inline std::string small_png() {
   return {reinterpret_cast<const char*>(bytes), sizeof bytes};
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -4,7 +4,7 @@
 
 #include "image/decode_image.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 constexpr int kNotLoaded = -2, kNotRead = -1;
@@ -68,15 +68,15 @@ int GltfTextures::load_image(int gltf_image) {
   } else {
     image.fail("has neither \"uri\" nor \"bufferView\"");
   }
-  switch (format_of(bytes)) {
-    case ImageFormat::known_but_not_read: warnings_.not_supported("textures in KTX, WebP or DDS"); return kNotRead;
-    case ImageFormat::unknown: throw Error(place, "the picture is neither PNG nor JPEG", "save it as PNG");
-    case ImageFormat::png:
-    case ImageFormat::jpeg: break;
+  switch (image::format_of(bytes)) {
+    case image::ImageFormat::known_but_not_read: warnings_.not_supported("textures in KTX, WebP or DDS"); return kNotRead;
+    case image::ImageFormat::unknown: throw Error(place, "the picture is neither PNG nor JPEG", "save it as PNG");
+    case image::ImageFormat::png:
+    case image::ImageFormat::jpeg: break;
   }
-  if (!type.empty() && type != (format_of(bytes) == ImageFormat::png ? "image/png" : "image/jpeg"))
+  if (!type.empty() && type != (image::format_of(bytes) == image::ImageFormat::png ? "image/png" : "image/jpeg"))
     warnings_.count("a picture's mimeType is not what its bytes are", place);
-  Image decoded = decode_image(bytes, place, std::min(texels_left_, kMaxImageTexels), document_.budget());
+  Image decoded = image::decode_image(bytes, place, std::min(texels_left_, kMaxImageTexels), document_.budget());
   texels_left_ -= decoded.rgba.size() / 4;
   decoded.name = image.text("name", image.text("uri", "").starts_with("data:") ? "" : image.text("uri", ""));
   images_.push_back(std::move(decoded));
@@ -116,4 +116,4 @@ TextureUse GltfTextures::use(const JsonCursor& owner, const char* key, ColorSpac
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -7,7 +7,7 @@
 #include "scene/warnings.h"
 #include "steradian/texture.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 class GltfTextures {
  public:
@@ -30,4 +30,4 @@ class GltfTextures {
   std::size_t texels_left_;
 };
 
-}  // namespace steradian
+}  // namespace steradian::scene

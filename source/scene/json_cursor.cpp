@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 std::string member_place(const std::string& place, std::string_view key) {
@@ -134,4 +134,4 @@ std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_v
   return extensions ? extensions->find(name) : std::nullopt;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

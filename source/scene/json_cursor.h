@@ -13,7 +13,7 @@
 #include "steradian/error.h"
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 class JsonElements;
 
@@ -101,4 +101,4 @@ bool has_word(std::string_view words, std::string_view word);
 // The extension `name` of an object that may carry it.
 std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_view name);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -11,7 +11,7 @@
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 bool is_supported(const std::string& extension) {
@@ -129,15 +129,19 @@ LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, cons
 
 }  // namespace
 
+}  // namespace steradian::scene
+
+namespace steradian {
+
 LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path, const LoadOptions& options) {
   Budget budget(options.limits);
-  return read_within(budget, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, options);
+  return scene::read_within(budget, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, options);
 }
 
 LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
   Budget budget(options.limits);
   const Bytes file = read_file(path, path, budget);
-  return read_within(budget, file, path, options);
+  return scene::read_within(budget, file, path, options);
 }
 
 }  // namespace steradian

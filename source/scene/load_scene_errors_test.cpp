@@ -6,7 +6,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 using nlohmann::json;
@@ -410,4 +410,4 @@ TEST(LoadSceneErrors, LoadsOrRefusesMutatedFiles) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -7,7 +7,7 @@
 #include "scene/gltf_test_file.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 using nlohmann::json;
@@ -461,4 +461,4 @@ TEST(LoadScene, LoadsEveryValidModelOfOthers) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::scene

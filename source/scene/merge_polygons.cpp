@@ -11,7 +11,7 @@
 #include "steradian/error.h"
 #include "steradian/polygon_light.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 using Contour = std::vector<Vec3d>;
@@ -200,4 +200,4 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std:
   return result;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -9,7 +9,7 @@
 
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 using Triangle = std::array<Vec3d, 3>;
 
@@ -31,4 +31,4 @@ struct MergedPolygons {
 // triangles) stays triangles: more edges, the same light.
 MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std::function<bool(std::size_t, std::size_t)>& may_join);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -7,7 +7,7 @@
 
 #include "steradian/polygon_light.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 MergedPolygons merge(const std::vector<Triangle>& t) {
@@ -92,4 +92,4 @@ TEST(MergePolygons, KeepsEveryTriangleOfACurvedSurfaceOnce) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -9,7 +9,7 @@
 #include "steradian/load_scene.h"
 #include "paths.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 std::string bytes_of(const std::string& path) {
@@ -88,4 +88,4 @@ TEST_F(OwnScenes, HaveTrianglesThatFaceWhereTheirNormalsPoint) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::scene

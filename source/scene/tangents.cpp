@@ -1,6 +1,6 @@
 #include "scene/tangents.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 template <class T>
@@ -79,4 +79,4 @@ void make_tangents(Mesh& mesh, int set) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -3,7 +3,7 @@
 
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Gives every triangle vertices of its own with the face's normal, as glTF wants where normals are missing.
 void make_flat_normals(Mesh& mesh);
@@ -15,4 +15,4 @@ std::size_t repair_normals(Mesh& mesh);
 // Where the texture coordinates span no area: any direction in the surface.
 void make_tangents(Mesh& mesh, int set);
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -3,7 +3,7 @@
 
 #include "steradian/scene.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Corners counter-clockwise as seen from the side of the normal.
 inline Mesh quad_mesh(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
@@ -16,4 +16,4 @@ inline Mesh quad_mesh(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
   return mesh;
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

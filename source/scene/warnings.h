@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace steradian {
+namespace steradian::scene {
 
 class Warnings {
  public:
@@ -59,4 +59,4 @@ class Warnings {
   std::string feature_list_;
 };
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -18,6 +18,8 @@
 namespace steradian::accuracy {
 namespace {
 
+using namespace fit;
+
 using Evaluate = double (*)(const PreparedPolygon&, const ShadingPoint&, const Material&);
 struct Row {
   const char* name;

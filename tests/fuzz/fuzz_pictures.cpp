@@ -15,7 +15,7 @@ constexpr Limits kPictureLimits{.memory = 5'000'000, .work = kLimits.work};
 void picture(Input input) {
   Budget budget(kPictureLimits);
   try {
-    decode_exr(input, "picture.exr", budget);
+    image::decode_exr(input, "picture.exr", budget);
   } catch (const Error&) {
   }
   texture(input);
@@ -24,7 +24,7 @@ void picture(Input input) {
 void texture(Input input) {
   Budget budget(kPictureLimits);
   try {
-    decode_image(input, "picture", std::size_t{1} << 22, budget);
+    image::decode_image(input, "picture", std::size_t{1} << 22, budget);
   } catch (const Error&) {
   }
 }

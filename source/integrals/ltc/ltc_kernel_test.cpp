@@ -17,6 +17,8 @@
 namespace steradian {
 namespace {
 
+using namespace fit;
+
 constexpr double kPi = std::numbers::pi;
 
 // Gauss-Legendre on [0, 1] by Newton's method on Legendre's polynomial.

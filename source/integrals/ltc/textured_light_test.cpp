@@ -12,6 +12,8 @@
 namespace steradian {
 namespace {
 
+using namespace fit;
+
 using K = Kernels<double>;
 using reference::Random;
 

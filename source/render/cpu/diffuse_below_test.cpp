@@ -17,6 +17,8 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
 Kernels<double> kernels;
 
 // (1 - v.h)^5 over the hemisphere, each direction by its cosine: midpoints of azimuth and squared cosine.

@@ -12,6 +12,10 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
+using namespace image;
+
 SurfaceMaterial diffuse(float albedo) {
   SurfaceMaterial m;
   m.base_color = {albedo, albedo, albedo, 1};

@@ -13,6 +13,10 @@
 namespace steradian {
 namespace {
 
+using namespace scene;
+
+using namespace image;
+
 // A floor at y = 0, its tangent along x; glTF's bitangent, cross(normal, tangent) w with w = 1, runs along -z.
 Scene floor_scene(SurfaceMaterial material) {
   Scene scene;

@@ -13,6 +13,8 @@
 namespace steradian {
 namespace {
 
+using namespace image;
+
 // A floor at y = 0 before a standing square light of side 2 with a texture of 4 x 4 texels.
 Scene textured_scene(const std::vector<std::uint8_t>& rgb) {
   Scene scene;

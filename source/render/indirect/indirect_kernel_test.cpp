@@ -16,6 +16,8 @@
 namespace steradian::indirect {
 namespace {
 
+using namespace fit;
+
 using D = Kernels<double>;
 constexpr double kPi = 3.14159265358979324;
 

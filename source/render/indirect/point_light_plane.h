@@ -39,7 +39,7 @@ inline PointLightPlane point_light_over_plane(double roughness, int width, int h
       if (ray.y > -0.02) continue;
       const Vec3d p = camera - ray * (camera.y / ray.y), v = light - p;
       const Frame f = Frame::from_normal_and_tangent(normal, -ray);
-      const double t = ggx_lobe(alpha, f.to_local(-ray)).evaluate(f.to_local(normalized(v))) / dot(v, v);
+      const double t = fit::ggx_lobe(alpha, f.to_local(-ray)).evaluate(f.to_local(normalized(v))) / dot(v, v);
       const LtcValue value = ggx_compact_table().look_up(roughness, -ray.y);
       const LtcInverse& m = value.inverse;
       const auto lobe = k.indirect_lobe({m.xx, m.xz, m.yy, m.zx, m.zz}, k.frame_from_normal_and_view(vector(normal), vector(-ray)));

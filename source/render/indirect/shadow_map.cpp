@@ -143,7 +143,7 @@ std::vector<std::vector<LightTriangle>> triangles_of_lights(const Scene& scene) 
       if (mesh.triangle_lights[k] >= 0) add(all[static_cast<std::size_t>(mesh.triangle_lights[k])], mesh, k);
   for (std::size_t l = 0; l < all.size(); ++l) {  // a light that nobody sees
     if (!all[l].empty()) continue;
-    const Mesh mesh = mesh_of_light(scene.area_lights[l]);
+    const Mesh mesh = scene::mesh_of_light(scene.area_lights[l]);
     for (std::size_t k = 0; k < mesh.triangle_count(); ++k) add(all[l], mesh, k);
   }
   return all;

@@ -28,7 +28,8 @@ inline SurfaceMaterial plastic(float albedo, float roughness) {
 inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
   Scene scene;
   scene.materials = {floor, wall};
-  scene.meshes = {quad_mesh({-2, 0, 3}, {2, 0, 3}, {2, 0, 0}, {-2, 0, 0}, 0), quad_mesh({-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}, 1)};
+  scene.meshes = {scene::quad_mesh({-2, 0, 3}, {2, 0, 3}, {2, 0, 0}, {-2, 0, 0}, 0),
+                  scene::quad_mesh({-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0}, 1)};
   scene.bounds_min = {-2, 0, 0};
   scene.bounds_max = {2, 3, 3};
   PunctualLight light;
