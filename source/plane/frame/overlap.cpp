@@ -80,9 +80,7 @@ Meeting meet_edge(const Emitter& e, const Ellipse& blocker) {
 
 }  // namespace
 
-Ellipse ellipse_of(const Emitter& e) {
-  return e.kind == Emitter::Kind::arc ? e.ellipse : Ellipse{e.a, {e.radius, 0}, {0, e.radius}};
-}
+Ellipse ellipse_of(const Emitter& e) { return e.kind == Emitter::Kind::arc ? e.ellipse : Ellipse{e.a, {e.radius, 0}, {0, e.radius}}; }
 
 Meeting meet(const Emitter& e, const Ellipse& blocker) {
   if (e.kind == Emitter::Kind::edge) return meet_edge(e, blocker);

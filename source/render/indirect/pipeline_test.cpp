@@ -38,8 +38,8 @@ TEST(IndirectShadowMap, AreaLightsCarryTheirPower) {
   light.radiance = {2, 2, 2};
   light.two_sided = true;
   scene.area_lights = {light};
-  scene.meshes.push_back(quad_mesh({-9, 9, -9}, {9, 9, -9}, {9, 9, 9}, {-9, 9, 9}, 0));  // a lid, so that light goes nowhere
-  scene.meshes.push_back(quad_mesh({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, 0));
+  scene.meshes.push_back(scene::quad_mesh({-9, 9, -9}, {9, 9, -9}, {9, 9, 9}, {-9, 9, 9}, 0));  // a lid, so that light goes nowhere
+  scene.meshes.push_back(scene::quad_mesh({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, 0));
   const RayScene rays(scene);
   const ShadowMap map = make_shadow_map(scene, rays, 1 << 14);
   double flux = 0;
@@ -173,7 +173,7 @@ TEST(IndirectLighting, SameBytesAtAnyNumberOfThreads) {
 // A board between wall and floor: the rays must take away what the doubles with visibility do not have.
 TEST(IndirectLighting, RatioEstimatorFindsTheShadows) {
   Scene scene = mixed_corner();
-  scene.meshes.push_back(quad_mesh({-1, 0.35f, 0.1f}, {1, 0.35f, 0.1f}, {1, 0.35f, 0.9f}, {-1, 0.35f, 0.9f}, 0));
+  scene.meshes.push_back(scene::quad_mesh({-1, 0.35f, 0.1f}, {1, 0.35f, 0.1f}, {1, 0.35f, 0.9f}, {-1, 0.35f, 0.9f}, 0));
   RenderOptions o = options(IndirectMode::ltc, 1 << 12);
   o.indirect.quads = o.indirect.soften = false;
   o.indirect.interleave = 1;
