@@ -418,7 +418,8 @@ float steradian_ggx_radiance(vec2 r, float f0, float f90) {
 // ==== half_vector ====
 
 // Lobes of half vectors by edge splitting: a light's edge is split into arcs, each arc's image in half vector space is
-// replaced by the great circle between its ends, and the lobe's integral is closed along great circles.
+// replaced by the great circle between its ends, along which the lobe's integral is closed, and what lies between the two
+// is a sliver so thin that a few nodes along it serve.
 //
 // For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
@@ -427,6 +428,7 @@ float steradian_ggx_radiance(vec2 r, float f0, float f90) {
 //   for j in 0 .. count - 1:
 //       p = steradian_half_vector_at(view, edge, steradian_half_vector_split_pole_mapped(edge, j / count)), q the next one
 //       sum of steradian_blinn_phong_arc or steradian_beckmann_arc, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
+//       and of the lobe at each steradian_half_vector_between times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -488,6 +490,92 @@ float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float shar
         }
     }
     return tau;
+}
+
+// Weight of the edge's own angle in steradian_half_vector_split_pole_mapped, per radian.
+float steradian_half_vector_split_weight(SteradianConicArc edge) {
+    float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
+    float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
+    return 0.3 / max(last - first, 1.0e-12);
+}
+
+// A place of an edge with how dense steradian_half_vector_split_pole_mapped lays its places there.
+//
+//   weight   steradian_half_vector_split_weight
+SteradianConicNode steradian_half_vector_split_end(SteradianConicArc edge, float tau, float weight) {
+    float t = edge.scale * tau;
+    float x1 = tau - edge.z1.x;
+    float x2 = tau - edge.z2.x;
+    SteradianConicNode node;
+    node.tau = tau;
+    node.density = edge.z1.y / (x1 * x1 + edge.z1.y * edge.z1.y) + edge.z2.y / (x2 * x2 + edge.z2.y * edge.z2.y)
+        + weight * edge.scale / (1.0 + t * t);
+    return node;
+}
+
+// A node in the sliver between a great circle and the image that it stands for.
+//   h            unit half vector, half way between them
+//   solid_angle  positive where the image lies outside the great circle, negative inside [sr]
+struct SteradianHalfVectorNode {
+    vec3 h;
+    float solid_angle;
+};
+
+// One node of the sliver between an arc's image and the great circle between its ends.
+//
+//   first, last steradian_half_vector_split_end of the arc's ends
+//   a, b     steradian_half_vector_at of the same
+//   rule     node and weight of a rule on [0, 1]: steradian_gauss_legendre_node
+//
+// The image's point x and its foot on the great circle of normal n are n g apart, g = n.x; swept along the arc, what lies
+// between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
+// a quotient of lines and has the slopes of the splits: dense where the arc passes the lobe.
+// Degenerate: an arc of no length has no sliver.
+// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/accuracy.md, "Half vectors".
+// Source: this project.
+SteradianHalfVectorNode steradian_half_vector_between(SteradianGgxView view, SteradianConicArc edge, SteradianConicNode first, SteradianConicNode last, vec3 a, vec3 b, vec2 rule) {
+    float bend = sqrt(first.density / max(last.density, steradian_smallest_divisor()));
+    float bottom = 1.0 / (rule.x + bend * (1.0 - rule.x));
+    float length = last.tau - first.tau;
+    float tau = first.tau + length * rule.x * bottom;
+    float step = length * bend * bottom * bottom * rule.y;
+
+    vec3 u = edge.u0 + (edge.u1 + edge.u2 * tau) * tau;
+    vec3 du = edge.u1 + edge.u2 * (2.0 * tau);
+    vec3 x = vec3(view.ax * u.x, view.ay * u.y, u.z);
+    vec3 dx = vec3(view.ax * du.x, view.ay * du.y, du.z);
+    float inverse = inversesqrt(max(dot(x, x), steradian_smallest_divisor()));
+    x = x * inverse;
+    vec3 n = cross(a, b - a);
+    float n2 = dot(n, n);
+    n = n * inversesqrt(max(n2, steradian_smallest_square()));
+    float apart = dot(n, x - a);
+    vec3 middle = x - n * (0.5 * apart);
+    float shorter = inversesqrt(max(dot(middle, middle), steradian_smallest_divisor()));
+    float sweep = dot(n, cross(x, dx)) * inverse * step;
+    SteradianHalfVectorNode node;
+    node.h = middle * shorter;
+    node.solid_angle = steradian_select(n2 > steradian_smallest_square(), -apart * sweep * (shorter * shorter * shorter), 0.0);
+    return node;
+}
+
+// Blinn-Phong's lobe at a half vector, in the unit of steradian_blinn_phong_arc for each steradian of half vectors.
+//
+//   h        unit
+float steradian_blinn_phong_at_half_vector(vec3 h, vec3 v, float n) {
+    return 2.0 * steradian_pi() * steradian_blinn_phong_distribution(h, n) * max(dot(h, v), 0.0);
+}
+
+// Beckmann's lobe at a half vector, in the unit of steradian_beckmann_arc for each steradian of half vectors.
+float steradian_beckmann_at_half_vector(SteradianGgxView view, vec3 h) {
+    return 2.0 * steradian_pi() * steradian_beckmann_distribution(h, view.ax, view.ay) * max(dot(h, view.v), 0.0);
+}
+
+// The measure of GGX at a half vector, in the unit of steradian_ggx_arc for each steradian of half vectors.
+vec3 steradian_ggx_at_half_vector(SteradianGgxView view, vec3 h) {
+    vec3 u = vec3(h.x / view.ax, h.y / view.ay, h.z);
+    float inverse2 = 1.0 / dot(u, u);
+    return u * ((inverse2 / view.ax) * (inverse2 / view.ay));
 }
 
 // One arc's share of Blinn-Phong: 2 pi v_z times the radiance, exact along the great circle.

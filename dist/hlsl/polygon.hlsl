@@ -195,6 +195,7 @@ float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) 
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = steradian_horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+// each arc in two where it may be nearly half the horizon (steradian_horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
 
@@ -238,6 +239,22 @@ float3 steradian_horizon_crossing(float3 a, float3 b) {
     float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
     p = p * rsqrt(max(dot(p, p), steradian_smallest_square()));
     return float3(p.x, p.y, 0.0);
+}
+
+// A direction between the ends of an arc of the horizon that is wider than a right angle.
+//
+//   a, b     unit directions of its ends, z = 0
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Two ends that are opposite to rounding say no more which half of the horizon is meant: it is the one that the walk goes round the
+// zenith, as the arcs that close an outline do.
+// Degenerate: equal ends give a zero vector.
+float3 steradian_horizon_arc_middle(float3 a, float3 b, float facing) {
+    float unsure = 1.0e-6;
+    float2 across = float2(b.y - a.y, a.x - b.x) * facing;
+    float turn = (a.x * b.y - a.y * b.x) * facing;
+    across = across * (rsqrt(max(dot(across, across), steradian_smallest_square())) * steradian_select(turn < -unsure, -1.0, 1.0));
+    return float3(across.x, across.y, 0.0);
 }
 
 // Clips one edge.

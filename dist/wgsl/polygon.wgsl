@@ -195,6 +195,7 @@ fn steradian_solid_angle_finish(walk: SteradianSolidAngleWalk, reversed: bool) -
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+// each arc in two where it may be nearly half the horizon (horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 
@@ -238,6 +239,22 @@ fn steradian_horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
     var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
     p = p * inverseSqrt(max(dot(p, p), steradian_smallest_square()));
     return vec3f(p.x, p.y, 0.0);
+}
+
+// A direction between the ends of an arc of the horizon that is wider than a right angle.
+//
+//   a, b     unit directions of its ends, z = 0
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Two ends that are opposite to rounding say no more which half of the horizon is meant: it is the one that the walk goes round the
+// zenith, as the arcs that close an outline do.
+// Degenerate: equal ends give a zero vector.
+fn steradian_horizon_arc_middle(a: vec3f, b: vec3f, facing: f32) -> vec3f {
+    let unsure = 1.0e-6;
+    var across = vec2f(b.y - a.y, a.x - b.x) * facing;
+    let turn = (a.x * b.y - a.y * b.x) * facing;
+    across = across * (inverseSqrt(max(dot(across, across), steradian_smallest_square())) * select(1.0, -1.0, turn < -unsure));
+    return vec3f(across.x, across.y, 0.0);
 }
 
 // Clips one edge.

@@ -14,12 +14,12 @@ enum class ArcSplit {
 };
 
 struct HalfVectorOptions {
-  int arcs = 4;  // per edge, at least 1; 3 serve views below 60 degrees, 6 serve those beyond 80
+  int arcs = 4;  // per edge, at least 1
   ArcSplit split = ArcSplit::pole_mapped;
 };
 
 // Radiance towards the view of a blinn_phong, beckmann (isotropic or anisotropic) or ggx surface. GGX takes shadowing and
-// Fresnel at one direction, the others have none. 0 for a view below the surface, a light seen from behind (unless
+// Fresnel as the closed form does, the others have none. 0 for a view below the surface, a light seen from behind (unless
 // two-sided) and a light without area. Error: docs/accuracy.md, "half vector". Throws Error for other lobes and for arcs < 1.
 Vec3d half_vector_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                            const HalfVectorOptions& options = {});

@@ -19,6 +19,41 @@ vec4 case_half_vector_splits(CaseInput i) {
     return vec4(half_vector_split_uniform(arc, i.d.w), half_vector_split_pole_mapped(arc, i.d.w), 0.0, 0.0);
 }
 
+// half vector, node of the sliver between an arc and its image, and its place
+//   a.x    range(-0.5, -0.1)
+//   a.y    range(0.6, 1)
+//   b.x    range(0.1, 0.5)
+//   b.y    range(0.6, 1)
+//   c.x    range(-0.9, 0.9)
+//   c.y    range(-1.5, -0.1)
+//   c.z    range(0.1, 1.5)
+//   d.xyz  direction
+//   d.w    range(0.05, 0.95)
+// Values: 4
+vec4 case_half_vector_between(CaseInput i) {
+    ConicArc arc = case_arc(i);
+    GgxView view = ggx_view(vec3(0.48, 0.36, 0.8), 0.5, 0.7);
+    real weight = half_vector_split_weight(arc);
+    HalfVectorNode node = half_vector_between(
+        view, arc, half_vector_split_end(arc, arc.begin, weight), half_vector_split_end(arc, arc.end, weight),
+        half_vector_at(view, arc, arc.begin), half_vector_at(view, arc, arc.end), vec2(i.d.w, 1.0));
+    return vec4(node.h.x, node.h.y, node.h.z, node.solid_angle);
+}
+
+// half vector, lobes at one: Blinn-Phong, Beckmann, and the length of GGX's vector
+//   a.xyz  upper_direction
+//   b.xyz  upper_direction
+//   a.w    log(2, 200)
+//   b.w    range(0.3, 1)
+//   c.w    range(0.3, 1)
+// Values: 3
+vec4 case_lobes_at_half_vector(CaseInput i) {
+    GgxView view = ggx_view(case_xyz(i.b), i.b.w, i.c.w);
+    vec3 h = case_xyz(i.a);
+    vec3 e = ggx_at_half_vector(view, h);
+    return vec4(blinn_phong_at_half_vector(h, view.v, i.a.w), beckmann_at_half_vector(view, h), sqrt(dot(e, e)), 0.0);
+}
+
 // half vector, Blinn-Phong arc by quadrature
 //   a.xyz  upper_direction
 //   b.xyz  upper_direction

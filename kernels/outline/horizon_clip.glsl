@@ -14,6 +14,7 @@
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
+// each arc in two where it may be nearly half the horizon (horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 // Needs: constants.glsl
@@ -60,6 +61,25 @@ vec3 horizon_crossing(vec3 a, vec3 b) {
     vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
     p = p * inversesqrt(max(dot(p, p), smallest_square()));
     return vec3(p.x, p.y, 0.0);
+}
+
+// A direction between the ends of an arc of the horizon that is wider than a right angle.
+//
+//   a, b     unit directions of its ends, z = 0
+//   facing   1.0; -1.0 where the light is seen from behind, so that the walk ran the wrong way round
+//
+// Two ends that are opposite to rounding say no more which half of the horizon is meant: it is the one that the walk goes round the
+// zenith, as the arcs that close an outline do.
+// Degenerate: equal ends give a zero vector.
+vec3 horizon_arc_middle(vec3 a, vec3 b, real facing) {
+    real unsure = 1.0e-6;
+    if (real_digits() > 24) {
+        unsure = 1.0e-14;
+    }
+    vec2 across = vec2(b.y - a.y, a.x - b.x) * facing;
+    real turn = (a.x * b.y - a.y * b.x) * facing;
+    across = across * (inversesqrt(max(dot(across, across), smallest_square())) * select(turn < -unsure, -1.0, 1.0));
+    return vec3(across.x, across.y, 0.0);
 }
 
 // Clips one edge.

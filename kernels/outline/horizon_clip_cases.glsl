@@ -1,5 +1,5 @@
 // Parity cases of horizon_clip.glsl; tests/parity/case.glsl says how to write one.
-// Needs: polygon_cases.glsl
+// Needs: polygon_cases.glsl complex.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // A walk around the parallelogram, clipped to the horizon, piece by piece.
@@ -62,4 +62,15 @@ vec4 case_horizon_clip(CaseInput i) {
         sum = sum + select(pieces.exists, polygon_edge(pieces.first, pieces.last), vec3(0.0, 0.0, 0.0));
     }
     return case_of_vec3(sum);
+}
+
+// horizon clip, the middle of an arc
+//   a.x    range(-3, 3)
+//   a.y    range(0.5, 3)
+// Values: 2
+vec4 case_horizon_arc_middle(CaseInput i) {
+    vec2 a = complex_unit(i.a.x);
+    vec2 b = complex_product(a, complex_unit(i.a.y));
+    vec3 middle = horizon_arc_middle(vec3(a.x, a.y, 0.0), vec3(b.x, b.y, 0.0), 1.0);
+    return vec4(middle.x, middle.y, 0.0, 0.0);
 }

@@ -11,7 +11,8 @@ STERADIAN_BEGIN_ISA
 namespace integrals {
 
 // lobe: alpha_x() and alpha_y(); deviation() of the half vectors' slopes in the narrower direction; arc(view, p, q) of an arc of unit
-// half vectors in walk order; finish(view, edges, sum, facing); bias() and at(view, u) for small lights.
+// half vectors in walk order, and at_half_vector(view, h) the same of a steradian; finish(view, edges, sum, facing); bias() and at(view, u)
+// for small lights.
 template <class S, class Lobe>
 class HalfVector {
  public:
@@ -32,6 +33,8 @@ class HalfVector {
     const auto edge = k.ggx_edge(view_, a, b);
     if (!any_lane(edge.end > edge.begin)) return;
     edges_.push_back(edge);
+    const Real<S> weight = k.half_vector_split_weight(edge);
+    auto first = k.half_vector_split_end(edge, edge.begin, weight);
     auto p = k.half_vector_at(view_, edge, edge.begin);
     for (int j = 1; j <= options_.arcs; ++j) {
       const Real<S> share(static_cast<double>(j) / options_.arcs);
@@ -39,8 +42,14 @@ class HalfVector {
                        : options_.split == ArcSplit::uniform ? k.half_vector_split_uniform(edge, share)
                                                              : k.half_vector_split_pole_mapped(edge, share);
       const auto q = k.half_vector_at(view_, edge, tau);
+      const auto last = k.half_vector_split_end(edge, tau, weight);
       sum_ = sum_ + lobe_.arc(view_, p, q);
+      for (int i = 0; i < kSliverNodes; ++i) {
+        const auto node = k.half_vector_between(view_, edge, first, last, p, q, k.gauss_legendre_node(kSliverNodes, i));
+        sum_ = sum_ + lobe_.at_half_vector(view_, node.h) * node.solid_angle;
+      }
       p = q;
+      first = last;
     }
   }
   Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, edges_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
@@ -53,6 +62,8 @@ class HalfVector {
   Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
  private:
+  static constexpr int kSliverNodes = 4;  // three leave four to ten times the error (docs/accuracy.md, "Half vectors")
+
   Lobe lobe_;
   HalfVectorOptions options_;
   typename K::GgxView view_;
@@ -84,6 +95,10 @@ class BlinnPhongArcs {
       return K().blinn_phong_arc(p, q, view.v, n_);
     else
       return K().blinn_phong_arc_approximate(p, q, view.v, series_, n_, range_);
+  }
+  template <class View, class V>
+  Real<S> at_half_vector(const View& view, const V& h) const {
+    return K().blinn_phong_at_half_vector(h, view.v, n_);
   }
   template <class View, class Edges>
   Part<S> finish(const View& view, const Edges&, Real<S> sum, Real<S> facing) const {
@@ -117,6 +132,10 @@ struct BeckmannArcs {
   Real<S> arc(const View& view, const V& p, const V& q) const {
     return K().beckmann_arc(view, p, q, series);
   }
+  template <class View, class V>
+  Real<S> at_half_vector(const View& view, const V& h) const {
+    return K().beckmann_at_half_vector(view, h);
+  }
   template <class View, class Edges>
   Part<S> finish(const View& view, const Edges&, Real<S> sum, Real<S> facing) const {
     return {K().half_vector_radiance(view, sum, facing), Real<S>(0.0)};
@@ -141,6 +160,10 @@ struct GgxHalfVectorArcs {
   template <class View, class V>
   V arc(const View& view, const V& p, const V& q) const {
     return K().ggx_arc(view, p, q);
+  }
+  template <class View, class V>
+  V at_half_vector(const View& view, const V& h) const {
+    return K().ggx_at_half_vector(view, h);
   }
   // Shadowing and Fresnel as the closed form takes them: only the measure is the arcs'.
   template <class View, class Edges, class V>

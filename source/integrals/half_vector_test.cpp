@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "integrals/random_rectangles.h"
@@ -67,8 +68,10 @@ TEST_P(HalfVector, FourPoleMappedArcsHoldTheirError) {
       const Deviation pole = error_of(all, {arcs, ArcSplit::pole_mapped}), uniform = error_of(all, {arcs, ArcSplit::uniform});
       std::printf("view %2.0f, %d arcs: pole-mapped rms %.5f largest %.4f, uniform rms %.5f largest %.4f\n", view, arcs, pole.rms,
                   pole.largest, uniform.rms, uniform.largest);
+      // A great circle alone is off by 2e-3 to 2e-2 (mean square); four nodes of what lies between leave a tenth at least, and Beckmann's
+      // series 5e-5 for each half edge.
       if (arcs == 4) {
-        EXPECT_LE(pole.rms, view > 80 ? 0.02 : 0.006) << "view " << view;
+        EXPECT_LE(pole.rms, view > 80 ? 1e-3 : 3e-4) << "view " << view;
         if (view >= 75) {
           EXPECT_GE(uniform.rms, 2 * pole.rms) << "view " << view;
         }
@@ -85,6 +88,39 @@ TEST_P(HalfVector, ManyArcsConvergeToTheReference) {
     EXPECT_LE(e.largest, GetParam() == Brdf::beckmann ? 4 * 2 * 5.5e-5 : 5e-5) << "view " << view;
     std::printf("view %2.0f: largest error of 200 arcs %.2e\n", view, e.largest);
   }
+}
+
+// A light that fills the upper half space, one seen edge-on, a wall that stands on the surface beside the point: every lobe, every view.
+TEST_P(HalfVector, HoldsItsErrorOverWhateverFillsTheHemisphereOrIsSeenEdgeOn) {
+  Random random(17);
+  double worst = 0, error = 0, signal = 0;
+  for (int i = 0; i < 120; ++i) {
+    const double view = std::vector<double>{0, 30, 60, 75, 85}[static_cast<std::size_t>(i) % 5] * ggx::kRadians;
+    const double turn = random.uniform(-std::numbers::pi, std::numbers::pi), alpha = std::exp(random.uniform(std::log(0.01), 0.0));
+    Material m;
+    m.brdf = GetParam();
+    m.alpha_x = m.alpha_y = alpha;
+    m.exponent = 2 / (alpha * alpha) - 2;
+    m.shadowing = false;
+    const ShadingPoint at = {{}, {0, 0, 1}, {std::sin(view) * std::cos(turn), std::sin(view) * std::sin(turn), std::cos(view)}};
+    const double gap = std::pow(10.0, random.uniform(-5, -1)), aside = random.uniform(-0.7, 0.7);
+    PolygonLight light;
+    light.two_sided = true;
+    switch (i % 3) {
+      case 0: light.vertices = {{-1, -1, gap}, {1, -1, gap}, {1, 1, gap}, {-1, 1, gap}}; break;
+      case 1: light.vertices = {{-1, gap, 0.2}, {1, gap, 0.2}, {1, gap, 1.2}, {-1, gap, 1.2}}; break;
+      default: light.vertices = {{aside - 1, gap, -1}, {aside + 1, gap, -1}, {aside + 1, gap, 1}, {aside - 1, gap, 1}};
+    }
+    const PreparedPolygon prepared = prepare_polygon(light);
+    const double truth = reference_radiance(prepared, at, m, {1e-6, 1e-8, 100'000}).radiance.x;
+    const double d = std::fabs(half_vector_radiance(prepared, at, m).x - truth);
+    worst = std::max(worst, d / std::max(truth, 1.0));
+    error += d * d;
+    signal += truth * truth;
+  }
+  std::printf("relative rms error %.1e, largest %.1e of the lobe\n", std::sqrt(error / signal), worst);
+  EXPECT_LE(std::sqrt(error / signal), 3e-4);
+  EXPECT_LE(worst, 2e-3);
 }
 
 // With shadowing and Fresnel by the closed form's cubature, only the measure is the arcs': relative RMSE as without.
@@ -104,7 +140,7 @@ TEST(HalfVectorGgx, ShadowingAndFresnelAreAveraged) {
           signal += truth * truth;
         }
       const double relative = std::sqrt(error / signal);
-      EXPECT_LT(relative, 0.015) << "f0 " << f0 << " view " << view;
+      EXPECT_LT(relative, 0.006) << "f0 " << f0 << " view " << view;
       std::printf("f0 %.2f view %2.0f: relative RMSE %.4f\n", f0, view, relative);
     }
 }
@@ -124,8 +160,8 @@ TEST(HalfVectorGgx, AThinLightIsWhatItsTwoEdgesLeave) {
       m.exponent = 200;
       m.alpha_x = m.alpha_y = 0.1;
       const double truth = reference_radiance(light, at, m).radiance.x;
-      EXPECT_NEAR(half_vector_radiance(light, at, m, {}).x / truth, 1, 0.05) << name_of(brdf) << " " << width;
-      EXPECT_NEAR(half_vector_radiance_float(light, at, m, {}).x / truth, 1, 0.05 + 1e-4 / width) << name_of(brdf) << " " << width;
+      EXPECT_NEAR(half_vector_radiance(light, at, m, {}).x / truth, 1, 0.005) << name_of(brdf) << " " << width;
+      EXPECT_NEAR(half_vector_radiance_float(light, at, m, {}).x / truth, 1, 0.005 + 1e-4 / width) << name_of(brdf) << " " << width;
     }
 }
 
