@@ -3,6 +3,7 @@
 // An integral is a type with
 //
 //   static constexpr Clip kClip;
+//   void anchor(u);                     // optional: a direction of the horizon that lies in the light's plane, or the zero vector
 //   Mask<S> begin(const Shading<S>&);   // forgets the last light; where this light can send anything
 //   end(u)                              // what it keeps of a corner, the unit direction u in the shading frame: mostly u itself
 //   void add(a, b);                     // one edge, of what `end` gave
@@ -96,6 +97,11 @@ struct Together {
     return first.begin(shading) || second.begin(shading);
   }
   template <class V>
+  void anchor(const V& u) {
+    if constexpr (requires { first.anchor(u); }) first.anchor(u);
+    if constexpr (requires { second.anchor(u); }) second.anchor(u);
+  }
+  template <class V>
   STERADIAN_INLINE auto end(const V& u) const {
     return Pair<decltype(first.end(u)), decltype(second.end(u))>{first.end(u), second.end(u)};
   }
@@ -124,16 +130,29 @@ struct Together {
 template <class S, class Outline, class Integral>
 STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& shading, Integral& integral) {
   Kernels<S> k;
+  if constexpr (requires { integral.anchor(outline.on_horizon()); }) integral.anchor(outline.on_horizon());
   const auto end = [&](const auto& u) { return integral.end(u); };
   if constexpr (Integral::kClip == Clip::horizon) {
     auto clip = k.horizon_clip_begin();
+    const auto close = [&] {
+      if (!any_lane(clip.closes)) return;
+      const auto wide = dot(clip.arc_start, clip.arc_end) < Real<S>(-0.5);
+      auto start = clip.arc_start;
+      if (any_lane(wide)) {
+        const auto middle = k.horizon_arc_middle(start, clip.arc_end, select(shading.reversed, Real<S>(-1.0), Real<S>(1.0)));
+        const auto to = select(wide, middle, start);
+        integral.add(start, to);
+        start = to;
+      }
+      integral.add(start, clip.arc_end);
+    };
     outline.walk(end, [&](const auto& a, const auto& b) {
       clip = k.horizon_clip_edge(clip, a, b);
       integral.add(clip.start, clip.end);
-      if (any_lane(clip.closes)) integral.add(clip.arc_start, clip.arc_end);
+      close();
     });
     clip = k.horizon_clip_finish(clip);
-    if (any_lane(clip.closes)) integral.add(clip.arc_start, clip.arc_end);
+    close();
   } else {
     outline.walk(end, [&](const auto& a, const auto& b) { integral.add(a, b); });
   }

@@ -42,6 +42,11 @@ class Ltc {
     above_ = shading.view.z > Real<S>(0.0);
     return shading.lit && above_;
   }
+  // Where the arcs of the horizon go by, in place of where the outline first crosses it: see kernels/integral/ltc.glsl.
+  void anchor(const vec3& u) {
+    walk_.anchor = K().ltc_direction(lobe_.matrix, u);
+    walk_.anchored = dot(u, u) > Real<S>(0.5);
+  }
   STERADIAN_INLINE End end(const vec3& u) const { return {u, K().ltc_direction(lobe_.matrix, u)}; }
   STERADIAN_INLINE void add(const End& a, const End& b) { walk_ = K().ltc_add_edge(walk_, lobe_.matrix, a.u, b.u, a.under, b.under); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) {

@@ -63,6 +63,12 @@ STERADIAN_INLINE typename Kernels<S>::vec3 to_kernel(Vector3<T> v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
+// The point of the line through a and b that is nearest to the origin.
+inline Vec3d foot_on_line(Vec3d a, Vec3d b) {
+  const Vec3d along = b - a;
+  return a - along * (dot(a, along) / dot(along, along));
+}
+
 // The contours of one light, with its elements: see small_light.h.
 //
 //   turned(v)  a vector (Vec3d) in the shading frame
@@ -71,6 +77,45 @@ struct LightContours : Contours<Vec3d, Direction> {
   const PreparedPolygon& light;
   Vec3d position;
   Turned turned;
+
+  // An edge that is seen under more than 120 degrees is walked in two, by way of its point next to the shading point: of ends that are
+  // nearly opposite no direction in between is left, however near the edge passes.
+  template <class End, class Add>
+  void walk(End end, Add add) const {
+    using Unit = decltype(this->direction(position));
+    struct Corner {
+      Vec3d vertex;
+      Unit u;
+      decltype(end(this->direction(position))) kept;
+    };
+    walk_contours(
+        this->vertices, this->contours, this->contour_count,
+        [&](const Vec3d& v) {
+          const Unit u = this->direction(v);
+          return Corner{v, u, end(u)};
+        },
+        [&](const Corner& a, const Corner& b) {
+          if (any_lane(dot(a.u, b.u) < Real<S>(-0.5))) {
+            const Vec3d span = b.vertex - a.vertex, foot = foot_on_line(a.vertex - position, b.vertex - position);
+            if (dot(foot, foot) > 1e-28 * dot(span, span)) {
+              const auto between = end(Kernels<S>().polygon_direction(turned(foot)));
+              add(a.kept, between);
+              add(between, b.kept);
+              return;
+            }
+          }
+          add(a.kept, b.kept);
+        });
+  }
+
+  // Of the directions of the horizon in which the light's plane lies, the middle one; zero where the plane is level.
+  auto on_horizon() const {
+    const double side = dot(light.normal, light.centroid - position) < 0 ? -1 : 1;
+    auto to = turned(light.normal * side);
+    to.z = 0.0;
+    const Real<S> length2 = dot(to, to);
+    return to * select(length2 > Real<S>(1e-12), inversesqrt(max(length2, Real<S>(1e-12))), Real<S>(0.0));
+  }
 
   auto elements() const {
     typename Kernels<S>::LightElements e;
