@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   steradian::app::add_bench(app, exit);
   steradian::app::add_diff(app, exit);
   steradian::app::add_render(app, exit);
+  steradian::app::add_compare(app, exit);
   steradian::app::add_fit(app, exit);
   steradian::app::add_info(app, exit);
 

@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/simd.h"
 #include "integrals/methods.h"
+#include "picture_options.h"
 #include "render_plane.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
@@ -35,24 +36,10 @@ struct Options {
   RenderOptions render;
 };
 
-// "1280x720" to two ints. The limit keeps a slip of the finger from asking for terabytes.
 void parse_size(const std::string& text, RenderOptions& render) {
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%n", &render.width, &render.height, &used) == 2 && static_cast<std::size_t>(used) == text.size() &&
-      render.width >= 1 && render.height >= 1 && render.width <= 16384 && render.height <= 16384)
-    return;
-  throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
-}
-
-// Stops; none for auto.
-std::optional<float> exposure_of(const Options& options) {
-  if (options.exposure == "auto") return {};
-  float stops = 0;
-  int used = 0;
-  if (std::sscanf(options.exposure.c_str(), "%f%n", &stops, &used) == 1 && static_cast<std::size_t>(used) == options.exposure.size() &&
-      stops >= -30 && stops <= 30)
-    return stops;
-  throw CLI::ValidationError("--exposure", "'" + options.exposure + "' is not auto or a number of stops, -30 to 30");
+  const PictureSize size = picture_size(text);
+  render.width = size.width;
+  render.height = size.height;
 }
 
 std::vector<AddedLight> added_lights(const std::vector<std::string>& names) {
@@ -166,7 +153,7 @@ void run_plane(Options& options) {
   job.method = options.render.method;
   job.stats = options.stats;
   job.limits = options.limits;
-  job.exposure = exposure_of(options).value_or(0.0f);  // light maps keep their scale from frame to frame
+  job.exposure = exposure_stops(options.exposure).value_or(0.0f);  // light maps keep their scale from frame to frame
   if (options.size != kDefaultSize) {
     parse_size(options.size, options.render);
     job.frame.width = options.render.width;
@@ -192,7 +179,7 @@ void run(const CLI::App& verb, Options& options) {
   render_options.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
 
   refuse_unused_in_space(verb, options);
-  const std::optional<float> fixed_exposure = exposure_of(options);
+  const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
   parse_indirect(options);
   LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, added_lights(options.lights)});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);

@@ -19,6 +19,7 @@ void add_eval(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);
 void add_diff(CLI::App& app, Exit& exit);
 void add_render(CLI::App& app, Exit& exit);
+void add_compare(CLI::App& app, Exit& exit);
 void add_fit(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 

@@ -6,6 +6,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <map>
 
 #include "image/decode_image.h"
 
@@ -93,16 +94,18 @@ bool read_pixels(Codec& codec, std::uint8_t* rgba, std::size_t width, std::size_
   return true;
 }
 
-bool write_rows(Codec& codec, const Picture& picture, float exposure_stops, std::uint8_t* row) {
+using Metadata = std::map<std::string, std::string>;
+
+bool write_rows(Codec& codec, int width, int height, const Metadata& metadata, const RowOfBytes& fill, std::uint8_t* row) {
   codec.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &codec, fail, ignore);
   if (codec.png == nullptr) return false;
   if (setjmp(codec.failed)) return false;
   codec.info = png_create_info_struct(codec.png);
   if (codec.info == nullptr) return false;
   png_set_write_fn(codec.png, &codec, give_bytes, nullptr);
-  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  for (const auto& [key, value] : picture.metadata) {
+  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  for (const auto& [key, value] : metadata) {
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;
     text.key = const_cast<char*>(key.c_str());  // libpng copies it
@@ -111,30 +114,36 @@ bool write_rows(Codec& codec, const Picture& picture, float exposure_stops, std:
     png_set_text(codec.png, codec.info, &text, 1);
   }
   png_write_info(codec.png, codec.info);
-  for (int y = 0; y < picture.height; ++y) {
-    std::uint8_t* byte = row;
-    for (int x = 0; x < picture.width; ++x) {
-      const Vec3f c = tone_map(picture.at(x, y), exposure_stops);
-      for (const float channel : {c.x, c.y, c.z}) *byte++ = static_cast<std::uint8_t>(std::lround(channel * 255.0f));
-    }
+  for (int y = 0; y < height; ++y) {
+    fill(y, row);
     png_write_row(codec.png, row);
   }
   png_write_end(codec.png, nullptr);
   return true;
 }
 
+std::string encode(int width, int height, const Metadata& metadata, const RowOfBytes& fill) {
+  std::string file;
+  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(width));
+  OpenWriter open;
+  open.codec.file = &file;
+  if (!write_rows(open.codec, width, height, metadata, fill, row.data()))
+    throw Error("", "cannot make a PNG of " + std::to_string(width) + " x " + std::to_string(height) + " pixels: " + open.codec.message);
+  return file;
+}
+
 }  // namespace
 
 std::string encode_png(const Picture& picture, float exposure_stops) {
-  std::string file;
-  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(picture.width));
-  OpenWriter open;
-  open.codec.file = &file;
-  if (!write_rows(open.codec, picture, exposure_stops, row.data()))
-    throw Error("", "cannot make a PNG of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                        " pixels: " + open.codec.message);
-  return file;
+  return encode(picture.width, picture.height, picture.metadata, [&](int y, std::uint8_t* byte) {
+    for (int x = 0; x < picture.width; ++x) {
+      const Vec3f c = tone_map(picture.at(x, y), exposure_stops);
+      for (const float channel : {c.x, c.y, c.z}) *byte++ = static_cast<std::uint8_t>(std::lround(channel * 255.0f));
+    }
+  });
 }
+
+std::string encode_png_bytes(int width, int height, const RowOfBytes& fill) { return encode(width, height, {}, fill); }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
   OpenReader open;

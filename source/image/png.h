@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -13,6 +14,10 @@ namespace steradian::image {
 
 // 8 bits a channel of tone_map(pixel); metadata as tEXt chunks.
 std::string encode_png(const Picture& picture, float exposure_stops);
+
+// The bytes of row y, three a pixel. Must not throw.
+using RowOfBytes = std::function<void(int y, std::uint8_t* row)>;
+std::string encode_png_bytes(int width, int height, const RowOfBytes& fill);
 
 // Every kind of PNG as RGBA, 8 bits a channel; what the file says about colour spaces is left aside, as glTF asks.
 // Throws Error(place, ...) for bytes that are no whole picture, and for more than max_texels before any memory is taken.

@@ -1,0 +1,323 @@
+// steradian compare SCENE --methods a,b,c -o DIR: every method against the reference, as pictures, numbers and a page.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "command_line.h"
+#include "compare/report.h"
+#include "core/atomic_file.h"
+#include "core/progress.h"
+#include "image/flip.h"
+#include "integrals/methods.h"
+#include "picture_options.h"
+#include "render_plane.h"
+#include "steradian/error.h"
+#include "steradian/load_scene.h"
+#include "steradian/plane.h"
+#include "verbs.h"
+
+namespace steradian::app {
+namespace {
+
+struct Options {
+  std::string scene, output, size, exposure = "auto", shadows = "off";
+  std::vector<std::string> methods;
+  bool settings = true;
+  int max_lights = 256;
+  Limits limits;
+  RenderOptions render;
+};
+
+// What a method made of the scene.
+struct Made {
+  Picture picture;
+  double ms = 0;
+  std::vector<PassTime> passes;
+};
+
+// One setting of a method: its name, and how it is made.
+struct Setting {
+  std::string words;
+  std::function<Made()> make;
+};
+
+// A scene of three dimensions or of the plane, as `compare` asks for it.
+struct Subject {
+  std::function<Made()> reference;
+  std::string reference_words;
+  // The settings of a method, from cheap to dear, and which of them stands in the table.
+  std::function<std::pair<std::vector<Setting>, std::size_t>(const std::string& method)> settings;
+};
+
+// A progress bar of its own for each picture.
+std::function<void(std::uint64_t, std::uint64_t)> progress_of(const std::string& label) {
+  auto bar = std::make_shared<std::unique_ptr<Progress>>();
+  auto mutex = std::make_shared<std::mutex>();
+  return [=](std::uint64_t, std::uint64_t total) {
+    {
+      const std::lock_guard lock(*mutex);
+      if (!*bar) *bar = std::make_unique<Progress>("compare: " + label, total);
+    }
+    (*bar)->add();
+  };
+}
+
+// ---- Three dimensions --------------------------------------------------------------------------------------------
+
+Made make_frame(const Scene& scene, RenderOptions options, const std::string& label) {
+  options.progress = progress_of(label);
+  RenderStats stats;
+  Made made;
+  made.picture = render(scene, options, &stats);
+  made.ms = stats.total_ms;
+  made.passes = stats.passes;
+  return made;
+}
+
+Subject frame_subject(const std::shared_ptr<const Scene>& scene, const Options& options) {
+  Subject subject;
+  RenderOptions judge = options.render;
+  judge.method = "reference";
+  subject.reference_words = fmt::format("Monte Carlo until its standard error is {:.3g} of the picture", judge.target_error);
+  subject.reference = [=] { return make_frame(*scene, judge, "reference"); };
+  subject.settings = [scene, render = options.render, all = options.settings](const std::string& method) {
+    std::vector<Setting> settings;
+    const auto add = [&](const std::string& words, const RenderOptions& r) {
+      settings.push_back({words, [=] { return make_frame(*scene, r, method + ", " + words); }});
+    };
+    RenderOptions r = render;
+    r.method = method;
+    if (method == "sampled") {
+      for (r.spp = all ? 1 : render.spp; r.spp < render.spp; r.spp *= 4) add(fmt::format("{} spp", r.spp), r);
+      r.spp = render.spp;
+      add(fmt::format("{} spp", r.spp), r);
+      return std::pair{settings, settings.size() - 1};
+    }
+    const std::optional<Method> known = method_of(method);
+    const bool qualities = known && (*known == Method::automatic || *methods::row_of(*known).qualities != '\0');
+    if (!all || !qualities) {
+      add("normal", r);
+      return std::pair{settings, std::size_t{0}};
+    }
+    for (const auto& [words, quality] : {std::pair{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}}) {
+      r.quality = quality;
+      add(words, r);
+    }
+    return std::pair{settings, std::size_t{1}};
+  };
+  return subject;
+}
+
+// ---- The plane ---------------------------------------------------------------------------------------------------
+
+Made make_plane(const PlaneWorld& world, PlaneFrameOptions options, const std::string& label) {
+  options.progress = progress_of(label);
+  PlaneFrameStats stats;
+  Made made;
+  made.picture = render_plane(world, options, &stats);
+  made.picture.layers.clear();
+  made.ms = stats.prepare_ms + stats.frame_ms;
+  made.passes = {{"prepare", stats.prepare_ms}, {"frame", stats.frame_ms}};
+  return made;
+}
+
+Subject plane_subject(const std::shared_ptr<const PlaneWorld>& world, const Options& options) {
+  PlaneFrameOptions frame;
+  frame.limits = options.limits;
+  frame.threads = options.render.threads;
+  frame.aa = options.render.aa;
+  if (!options.size.empty()) {
+    const PictureSize size = picture_size(options.size);
+    frame.width = size.width;
+    frame.height = size.height;
+  }
+  frame.sampling = {options.render.spp, options.render.seed};
+  Subject subject;
+  subject.reference_words = "the closed form in double precision, point by point";
+  subject.reference = [=] {
+    PlaneFrameOptions judge = frame;
+    judge.moments = true;  // in double, pixel by pixel
+    return make_plane(*world, judge, "reference");
+  };
+  subject.settings = [world, frame, all = options.settings](const std::string& method) {
+    std::vector<Setting> settings;
+    PlaneFrameOptions f = frame;
+    f.method = plane_method_from_name(method == "auto" ? "exact" : method);
+    const auto add = [&](const std::string& words) {
+      settings.push_back({words, [world, f, label = method + ", " + words] { return make_plane(*world, f, label); }});
+    };
+    if (f.method == PlaneMethod::sampled || f.method == PlaneMethod::marched) {
+      for (f.sampling.spp = all ? 4 : frame.sampling.spp; f.sampling.spp < frame.sampling.spp; f.sampling.spp *= 4)
+        add(fmt::format("{} spp", f.sampling.spp));
+      f.sampling.spp = frame.sampling.spp;
+      add(fmt::format("{} spp", f.sampling.spp));
+    } else {
+      add("normal");
+    }
+    return std::pair{settings, settings.size() - 1};
+  };
+  return subject;
+}
+
+// ---- The comparison ----------------------------------------------------------------------------------------------
+
+// Of an estimate with a layer of variances: the root of their sum over the picture's norm.
+double own_error(const Picture& picture) {
+  const auto layer = picture.layers.find("variance");
+  if (layer == picture.layers.end()) return 0;
+  double variance = 0, norm = 0;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const auto v = static_cast<Vec3d>(layer->second[i]), p = static_cast<Vec3d>(picture.pixels[i]);
+    variance += v.x + v.y + v.z;
+    norm += dot(p, p);
+  }
+  return norm > 0 ? std::sqrt(variance / norm) : 0;
+}
+
+double white_of(const Picture& picture) {
+  std::vector<float> values;
+  for (const Vec3f& c : picture.pixels) values.insert(values.end(), {c.x, c.y, c.z});
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * 0.999);
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<double>(*at);
+}
+
+Report compared(const Subject& subject, const Options& options) {
+  // All of a method's settings first, so that a method that does not exist or serve is refused before the long work.
+  std::vector<std::pair<std::vector<Setting>, std::size_t>> settings;
+  for (const std::string& method : options.methods) settings.push_back(subject.settings(method));
+
+  Report report;
+  report.scene = options.scene;
+  report.command = command_line();
+  std::vector<std::vector<Made>> made;
+  for (const auto& [of_method, chosen] : settings) {
+    made.emplace_back();
+    for (const Setting& setting : of_method) made.back().push_back(setting.make());
+  }
+  Made reference = subject.reference();
+  report.reference_words = subject.reference_words;
+  report.reference_ms = reference.ms;
+  report.reference_error = own_error(reference.picture);
+  report.reference = std::move(reference.picture);
+  report.exposure = exposure_stops(options.exposure).value_or(auto_exposure(report.reference));
+  report.white = white_of(report.reference);
+  for (std::size_t m = 0; m < settings.size(); ++m)
+    for (std::size_t s = 0; s < made[m].size(); ++s) {
+      Made& of = made[m][s];
+      const Run run = {options.methods[m], settings[m].first[s].words, of.ms, difference(of.picture, report.reference)};
+      report.over_time.push_back(run);
+      if (s != settings[m].second) continue;
+      image::Flip flip = image::flip(of.picture, report.reference, report.exposure);
+      report.methods.push_back({run, std::move(of.picture), of.passes, flip.mean, std::move(flip.error)});
+    }
+  return report;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path.string());
+  file.write(text);
+  file.commit();
+}
+
+void write(const Report& report, const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw Error(folder.string(), "cannot make this folder: " + failed.message(), "choose another with -o");
+  write_picture(report.reference, (folder / "reference.exr").string());
+  for (const Compared& of : report.methods) write_picture(of.picture, (folder / (of.run.method + ".exr")).string());
+  write_text(folder / "report.json", report_json(report));
+  write_text(folder / "index.html", report_page(report));
+}
+
+void print(const Report& report, const std::string& folder) {
+  fmt::print("{:<22} {:>10} {:>11} {:>11} {:>11} {:>10} {:>8}\n", "method", "ms", "relative L2", "rmse", "max", "mean ratio", "FLIP");
+  for (const Compared& of : report.methods) {
+    const Difference& d = of.run.difference;
+    fmt::print("{:<22} {:>10.1f} {:>11.3e} {:>11.3e} {:>11.3e} {:>10.5f} {:>8.4f}\n", of.run.method, of.run.ms, d.relative_l2, d.rmse, d.max,
+               d.mean_ratio, of.flip);
+  }
+  fmt::print("reference: {}", report.reference_words);
+  if (report.reference_error > 0) fmt::print("; as relative L2 it is itself good to {:.1e}", report.reference_error);
+  fmt::print("\n{}\n", (std::filesystem::path(folder) / "index.html").string());
+}
+
+std::shared_ptr<const Scene> scene_of(const Options& options) {
+  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, {}});
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
+  return std::make_shared<const Scene>(std::move(loaded.scene));
+}
+
+void run(Options& options) {
+  std::vector<std::string> seen;
+  for (const std::string& method : options.methods) {
+    if (std::find(seen.begin(), seen.end(), method) != seen.end())
+      throw CLI::ValidationError("--methods", method + " is named twice");
+    if (method == "reference") throw CLI::ValidationError("--methods", "reference is what the others are compared with");
+    seen.push_back(method);
+  }
+  exposure_stops(options.exposure);
+  Subject subject;
+  if (is_plane_scene(options.scene)) {
+    if (options.methods.empty()) options.methods = {"exact", "par", "sampled", "marched"};
+    for (const std::string& method : options.methods) {
+      try {
+        if (method != "auto") plane_method_from_name(method);
+      } catch (const Error& e) {
+        throw UsageError("--methods", e.problem(), e.hint());
+      }
+    }
+    subject = plane_subject(std::make_shared<const PlaneWorld>(load_plane_scene(options.scene, options.limits).scene, options.limits), options);
+  } else {
+    if (options.methods.empty()) options.methods = {"auto", "ltc", "ltc-compact", "sampled"};
+    for (const std::string& method : options.methods)
+      if (!method_of(method)) throw CLI::ValidationError("--methods", "unknown method " + method + ", use " + methods::names());
+    const PictureSize size = picture_size(options.size.empty() ? "960x540" : options.size);
+    options.render.width = size.width;
+    options.render.height = size.height;
+    options.render.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
+    subject = frame_subject(scene_of(options), options);
+  }
+  const Report report = compared(subject, options);
+  write(report, options.output);
+  print(report, options.output);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Exit&) {
+  auto options = std::make_shared<Options>();
+  RenderOptions& r = options->render;
+  r.target_error = 0.02;
+  r.spp = 64;
+  CLI::App* verb = app.add_subcommand("compare", "Methods against the reference: pictures, error maps, numbers, and one page with all of it");
+  verb->footer("The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n\n" + methods::help());
+  verb->add_option("SCENE", options->scene, "scene file: .gltf, .glb, .svg")->required();
+  verb->add_option("-o,--output", options->output, "folder")->required();
+  verb->add_option("--methods", options->methods,
+                   "separated by commas; none: auto,ltc,ltc-compact,sampled, of plane scenes exact,par,sampled,marched")
+      ->delimiter(',');
+  verb->add_flag("!--one-setting", options->settings, "not each method's qualities and numbers of samples for the error over time");
+  verb->add_option("--shadows", options->shadows, "of direct light, for all")->check(CLI::IsMember({"off", "on", "exact"}));
+  verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels; none: 960x540, of plane scenes their own")->group("Picture");
+  verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
+  verb->add_option("--exposure", options->exposure, "of the page and of FLIP: stops, or auto")->group("Picture");
+  verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
+  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")->check(CLI::Range(1, 1 << 20));
+  verb->add_option("--spp", r.spp, "of sampled and marched, in the table")->check(CLI::Range(1, 1 << 20))->group("Sampling");
+  verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->group("Sampling");
+  verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
+  verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
+  add_limits(*verb, options->limits);
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace steradian::app

@@ -1,0 +1,27 @@
+#include "picture_options.h"
+
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+namespace steradian::app {
+
+PictureSize picture_size(const std::string& text) {
+  PictureSize size;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &size.width, &size.height, &used) == 2 && static_cast<std::size_t>(used) == text.size() &&
+      size.width >= 1 && size.height >= 1 && size.width <= 16384 && size.height <= 16384)
+    return size;
+  throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
+}
+
+std::optional<float> exposure_stops(const std::string& text) {
+  if (text == "auto") return {};
+  float stops = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%f%n", &stops, &used) == 1 && static_cast<std::size_t>(used) == text.size() && stops >= -30 && stops <= 30)
+    return stops;
+  throw CLI::ValidationError("--exposure", "'" + text + "' is not auto or a number of stops, -30 to 30");
+}
+
+}  // namespace steradian::app

@@ -1,0 +1,19 @@
+// Options that verbs with pictures share: how their words become numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace steradian::app {
+
+struct PictureSize {
+  int width = 0, height = 0;
+};
+
+// "1280x720". Throws CLI::ValidationError. The limit keeps a slip of the finger from asking for terabytes.
+PictureSize picture_size(const std::string& text);
+
+// Stops, -30 to 30; none for "auto". Throws CLI::ValidationError.
+std::optional<float> exposure_stops(const std::string& text);
+
+}  // namespace steradian::app
