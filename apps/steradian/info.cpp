@@ -1,4 +1,4 @@
-// steradian info: version and what this machine offers.
+// steradian info: version and what this machine offers; steradian info SCENE: what a scene holds.
 #include <fmt/format.h>
 #include <xsimd/config/xsimd_config.hpp>
 #include <simdjson.h>
@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/simd.h"
+#include "info_scene.h"
 #include "render/vulkan/device.h"
 #include "steradian/version.h"
 #include "verbs.h"
@@ -57,13 +58,22 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 void add_info(CLI::App& app, Exit&) {
-  CLI::App* verb = app.add_subcommand("info", "Print version, instruction sets, libraries and devices");
+  CLI::App* verb =
+      app.add_subcommand("info", "Print what a scene holds (.gltf, .glb), or without one version, instruction sets, libraries and devices");
   verb->group("This machine");
-  auto json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "Print JSON");
-  verb->callback([json] {
-    const Json info = facts();
-    if (*json) return fmt::print("{}\n", info.dump(1));
+  struct Options {
+    std::string scene;
+    bool json = false;
+    Limits limits;
+  };
+  auto options = std::make_shared<Options>();
+  verb->add_option("SCENE", options->scene, "scene file: its cameras, lights, materials, extensions");
+  verb->add_flag("--json", options->json, "Print JSON");
+  add_limits(*verb, options->limits);
+  verb->callback([options] {
+    const Json info = options->scene.empty() ? facts() : scene_facts(options->scene, options->limits);
+    if (!options->scene.empty() && !options->json) return fmt::print("{}", scene_text(info));
+    if (options->json) return fmt::print("{}\n", info.dump(1));
     for (auto [key, value] : info.items()) {
       std::string label = key;
       std::replace(label.begin(), label.end(), '_', ' ');

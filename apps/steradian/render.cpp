@@ -28,7 +28,8 @@ constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off",
-                             indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto";
+                             indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto", environment,
+                             background = "on", light_units = "auto";
   std::vector<std::string> lights;
   int max_lights = 256;
   Limits limits;
@@ -68,6 +69,8 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
           {"triangles", stats.triangles},
           {"method", stats.method},
           {"passes", passes},
+          {"environment_spots", stats.environment_spots},
+          {"diffuse_residual", stats.diffuse_residual},
           {"shadow_fallback", stats.shadow_fallback},
           {"total_ms", stats.total_ms}};
 }
@@ -139,6 +142,9 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
                                {"--indirect-clamp", false, third},
                                {"--max-lights", false, third},
                                {"--light", false, third},
+                               {"--environment", false, third},
+                               {"--background", false, third},
+                               {"--light-units", false, third},
                                {"--camera", false, third},
                                {"--target-error", false, third},
                                {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
@@ -181,9 +187,20 @@ void run(const CLI::App& verb, Options& options) {
   refuse_unused_in_space(verb, options);
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
   parse_indirect(options);
-  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, added_lights(options.lights)});
-  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
+  LoadOptions load;
+  load.max_lights = options.max_lights;
+  load.limits = options.limits;
+  load.environment = options.environment;
+  load.light_units = options.light_units == "candela" ? LightUnits::candela
+                     : options.light_units == "watt"  ? LightUnits::watt
+                                                      : LightUnits::from_generator;
+  load.aspect = static_cast<double>(render_options.width) / render_options.height;
+  load.lights = added_lights(options.lights);
+  LoadedScene loaded = load_scene(options.scene, load);
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
+  refuse_without_effect(verb, {{"--background", loaded.scene.environment != nullptr, "--environment, or a file with one"}});
+  render_options.background = options.background == "on";
   loaded.scene.multiple_scattering = options.multiple_scattering;
 
   std::unique_ptr<Progress> progress;
@@ -195,7 +212,11 @@ void run(const CLI::App& verb, Options& options) {
   RenderStats stats;
   Picture picture = rendered(loaded.scene, options, stats);
   progress.reset();
-  for (const std::string& warning : stats.warnings) fmt::print(stderr, "steradian: {}\n", warning);
+  for (const std::string& warning : stats.warnings) fmt::print(stderr, "warning: {}\n", warning);
+
+  if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
+    fmt::print(stderr, "steradian: environment: {:.1f} % of its light as polygons, diffuse light of the rest within {:.2g} % rms\n",
+               100 * stats.environment_spots, 100 * stats.diffuse_residual);
 
   const float exposure = fixed_exposure.value_or(auto_exposure(picture));
   if (!fixed_exposure && options.output.ends_with(".png")) fmt::print(stderr, "steradian: --exposure {:.2f} (auto)\n", exposure);
@@ -256,6 +277,16 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
       ->check(CLI::IsMember({"default", "none", "sun", "studio"}))
       ->group("Light");
+  verb->add_option("--environment", options->environment, "light from all around: a map (.hdr, .exr, .png, .jpg), white, or sky")
+      ->group("Light");
+  verb->add_option(
+          "--light-units", options->light_units,
+          "of punctual lights beside emission: candela as glTF says; watt: divided by 683; auto: watt for files of Blender's exporter")
+      ->check(CLI::IsMember({"auto", "candela", "watt"}))
+      ->group("Light");
+  verb->add_option("--background", options->background, "whether the picture shows the environment")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->group("Picture");
   verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->group("Picture");
   verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
   verb->add_option("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)")->group("Picture");

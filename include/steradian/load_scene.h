@@ -14,14 +14,29 @@ namespace steradian {
 // there; studio: a key, a fill and a rim light. none: not even where the file has none.
 enum class AddedLight { standard, none, sun, studio };
 
+// The unit of a file's punctual lights beside that of its emission. candela: one unit for both, as glTF says. watt: the exporter has
+// multiplied candela and lux by 683 lm/W and left the emission in W/(m2 sr); they are divided by it. from_generator: watt for files
+// that Blender's exporter wrote with that factor, which is said in a warning.
+enum class LightUnits { from_generator, candela, watt };
+
 struct LoadOptions {
   int max_lights = 256;  // area lights kept, strongest first (AreaLight::power); at least 1
   Limits limits{};
+  std::string environment = {};  // as load_environment takes it; empty: the file's own (EXT_lights_image_based), if any
+  LightUnits light_units = LightUnits::from_generator;
+  double aspect = 16.0 / 9;             // width over height of the picture that a default camera fills
   std::vector<AddedLight> lights = {};  // empty: standard where the file's own lights are too weak for a picture
+};
+
+// What a file says of itself.
+struct FileFacts {
+  std::string generator;
+  std::vector<std::string> extensions_used, extensions_required, not_supported;
 };
 
 struct LoadedScene {
   Scene scene;
+  FileFacts file;
   std::vector<std::string> warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
 };
 

@@ -44,7 +44,7 @@ float srgb_decode(float encoded);
 // renamed. Throws Error for any other ending and when the file cannot be written.
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops = 0.0f);
 
-// Reads `.exr` (with layers and text attributes) or `.png`/`.jpg` (sRGB made linear).
+// Reads `.exr` (with layers and text attributes), `.hdr` (Radiance) or `.png`/`.jpg` (sRGB made linear).
 Picture read_picture(const std::string& path);
 
 }  // namespace steradian

@@ -24,6 +24,7 @@ struct RenderOptions {
   std::string method = "auto";        // of the specular lobe: a name of `render --help`
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
+  bool background = true;      // the camera sees the scene's environment; false: black
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
   double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
@@ -45,6 +46,8 @@ struct RenderStats {
   std::string method;  // what `auto` became
   std::size_t lights = 0;
   std::size_t triangles = 0;
+  double environment_spots = 0;       // share of the environment's light that polygon lights carry
+  double diffuse_residual = 0;        // bound of the rms error of the rest's irradiance over its mean
   double shadow_fallback = 0;         // share of pairs of a surface and a light whose shadows rays have estimated
   std::vector<std::string> warnings;  // what the method leaves out, a sentence each
 };

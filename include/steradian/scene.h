@@ -7,10 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "steradian/area_light.h"
+#include "steradian/environment.h"
 #include "steradian/material.h"
 #include "steradian/texture.h"
 #include "steradian/vector.h"
@@ -55,8 +57,11 @@ struct SurfaceMaterial {
   float anisotropy_rotation = 0;  // radians, counter-clockwise from the tangent
   TextureUse anisotropy_texture;  // direction in rg (2x - 1), strength in b
 
-  AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha_cutoff = 0.5f;  // of AlphaMode::mask
+  float transmission = 0;           // share of the diffuse lobe that passes a thin wall instead, in the base colour
+  TextureUse transmission_texture;  // r
+
+  AlphaMode alpha_mode = AlphaMode::opaque;  // blend: covers by base_color's alpha what lies behind
+  float alpha_cutoff = 0.5f;                 // of AlphaMode::mask
   bool double_sided = false;
   bool unlit = false;  // shows base_color, takes no light
 
@@ -117,9 +122,10 @@ struct Scene {
   std::vector<Image> images;  // what TextureUse::image points into
   std::vector<AreaLight> area_lights;
   std::vector<PunctualLight> punctual_lights;
-  std::vector<Camera> cameras;       // at least one after load_scene; the first is the default
-  Vec3d bounds_min, bounds_max;      // of all meshes; both zero without meshes
-  bool multiple_scattering = false;  // of the GGX lobes of metallic-roughness surfaces, see albedo.h
+  std::vector<Camera> cameras;                     // at least one after load_scene; the first is the default
+  Vec3d bounds_min, bounds_max;                    // of all meshes; both zero without meshes
+  std::shared_ptr<const Environment> environment;  // null: nothing around
+  bool multiple_scattering = false;                // of the GGX lobes of metallic-roughness surfaces, see albedo.h
 
   std::size_t triangle_count() const {
     std::size_t n = 0;

@@ -8,6 +8,7 @@
 #include "core/read_file.h"
 #include "image/decode_image.h"
 #include "image/exr.h"
+#include "image/hdr.h"
 #include "image/png.h"
 #include "image/read_picture.h"
 #include "steradian/error.h"
@@ -57,11 +58,12 @@ void write_picture(const Picture& picture, const std::string& path, float exposu
 Picture read_picture(const std::string& path, const Limits& limits) {
   const std::string e = ending(path);
   const bool png = e == ".png", jpeg = e == ".jpg" || e == ".jpeg";
-  if (e != ".exr" && !png && !jpeg) throw Error(path, "unknown picture format '" + e + "'", "use .exr, .png or .jpg");
+  if (e != ".exr" && e != ".hdr" && !png && !jpeg) throw Error(path, "unknown picture format '" + e + "'", "use .exr, .hdr, .png or .jpg");
   Budget budget(limits);
   try {
     const Bytes bytes = read_file(path, path, budget);
     if (e == ".exr") return image::decode_exr(bytes, path, budget);
+    if (e == ".hdr") return image::decode_hdr(bytes, path, budget);
     // The ending says what was asked for; the bytes must be just that.
     if (image::format_of(bytes) != (png ? image::ImageFormat::png : image::ImageFormat::jpeg))
       throw Error(path, std::string("is not a ") + (png ? "PNG" : "JPEG") + " picture: its first bytes are another format's",

@@ -31,14 +31,39 @@ void measure_bounds(Scene& scene) {
     }
 }
 
-Camera framing_camera(const Scene& scene) {
-  const Sphere sphere = bounding_sphere(scene);
+Camera framing_camera(const Scene& scene, double aspect) {
+  constexpr double kMargin = 1.05;
   Camera camera;
   camera.name = "default";
   camera.z = normalized(Vec3d{0, 0.4, 1});
   camera.x = {1, 0, 0};
   camera.y = cross(camera.z, camera.x);
-  camera.position = sphere.center + camera.z * (1.05 * sphere.radius / std::sin(camera.yfov / 2));
+  const double up = std::tan(camera.yfov / 2) / kMargin, across = up * aspect;
+
+  // A point at (x, y, z) of the camera's axes is in the picture where +-y < up (d - z) and +-x < across (d - z), d the camera's z. Each of
+  // the four sides asks for a d once the camera is in the middle of the two opposite ones.
+  double right = -INFINITY, left = -INFINITY, top = -INFINITY, bottom = -INFINITY, nearest = -INFINITY;
+  const bool only_lights = std::all_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return mesh.is_light_shape; });
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.is_light_shape && !only_lights) continue;
+    for (const Vec3f& p : mesh.positions) {
+      const auto v = static_cast<Vec3d>(p);
+      const double x = dot(v, camera.x), y = dot(v, camera.y), z = dot(v, camera.z);
+      right = std::max(right, x + across * z);
+      left = std::max(left, -x + across * z);
+      top = std::max(top, y + up * z);
+      bottom = std::max(bottom, -y + up * z);
+      nearest = std::max(nearest, z);
+    }
+  }
+  const Sphere sphere = bounding_sphere(scene);
+  if (!std::isfinite(nearest) || scene.bounds_min == scene.bounds_max) {
+    camera.position = sphere.center + camera.z * (kMargin * sphere.radius / std::sin(camera.yfov / 2));
+    return camera;
+  }
+  // A point, or a line of sight, is still looked at from a distance.
+  const double d = std::max({(right + left) / (2 * across), (top + bottom) / (2 * up), nearest + 0.05 * sphere.radius});
+  camera.position = camera.x * ((right - left) / 2) + camera.y * ((top - bottom) / 2) + camera.z * d;
   return camera;
 }
 

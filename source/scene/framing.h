@@ -9,8 +9,9 @@ namespace steradian::scene {
 // Sets bounds_min and bounds_max from all meshes.
 void measure_bounds(Scene& scene);
 
-// A camera in front of the scene and above it that sees its bounding sphere whole.
-Camera framing_camera(const Scene& scene);
+// A camera in front of the scene and above it, as near as it can be with all vertices in a picture of that aspect (width over height).
+// The shapes of lights need not be in it.
+Camera framing_camera(const Scene& scene, double aspect);
 
 // A square light above, in front and to the left, that looks at the scene's centre. It is not visible itself.
 AreaLight default_light(const Scene& scene);

@@ -1,5 +1,7 @@
 #include "scene/gltf_document.h"
 
+#include "scene/gltf_extensions.h"
+
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -246,6 +248,7 @@ GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& pa
   for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
                             "samplers", "scenes", "skins", "textures"})
     for (const JsonCursor& element : root.elements(array)) element.text("name", "");  // objects, names strings
+  check_required_extensions(root);
   read_buffers(document, container.binary);
   return document;
 }

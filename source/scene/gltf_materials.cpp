@@ -38,13 +38,12 @@ void read_base(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& texture
   m.double_sided = json.flag("doubleSided", false);
 }
 
-void read_alpha(SurfaceMaterial& m, const JsonCursor& json, Warnings& warnings) {
+void read_alpha(SurfaceMaterial& m, const JsonCursor& json) {
   const std::string mode = json.text("alphaMode", "OPAQUE");
   if (mode == "MASK") {
     m.alpha_mode = AlphaMode::mask;
   } else if (mode == "BLEND") {
     m.alpha_mode = AlphaMode::blend;
-    warnings.count("materials with alpha mode BLEND are rendered as opaque", json.place());
   } else if (mode != "OPAQUE") {
     json.at("alphaMode").fail("\"" + mode + "\" is not an alpha mode", "OPAQUE, MASK or BLEND");
   }
@@ -79,6 +78,10 @@ void read_extensions(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& t
     m.specular_texture = textures.use(*x, "specularTexture", ColorSpace::linear);
     m.specular_color = color(*x, "specularColorFactor", {1, 1, 1}, 1e30);
     m.specular_color_texture = textures.use(*x, "specularColorTexture", ColorSpace::srgb);
+  }
+  if (const auto x = find_extension(json, "KHR_materials_transmission")) {
+    m.transmission = factor(*x, "transmissionFactor", 0);
+    m.transmission_texture = textures.use(*x, "transmissionTexture", ColorSpace::linear);
   }
   if (const auto x = find_extension(json, "KHR_materials_anisotropy")) {
     m.anisotropy = factor(*x, "anisotropyStrength", 0);
@@ -162,13 +165,13 @@ Material read_lobe(const JsonCursor& lobe) {
   return draft.material;
 }
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings) {
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures) {
   std::vector<SurfaceMaterial> result;
   for (const JsonCursor& json : document.root().elements("materials")) {
     SurfaceMaterial m;
     m.name = json.text("name", "");
     read_base(m, json, textures);
-    read_alpha(m, json, warnings);
+    read_alpha(m, json);
     read_extensions(m, json, textures);
     read_extras(m, json);
     result.push_back(std::move(m));

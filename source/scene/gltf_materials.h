@@ -8,7 +8,7 @@
 
 namespace steradian::scene {
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings);
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures);
 
 // A lobe as `steradian eval` takes it: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
 Material read_lobe(const JsonCursor& lobe);

@@ -17,6 +17,10 @@ class GltfTextures {
   // not read.
   TextureUse use(const JsonCursor& owner, const char* key, ColorSpace space);
 
+  // The picture that a cursor's number refers to, into images(); -1: its format is not read.
+  int image(const JsonCursor& index) { return scene_image(index.as_index(document_.count("images"), "image")); }
+  const std::vector<Image>& images() const { return images_; }
+
  private:
   int scene_image(int gltf_image);
   int load_image(int gltf_image);

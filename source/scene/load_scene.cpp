@@ -6,6 +6,8 @@
 #include "scene/emitters.h"
 #include "scene/framing.h"
 #include "scene/gltf_document.h"
+#include "scene/gltf_environment.h"
+#include "scene/gltf_extensions.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
@@ -13,22 +15,6 @@
 
 namespace steradian::scene {
 namespace {
-
-bool is_supported(const std::string& extension) {
-  for (const char* known : {"EXT_lights_area", "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
-                            "KHR_materials_sheen", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-                            "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"})
-    if (extension == known) return true;
-  return false;
-}
-
-void check_extensions(const JsonCursor& root, Warnings& warnings) {
-  for (const JsonCursor& name : root.elements("extensionsRequired"))
-    if (!is_supported(name.as_text()))
-      name.fail("the file requires " + name.as_text() + ", which is not supported", "export it without this extension");
-  for (const JsonCursor& name : root.elements("extensionsUsed"))
-    if (!is_supported(name.as_text())) warnings.not_supported(name.as_text());
-}
 
 std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& nodes, Warnings& warnings) {
   std::vector<Camera> result;
@@ -59,6 +45,12 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
   return result;
 }
 
+// More than half: such a surface has no shadow rather than a black one.
+bool lets_light_through(const SurfaceMaterial& m) {
+  if (!m.specular_override.empty()) return false;
+  return (m.alpha_mode == AlphaMode::blend && m.base_color.w < 0.5f) || m.transmission > 0.5f;
+}
+
 std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, const LoadOptions& options, Warnings& warnings) {
@@ -70,6 +62,24 @@ void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, cons
     warnings.say("the " + counted(kept.too_many, "weakest area light") + " dropped, " + share + " % of all their power; " +
                  std::to_string(options.max_lights) + " are kept (max-lights)");
   }
+}
+
+// What Blender's exporter multiplies punctual lights by, but not emission: lumens a watt.
+constexpr double kExportersFactor = 683;
+
+void scale_to_emission(Scene& scene, const std::string& generator, LightUnits units, Warnings& warnings) {
+  if (scene.punctual_lights.empty() || units == LightUnits::candela) return;
+  if (units == LightUnits::from_generator) {
+    // "Khronos glTF Blender I/O v3.4.50": from 3.4 on.
+    const std::size_t at = generator.find("Blender I/O v");
+    int major = 0, minor = 0;
+    if (at == std::string::npos || std::sscanf(generator.c_str() + at, "Blender I/O v%d.%d", &major, &minor) != 2) return;
+    if (major < 3 || (major == 3 && minor < 4)) return;
+    warnings.say(
+        "the file's point, spot and directional lights are divided by 683: Blender's exporter multiplies them by 683 lm/W and "
+        "leaves emission in watts (light-units candela keeps them)");
+  }
+  for (PunctualLight& light : scene.punctual_lights) light.intensity = light.intensity / kExportersFactor;
 }
 
 // Below this extent the products of three lengths, in single precision, vanish. A scene of one point is no smaller than
@@ -86,15 +96,18 @@ void check_extent(const Scene& scene, const std::string& path) {
 
 LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options) {
   Warnings warnings;
-  check_extensions(document.root(), warnings);
+  FileFacts facts = read_file_facts(document.root(), warnings);
   const GltfNodes nodes = read_nodes(document);
 
   Scene scene;
   GltfTextures textures(document, scene.images, warnings);
-  scene.materials = read_materials(document, textures, warnings);
+  scene.materials = read_materials(document, textures);
   scene.meshes = read_meshes(document, nodes, scene.materials, warnings);
+  for (Mesh& mesh : scene.meshes) mesh.casts_shadow = !lets_light_through(scene.materials[static_cast<std::size_t>(mesh.material)]);
   scene.cameras = read_cameras(document, nodes, warnings);
   scene.punctual_lights = read_punctual_lights(document, nodes);
+  scale_to_emission(scene, facts.generator, options.light_units, warnings);
+  scene.environment = read_image_based_light(document, textures);
   add_area_lights(document, nodes, scene);
   const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
   say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights)), without_area, options, warnings);
@@ -103,19 +116,27 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   check_extent(scene, document.path);
   if (nodes.zero_scaled > 0) warnings.say(counted(nodes.zero_scaled, "node") + " of scale zero left out");
   if (scene.meshes.empty()) warnings.say("the scene has no triangles");
+  if (!options.environment.empty()) {
+    Environment environment = load_environment(options.environment, options.limits);
+    if (environment.repaired > 0)
+      warnings.say(counted(environment.repaired, "value") + " of the environment " + environment.name +
+                   " that no radiance has (negative, infinite, none) made 0 or the largest of the others");
+    scene.environment = std::make_shared<const Environment>(std::move(environment));
+  }
   if (!options.lights.empty()) {
     add_lights(scene, options.lights);
-  } else if (wants_light(scene)) {
+  } else if (!scene.environment && wants_light(scene)) {
     warnings.say(scene.area_lights.empty()
                      ? "the scene has no lights: a default area light shines from above"
                      : "the scene's emissive textures are too weak to light it: a default area light shines from above");
     scene.area_lights.push_back(default_light(scene));
   }
   if (scene.cameras.empty()) {
-    scene.cameras.push_back(framing_camera(scene));
+    scene.cameras.push_back(framing_camera(scene, options.aspect));
     warnings.say("the scene has no camera: a default one frames it from the front");
   }
-  return {std::move(scene), warnings.sentences()};
+  facts.not_supported = warnings.features();
+  return {std::move(scene), std::move(facts), warnings.sentences()};
 }
 
 LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {

@@ -23,8 +23,12 @@ class Warnings {
 
   // A feature that is left out; all are named together in the last sentence.
   void not_supported(const std::string& feature) {
-    if (features_.insert(feature).second && features_.size() <= kMostNamed) feature_list_ += (feature_list_.empty() ? "" : ", ") + feature;
+    if (!features_.insert(feature).second || features_.size() > kMostNamed) return;
+    features_in_order_.push_back(feature);
+    feature_list_ += (feature_list_.empty() ? "" : ", ") + feature;
   }
+
+  const std::vector<std::string>& features() const { return features_in_order_; }
 
   // In the order in which their kinds were met.
   std::vector<std::string> sentences() const {
@@ -56,6 +60,7 @@ class Warnings {
   std::vector<Kind> kinds_;
   std::unordered_map<std::string, std::size_t> index_;  // into kinds_, by what
   std::unordered_set<std::string> features_;
+  std::vector<std::string> features_in_order_;
   std::string feature_list_;
 };
 

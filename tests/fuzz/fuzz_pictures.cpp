@@ -1,5 +1,6 @@
 #include "image/decode_image.h"
 #include "image/exr.h"
+#include "image/hdr.h"
 #include "steradian/error.h"
 #include "targets.h"
 
@@ -16,6 +17,11 @@ void picture(Input input) {
   Budget budget(kPictureLimits);
   try {
     image::decode_exr(input, "picture.exr", budget);
+  } catch (const Error&) {
+  }
+  try {
+    Budget own(kPictureLimits);
+    image::decode_hdr(input, "picture.hdr", own);
   } catch (const Error&) {
   }
   texture(input);

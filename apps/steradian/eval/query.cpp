@@ -67,8 +67,17 @@ constexpr LightField kPointFields[] = {
     {"intensity", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
 };
 
-Light flat(Shape shape, const LightKeys& k) { return AreaLight{std::move(shape), k.radiance, k.two_sided}; }
-Light solid(Shape shape, const LightKeys& k) { return AreaLight{std::move(shape), k.radiance}; }
+Light solid(Shape shape, const LightKeys& k) {
+  AreaLight light;
+  light.shape = std::move(shape);
+  light.radiance = k.radiance;
+  return light;
+}
+Light flat(Shape shape, const LightKeys& k) {
+  Light light = solid(std::move(shape), k);
+  std::get<AreaLight>(light).two_sided = k.two_sided;
+  return light;
+}
 
 Light polygon_of(LightKeys&& k) { return flat(std::move(k.polygon), k); }
 Light rect_of(LightKeys&& k) {

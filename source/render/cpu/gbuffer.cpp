@@ -32,6 +32,8 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   tile.coat_alpha[i] = s.coat_alpha;
   put(tile.coat_normal, i, s.coat_normal);
   put(tile.radiance, i, s.emission);
+  put(tile.passes, i, s.passes);
+  tile.any_passing |= weighs(s.passes);
   tile.material[i] = s.material;
   tile.any_surface = true;
   tile.any_diffuse |= weighs(s.albedo);
@@ -47,7 +49,7 @@ Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]};
 
 void put_nothing(SurfaceTile& tile, std::size_t i) {
   for (TileVector* v : {&tile.position, &tile.normal, &tile.geometric_normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent,
-                        &tile.sheen, &tile.coat_normal, &tile.radiance})
+                        &tile.sheen, &tile.coat_normal, &tile.passes, &tile.radiance})
     put(*v, i, {});
   tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
   tile.coat[i] = tile.fresnel_loss[i] = 0;
@@ -75,14 +77,13 @@ Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   return s;
 }
 
-void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits) {
+void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits, const TilePlane* behind) {
   alignas(64) RTCRayHit16 packet;
   alignas(64) int valid[16];
   const Vec3f origin = camera.origin();
   std::fill_n(packet.ray.org_x, 16, origin.x);
   std::fill_n(packet.ray.org_y, 16, origin.y);
   std::fill_n(packet.ray.org_z, 16, origin.z);
-  std::fill_n(packet.ray.tnear, 16, 0.0f);
   std::fill_n(packet.ray.time, 16, 0.0f);
   std::fill_n(packet.ray.mask, 16, 1u);
   std::fill_n(packet.ray.id, 16, 0u);
@@ -90,7 +91,17 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
   for (int by = 0; by < kTileSide; by += 4)
     for (int bx = 0; bx < kTileSide; bx += 4) {
       const std::size_t first = tile_slot(bx, by);
-      for (int i = 0; i < 16; ++i) valid[i] = bx + i % 4 < area.width && by + i / 4 < area.height ? -1 : 0;
+      int any = 0;
+      for (int i = 0; i < 16; ++i) {
+        const std::size_t slot = first + static_cast<std::size_t>(i);
+        const bool traced = bx + i % 4 < area.width && by + i / 4 < area.height && (behind == nullptr || (*behind)[slot] > 0);
+        any |= valid[i] = traced ? -1 : 0;
+        packet.ray.tnear[i] = behind != nullptr ? (*behind)[slot] : 0;
+      }
+      if (any == 0) {
+        std::fill_n(&hits.geometry[first], 16, RTC_INVALID_GEOMETRY_ID);
+        continue;
+      }
       camera.block_directions(static_cast<float>(area.x + bx) + place.x, static_cast<float>(area.y + by) + place.y, packet.ray.dir_x,
                               packet.ray.dir_y, packet.ray.dir_z);
       std::fill_n(packet.ray.tfar, 16, std::numeric_limits<float>::infinity());
@@ -101,6 +112,7 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
       std::copy_n(packet.hit.primID, 16, &hits.triangle[first]);
       std::copy_n(packet.hit.u, 16, &hits.u[first]);
       std::copy_n(packet.hit.v, 16, &hits.v[first]);
+      std::copy_n(packet.ray.tfar, 16, &hits.distance[first]);
       std::copy_n(packet.ray.dir_x, 16, &hits.direction.x[first]);
       std::copy_n(packet.ray.dir_y, 16, &hits.direction.y[first]);
       std::copy_n(packet.ray.dir_z, 16, &hits.direction.z[first]);
@@ -108,7 +120,7 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
 }
 
 void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
-  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = false;
+  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = tile.any_passing = false;
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (hits.geometry[i] == RTC_INVALID_GEOMETRY_ID) {
       put_nothing(tile, i);

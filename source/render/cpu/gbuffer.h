@@ -15,12 +15,14 @@ struct TileArea {
 // What the primary rays of a tile hit, by slot (tile_slot). geometry: index of the mesh, or RTC_INVALID_GEOMETRY_ID.
 struct TileHits {
   std::array<unsigned, kTilePixels> geometry, triangle;
-  std::array<float, kTilePixels> u, v;
+  std::array<float, kTilePixels> u, v, distance;
   alignas(64) TileVector direction;
 };
 
-// One primary ray per pixel, through `place` within the pixel.
-void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits);
+// One primary ray per pixel, through `place` within the pixel. behind: nothing nearer than that is hit, and nothing at all where it
+// is 0; null: from the camera on.
+void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits,
+                const TilePlane* behind = nullptr);
 
 // The surfaces that were hit. tile.radiance becomes the emission.
 void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile);

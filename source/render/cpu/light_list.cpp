@@ -102,7 +102,7 @@ PackLight prepare_light(const PreparedPolygon& polygon) {
   return light;
 }
 
-std::vector<PackLight> prepare_lights(const Scene& scene) {
+std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLight> beside) {
   std::vector<PackLight> lights;
   const auto add = [&](PackLight light) {
     const Vec3f& r = light.radiance;
@@ -115,6 +115,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene) {
       light.textured = std::make_shared<TexturedLight>(a, light.polygon, scene.images);
     add(std::move(light));
   }
+  for (const AreaLight& a : beside) add(from_area_light(a));
   for (const PunctualLight& p : scene.punctual_lights) {
     PackLight light;
     light.shape = packed::prepare(p);

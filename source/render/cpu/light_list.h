@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -40,8 +41,8 @@ struct PackLight {
 
 PackLight prepare_light(const PreparedPolygon& polygon);
 
-// All lights of a scene. Lights without area, power or volume are left out.
-std::vector<PackLight> prepare_lights(const Scene& scene);
+// All lights of a scene, and area lights beside them, which must stay. Lights without area, power or volume are left out.
+std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLight> beside = {});
 
 // Lights that may reach a surface of the tile: conservative bounds of positions and normals against the light's plane
 // and the surfaces' horizons.

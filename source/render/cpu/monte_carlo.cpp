@@ -19,6 +19,25 @@ namespace {
 using lobes::Lobe;
 using reference::AzimuthSampler;
 
+// Mean of samples as they come, and its variance.
+// Source: Welford 1962.
+class RunningMean {
+ public:
+  void add(Vec3d x) {
+    const Vec3d delta = x - mean_;
+    mean_ += delta / static_cast<double>(++count_);
+    squares_ += delta * (x - mean_);
+  }
+  Estimate estimate() const {
+    const auto n = static_cast<double>(count_);
+    return {mean_, count_ > 1 ? squares_ / (n * (n - 1)) : Vec3d{}};
+  }
+
+ private:
+  Vec3d mean_{}, squares_{};
+  int count_ = 0;
+};
+
 // Sum over the lobes; radiance of a unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
   Vec3d sum{};
@@ -39,8 +58,8 @@ struct DirectSampler::Scratch {
   std::vector<Lobe> lobes;
 };
 
-DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows)
-    : scene_(scene), shadows_(shadows), scratch_(std::make_unique<Scratch>()) {
+DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around)
+    : scene_(scene), shadows_(shadows), around_(around), scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
     if (area.is_flat()) {
@@ -69,11 +88,34 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
       return true;
     });
     if (scratch_->lobes.empty()) continue;
-    const Estimate part = estimate_in(frame, surface, spp, random);
-    sum.mean += part.mean;
-    sum.variance += part.variance;
+    sum += estimate_in(frame, surface, spp, random);
   }
   return sum;
+}
+
+// Of scratch_->lobes, as an area light's: the map's density and the lobes', balance heuristic.
+Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d geometric, int spp, reference::Random& random) const {
+  const std::vector<Lobe>& lobes = scratch_->lobes;
+  const auto contribution = [&](Vec3d l, Vec3d direction) -> Vec3d {
+    if (!(l.z > 0)) return {};
+    double pdf = around_->pdf(direction);
+    for (const Lobe& lobe : lobes) pdf += lobe.pdf(l);
+    if (!(pdf > 0) || (shadows_ != nullptr && (!(dot(direction, geometric) > 0) || shadows_->blocked_towards(p, direction)))) return {};
+    return evaluate(lobes, l) * around_->radiance(direction) / pdf;
+  };
+  RunningMean mean;
+  for (int i = 0; i < spp; ++i) {
+    const double u = random.uniform(), v = random.uniform();
+    const Vec3d from_map = around_->sample(u, v);
+    Vec3d x = contribution(frame.to_local(from_map), from_map);
+    for (const Lobe& lobe : lobes) {
+      const double a = random.uniform(), b = random.uniform();
+      const Vec3d by_lobe = lobe.sample(a, b);
+      x += contribution(by_lobe, frame.to_world(by_lobe));
+    }
+    mean.add(x);
+  }
+  return mean.estimate();
 }
 
 Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random) {
@@ -136,7 +178,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
       return f.x > 0 || f.y > 0 || f.z > 0 ? f * incident(l) : Vec3d{};
     };
 
-    Vec3d mean{}, squares{};
+    RunningMean mean;
     for (int i = 0; i < spp; ++i) {
       const double u = random.uniform(), w = random.uniform();
       const Vec3d to_light = sampler.sample(u, w);
@@ -146,13 +188,11 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
         const Vec3d by_lobe = lobe.sample(a, b);
         if (by_lobe.z > 0) x += contribution(by_lobe, sampler.pdf(by_lobe));
       }
-      const Vec3d delta = x - mean;  // Welford 1962
-      mean += delta / static_cast<double>(i + 1);
-      squares += delta * (x - mean);
+      mean.add(x);
     }
-    result.mean += mean;
-    if (spp > 1) result.variance += squares / (static_cast<double>(spp) * (spp - 1));
+    result += mean.estimate();
   }
+  if (around_ != nullptr) result += estimate_environment(frame, p, geometric, spp, random);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/surface.h"
+#include "render/environment/environment_sampler.h"
 
 namespace steradian {
 
@@ -15,6 +16,12 @@ namespace steradian {
 struct Estimate {
   Vec3d mean{};
   Vec3d variance{};  // of the mean
+
+  Estimate& operator+=(const Estimate& other) {
+    mean += other.mean;
+    variance += other.variance;
+    return *this;
+  }
 };
 
 // Which lobes are estimated; the others count as done elsewhere.
@@ -22,8 +29,8 @@ enum class LobeChoice { all, specular };
 
 class DirectSampler {
  public:
-  // shadows may be null: nothing occludes. Keeps references to the scene and the rays.
-  DirectSampler(const Scene& scene, const RayScene* shadows);
+  // shadows may be null: nothing occludes; so may the environment. Keeps references to the scene, the rays and the environment.
+  DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around = nullptr);
   ~DirectSampler();
   DirectSampler(const DirectSampler&) = delete;
 
@@ -35,9 +42,11 @@ class DirectSampler {
   struct Light;
   struct Scratch;
   // Of scratch_->lobes, which share the frame's normal.
+  Estimate estimate_environment(const Frame& frame, Vec3d position, Vec3d geometric, int spp, reference::Random& random) const;
   Estimate estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random);
   const Scene& scene_;
   const RayScene* shadows_;
+  const environment::EnvironmentSampler* around_;
   std::vector<Light> lights_;
   std::unique_ptr<Scratch> scratch_;
 };

@@ -21,6 +21,7 @@
 #include "render/cpu/shadow_pass.h"
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
+#include "render/environment/environment_light.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -56,6 +57,8 @@ struct Pilot {
 constexpr int kPilotPairs = 32;  // enough to rank tiles; the final estimate does not use them
 constexpr int kMinPairs = 64;    // below, the estimated variance is too rough for a z-test
 constexpr int kMaxPairs = 1 << 16;
+constexpr int kMostLayers = 8;        // surfaces that light passes, one behind the other, and what is behind them
+constexpr float kLeastShare = 1e-3f;  // of the light from behind; less is black
 
 class Renderer {
  public:
@@ -66,12 +69,16 @@ class Renderer {
         method_(choose_method(scene, options)),
         camera_(find_camera(scene, options.camera), options.width, options.height),
         rays_(scene),
-        lights_(prepare_lights(scene)),
+        environment_(scene.environment ? std::make_unique<environment::EnvironmentLight>(scene) : nullptr),
+        lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
         direct_(direct_table_for(active_simd())),
         specular_(method_),
         tiles_x_((options.width + kTileSide - 1) / kTileSide),
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
-        samplers_([this] { return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &rays_ : nullptr); }),
+        samplers_([this] {
+          return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &rays_ : nullptr,
+                                                 environment_ ? &environment_->sampler() : nullptr);
+        }),
         arena_(threads_) {
     if (options.shadows != Shadows::off && !method_.estimates()) shadows_.emplace(scene_, lights_, rays_, options.shadows);
     if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, rays_, options_, threads_);
@@ -96,6 +103,11 @@ class Renderer {
                     direct_clock_.time(threads_),
                     specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
+    if (environment_) {
+      stats.passes.push_back(environment_clock_.time(threads_));
+      stats.environment_spots = environment_->share_of_spots();
+      stats.diffuse_residual = environment_->diffuse_residual();
+    }
     if (shadows_) {
       stats.passes.push_back(shadow_clock_.time(threads_));
       ShadowCounts counts;
@@ -136,22 +148,28 @@ class Renderer {
     });
   }
 
-  // One stream of random numbers per pixel and primary sample: no result depends on who computes what.
-  reference::Random random_of(TileArea a, int x, int y, int sample, std::uint64_t phase) const {
+  // What a surface's samples are for: primary sample, layer of surfaces that light passes, pilot run (1) or picture (0).
+  struct Purpose {
+    int sample, layer;
+    std::uint64_t phase;
+  };
+
+  // One stream of random numbers per pixel and purpose: no result depends on who computes what.
+  reference::Random random_of(TileArea a, int x, int y, Purpose purpose) const {
     const auto pixel =
         static_cast<std::uint64_t>(a.y + y) * static_cast<std::uint64_t>(options_.width) + static_cast<std::uint64_t>(a.x + x);
-    return reference::Random(options_.seed,
-                             (pixel * static_cast<std::uint64_t>(options_.aa) + static_cast<std::uint64_t>(sample)) * 2 + phase);
+    const auto sample = pixel * static_cast<std::uint64_t>(options_.aa) + static_cast<std::uint64_t>(purpose.sample);
+    return reference::Random(options_.seed + (static_cast<std::uint64_t>(purpose.layer) << 32), sample * 2 + purpose.phase);
   }
 
   template <class Use>  // use(x, y, slot, estimate) for every pixel with a surface
-  void estimate_tile(const SurfaceTile& tile, TileArea a, int sample, int pairs, std::uint64_t phase, Use use) {
+  void estimate_tile(const SurfaceTile& tile, TileArea a, Purpose purpose, int pairs, Use use) {
     DirectSampler& sampler = *samplers_.local();
     for (int y = 0; y < a.height; ++y)
       for (int x = 0; x < a.width; ++x) {
         const std::size_t slot = tile_slot(x, y);
         if (tile.material[slot] == nullptr) continue;
-        reference::Random random = random_of(a, x, y, sample, phase);
+        reference::Random random = random_of(a, x, y, purpose);
         const Vec3f view{tile.view.x[slot], tile.view.y[slot], tile.view.z[slot]};
         use(x, y, slot, sampler.estimate(surface_in(tile, slot), view, method_.estimated_lobes, pairs, random));
       }
@@ -160,10 +178,38 @@ class Renderer {
   // A thread's own: memory fresh from the system for every tile would cost more than its rays.
   SurfaceTile* workspace() { return tiles_.local().get(); }
 
-  void fill(int index, int sample, SurfaceTile& tile) {
+  // behind: what to look past; null for the nearest surfaces. Returns where those lie.
+  TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr) {
     TileHits hits;
-    rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits); });
-    gbuffer_clock_.run([&] { shade_tile(scene_, hits, tile); });
+    rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
+    gbuffer_clock_.run([&] {
+      shade_tile(scene_, hits, tile);
+      if (environment_ && options_.background) show_background(hits, tile, behind);
+    });
+    TilePlane distances{};
+    std::copy(hits.distance.begin(), hits.distance.end(), distances.begin());
+    return distances;
+  }
+
+  void show_background(const TileHits& hits, SurfaceTile& tile, const TilePlane* behind) const {
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if (tile.material[i] != nullptr || (behind != nullptr && !((*behind)[i] > 0))) continue;
+      const Vec3f seen = environment_->background({hits.direction.x[i], hits.direction.y[i], hits.direction.z[i]});
+      tile.radiance.x[i] = seen.x;
+      tile.radiance.y[i] = seen.y;
+      tile.radiance.z[i] = seen.z;
+    }
+  }
+
+  // All of the environment but its spots, which are among the lights.
+  void add_environment(SurfaceTile& tile) const {
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if (tile.material[i] == nullptr) continue;
+      const Vec3f r = environment_->reflected(surface_in(tile, i), {tile.view.x[i], tile.view.y[i], tile.view.z[i]});
+      tile.radiance.x[i] += r.x;
+      tile.radiance.y[i] += r.y;
+      tile.radiance.z[i] += r.z;
+    }
   }
 
   // Pairs per tile so that the rms standard error is the target's share of the rms radiance, from a pilot run.
@@ -175,7 +221,7 @@ class Renderer {
       fill(index, 0, *tile);
       Pilot& pilot = pilots[static_cast<std::size_t>(index)];
       sampling_clock_.run([&] {
-        estimate_tile(*tile, area(index), 0, kPilotPairs, 1, [&](int, int, std::size_t, const Estimate& e) {
+        estimate_tile(*tile, area(index), {0, 0, 1}, kPilotPairs, [&](int, int, std::size_t, const Estimate& e) {
           pilot.variance += (e.variance.x + e.variance.y + e.variance.z) * kPilotPairs;
           pilot.square += dot(e.mean, e.mean);
         });
@@ -262,36 +308,66 @@ class Renderer {
     });
   }
 
+  // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
+  void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture) {
+    const float weight = 1.0f / static_cast<float>(options_.aa);
+    const auto reaching = lights_reaching(lights_, tile);
+    if (shadows_) {
+      for (const PackLight* light : reaching) add_shadowed(tile, *light);
+    } else {
+      add_light(tile, reaching);
+    }
+    if (environment_ && !method_.estimates()) environment_clock_.run([&] { add_environment(tile); });
+    if (method_.estimates())
+      sampling_clock_.run([&] {
+        std::vector<Vec3f>& variance = picture.layers.at("variance");
+        estimate_tile(tile, a, {sample, layer, 0}, pairs, [&](int x, int y, std::size_t slot, const Estimate& e) {
+          tile.radiance.x[slot] += static_cast<float>(e.mean.x);
+          tile.radiance.y[slot] += static_cast<float>(e.mean.y);
+          tile.radiance.z[slot] += static_cast<float>(e.mean.z);
+          const auto pixel =
+              static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(a.x + x);
+          const Vec3f share = shares != nullptr ? Vec3f{shares->x[slot], shares->y[slot], shares->z[slot]} : Vec3f{1, 1, 1};
+          variance[pixel] += static_cast<Vec3f>(e.variance) * share * share * (weight * weight);
+        });
+      });
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        const std::size_t i = tile_slot(x, y);
+        const Vec3f radiance{tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]};
+        const Vec3f share = shares != nullptr ? Vec3f{shares->x[i], shares->y[i], shares->z[i]} : Vec3f{1, 1, 1};
+        picture.at(a.x + x, a.y + y) += radiance * share * weight;
+      }
+  }
+
+  // Multiplies the shares by what the tile's surfaces let through, and moves `behind` past them: 0 where nothing comes through.
+  static void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind) {
+    constexpr float kPast = 1 + 2e-5f;  // some roundings of a distance and of a triangle's coordinates
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      shares.x[i] *= tile.passes.x[i];
+      shares.y[i] *= tile.passes.y[i];
+      shares.z[i] *= tile.passes.z[i];
+      const bool any = tile.material[i] != nullptr && std::max({shares.x[i], shares.y[i], shares.z[i]}) > kLeastShare;
+      behind[i] = any ? behind[i] * kPast : 0;
+      if (!any) shares.x[i] = shares.y[i] = shares.z[i] = 0;
+    }
+  }
+
   void render_tile(int index, int pairs, Picture& picture) {
     SurfaceTile* tile = workspace();
     const TileArea a = area(index);
-    const float weight = 1.0f / static_cast<float>(options_.aa);
     for (int s = 0; s < options_.aa; ++s) {
-      fill(index, s, *tile);
+      TilePlane behind = fill(index, s, *tile);
       if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
-      const auto reaching = lights_reaching(lights_, *tile);
-      if (shadows_) {
-        for (const PackLight* light : reaching) add_shadowed(*tile, *light);
-      } else {
-        add_light(*tile, reaching);
+      light_tile(*tile, a, s, 0, pairs, nullptr, picture);
+      if (!tile->any_passing) continue;
+      TileVector shares;
+      for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
+      for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
+        look_through(*tile, shares, behind);
+        behind = fill(index, s, *tile, &behind);
+        light_tile(*tile, a, s, layer, pairs, &shares, picture);
       }
-      if (method_.estimates())
-        sampling_clock_.run([&] {
-          std::vector<Vec3f>& variance = picture.layers.at("variance");
-          estimate_tile(*tile, a, s, pairs, 0, [&](int x, int y, std::size_t slot, const Estimate& e) {
-            tile->radiance.x[slot] += static_cast<float>(e.mean.x);
-            tile->radiance.y[slot] += static_cast<float>(e.mean.y);
-            tile->radiance.z[slot] += static_cast<float>(e.mean.z);
-            const auto pixel =
-                static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(a.x + x);
-            variance[pixel] += static_cast<Vec3f>(e.variance) * (weight * weight);
-          });
-        });
-      for (int y = 0; y < a.height; ++y)
-        for (int x = 0; x < a.width; ++x) {
-          const std::size_t i = tile_slot(x, y);
-          picture.at(a.x + x, a.y + y) += Vec3f{tile->radiance.x[i], tile->radiance.y[i], tile->radiance.z[i]} * weight;
-        }
     }
   }
 
@@ -302,6 +378,7 @@ class Renderer {
   const DirectMethod method_;
   const CameraRays camera_;
   const RayScene rays_;
+  const std::unique_ptr<const environment::EnvironmentLight> environment_;  // null without one
   const std::vector<PackLight> lights_;
   const DirectTable& direct_;
   const SpecularPass specular_;
@@ -319,7 +396,7 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"},
-      sampling_clock_{"sampling"}, capture_clock_{"indirect: surfaces"}, shadow_clock_{"shadows"};
+      sampling_clock_{"sampling"}, environment_clock_{"environment"}, capture_clock_{"indirect: surfaces"}, shadow_clock_{"shadows"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

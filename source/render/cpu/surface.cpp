@@ -122,9 +122,22 @@ void add_sheen(Surface& s, const Scene& scene, const Mesh& mesh, const Corner& a
   s.albedo *= under;
   s.f0 *= under;
   s.f90 *= under;
+  s.passes *= under;
 }
 
 Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1 - t) + b * t; }
+
+float covered(const SurfaceMaterial& m, const Vec4f& base) {
+  return m.alpha_mode == AlphaMode::blend ? std::clamp(base.w, 0.0f, 1.0f) : 1.0f;
+}
+
+// The rest of the surface's place shows what lies behind.
+void cover(Surface& s, float share) {
+  if (share == 1) return;
+  for (Vec3f* part : {&s.emission, &s.albedo, &s.f0, &s.f90, &s.sheen, &s.passes}) *part *= share;
+  s.coat *= share;
+  s.passes += Vec3f{1, 1, 1} * (1 - share);
+}
 
 // A surface that is seen is seen from above: where interpolation or a normal map turns the normal away from the viewer, it is
 // turned back until the view stands just above its horizon.
@@ -162,6 +175,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     s.normal = s.coat_normal = n * side;
     s.tangent = any_tangent(n);
     s.emission = color;
+    cover(s, covered(m, base));
     return s;
   }
   if (m.emits() && (front || m.double_sided)) {
@@ -218,6 +232,13 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   s.f0 = mix(dielectric, color, metallic);
   s.f90 = mix(Vec3f{specular, specular, specular}, Vec3f{1, 1, 1}, metallic);
 
+  if (m.transmission > 0 && m.specular_override.empty()) {
+    float share = m.transmission;
+    if (m.transmission_texture.present()) share *= texel(scene, mesh, at, m.transmission_texture).x;
+    const float c = std::clamp(1 - dot(s.normal, view), 0.0f, 1.0f), reflected = largest_f0 + (specular - largest_f0) * c * c * c * c * c;
+    s.albedo *= 1 - share;
+    s.passes = color * ((1 - metallic) * share * (1 - std::min(reflected, 1.0f)));
+  }
   if (scene.multiple_scattering) scatter_between_facets(s, view);
   add_sheen(s, scene, mesh, at, view);
 
@@ -235,10 +256,13 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     s.f90 *= under;
     s.sheen *= under;
     s.emission *= under;
+    s.passes *= under;
   }
   if (!m.specular_override.empty()) {
     s.f0 = s.f90 = {};
     s.fresnel_loss = 0;
+  } else {
+    cover(s, covered(m, base));
   }
   return s;
 }

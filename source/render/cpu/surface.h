@@ -10,7 +10,8 @@ namespace steradian {
 // A back face shows the front's frame with its normal reversed: bumps and directions of brushing stay where they are.
 //
 // Radiance = emission + diffuse + specular (+ sheen) (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - F), F the
-// largest channel of the dielectric's Fresnel: what its specular lobe reflects does not reach it.
+// largest channel of the dielectric's Fresnel: what its specular lobe reflects does not reach it. All of it already weighs what the
+// surface covers of its place (alpha mode blend); with lobes of its own (extras) a surface is opaque.
 struct Surface {
   Vec3f position;
   Vec3f normal;            // shading normal, unit; the view is above its horizon, as it is above the triangle
@@ -25,6 +26,7 @@ struct Surface {
   Vec3f sheen;  // colour of Charlie's lobe; black: none
   float sheen_alpha = 1;
   float coat = 0, coat_alpha = 1;  // clear coat: weight, width; F0 0.04
+  Vec3f passes;                    // share of the light from behind that comes through: a blended or thin surface, seen from here
   const SurfaceMaterial* material = nullptr;
 };
 

@@ -39,9 +39,10 @@ struct SurfaceTile {
   TileVector coat_normal;
   TileVector sheen;  // colour of Charlie's lobe, black where there is none
   alignas(64) TilePlane sheen_alpha;
+  TileVector passes;                                         // share of the light from behind; only where any_passing
   TileVector radiance;                                       // the result
   std::array<const SurfaceMaterial*, kTilePixels> material;  // null without a surface
-  bool any_surface, any_diffuse, any_specular, any_sheen, any_coat, any_override;
+  bool any_surface, any_diffuse, any_specular, any_sheen, any_coat, any_override, any_passing;
 };
 
 }  // namespace steradian

@@ -1,0 +1,177 @@
+#include "render/environment/environment_light.h"
+
+#include <algorithm>
+#include <array>
+
+#include "lobes/lobe.h"
+
+namespace steradian::environment {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+// Of the map that integrals see: the sun's disc is one and a half texels wide.
+constexpr int kMostColumns = 1024;
+// Cones that stand for a lobe. What they are off by is measured by EnvironmentRender.SpecularAgreesWithTheReference.
+constexpr int kCones = 32;
+// Distance of the spots' polygons over the scene's radius: seen from anywhere in the scene they move by less than 1e-4 rad.
+constexpr double kDistance = 1e4;
+
+std::vector<AreaLight> lights_of(const Scene& scene, const SplitMap& split) {
+  const Vec3d center = (scene.bounds_min + scene.bounds_max) * 0.5;
+  const double radius = length(scene.bounds_max - scene.bounds_min) / 2, distance = kDistance * (radius > 0 ? radius : 1);
+  std::vector<AreaLight> lights;
+  for (const PolygonLight& spot : split.spots) {
+    PolygonLight polygon = spot;
+    for (Vec3d& v : polygon.vertices) v = center + v * distance;
+    AreaLight light = area_light(std::move(polygon));
+    light.name = scene.environment->name;
+    lights.push_back(std::move(light));
+  }
+  return lights;
+}
+
+constexpr std::size_t kGrazingSteps = 64;
+
+double integrate_mean_grazing(double cos_view) {
+  constexpr int kSteps = 48;
+  const Vec3d view{std::sqrt(1 - cos_view * cos_view), 0, cos_view};
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double square = (i + 0.5) / kSteps, phi = kPi * (j + 0.5) / kSteps;  // even in the projected area of the sky
+      const Vec3d l{std::sqrt(square) * std::cos(phi), std::sqrt(square) * std::sin(phi), std::sqrt(1 - square)};
+      sum += std::pow(1 - dot(view, normalized(view + l)), 5);
+    }
+  return sum / (kSteps * kSteps);
+}
+
+// Places in the unit square, even in both directions: a Fibonacci lattice.
+std::array<double, 2> place_of_cone(int i) {
+  const double golden = 0.61803398874989485;
+  const double v = i * golden;
+  return {(i + 0.5) / kCones, v - std::floor(v)};
+}
+
+}  // namespace
+
+double mean_grazing(double cos_view) {
+  static const auto table = [] {
+    std::array<double, kGrazingSteps + 1> t;
+    for (std::size_t i = 0; i <= kGrazingSteps; ++i) t[i] = integrate_mean_grazing(static_cast<double>(i) / kGrazingSteps);
+    return t;
+  }();
+  const double x = std::clamp(cos_view, 0.0, 1.0) * kGrazingSteps;
+  const auto i = std::min(static_cast<std::size_t>(x), kGrazingSteps - 1);
+  const double t = x - static_cast<double>(i);
+  return table[i] * (1 - t) + table[i + 1] * t;
+}
+
+EnvironmentLight::EnvironmentLight(const Scene& scene)
+    : EnvironmentLight(scene, DirectionGrid::averaged(scene.environment->map, kMostColumns)) {}
+
+EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid)
+    : EnvironmentLight(scene, grid, scene.environment->irradiance ? SplitMap{grid, {}, 0} : split_bright_spots(grid)) {}
+
+EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid, const SplitMap& split)
+    : environment_(*scene.environment),
+      spots_(lights_of(scene, split)),
+      share_(split.share),
+      harmonics_(split.rest),
+      filtered_(split.rest),
+      sampler_(grid) {}
+
+// The irradiance, less what the boundary above takes of an even sky.
+Vec3d EnvironmentLight::diffuse(const Material& lobe, Vec3d normal, Vec3d view) const {
+  const Vec3d irradiance = environment_.irradiance ? environment_.irradiance->at(normal) : harmonics_.at(normal);
+  const double passed = lobe.fresnel_loss > 0 ? 1 - lobe.fresnel_loss * mean_grazing(dot(normal, view)) : 1;
+  return lobe.albedo * irradiance * (passed / kPi);
+}
+
+// A GGX lobe by half vectors of those that the view sees, in float.
+//
+//   view      in the lobe's frame, above its surface
+//   returns   sums of the map's mean in every cone times G2 / G1, plain and times (1 - v.h)^5
+// Source: the visible normals and their density: Heitz, "Sampling the GGX distribution of visible normals", 2018, algorithm 1.
+struct EnvironmentLight::GgxSums {
+  Vec3f plain{}, grazing{};
+};
+EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame, Vec3f view, float ax, float ay) const {
+  static const auto discs = [] {  // points of the unit disc, and the square of their radius
+    std::array<Vec3f, kCones> d;
+    for (int i = 0; i < kCones; ++i) {
+      const auto [u, v] = place_of_cone(i);
+      const double r = std::sqrt(u), phi = 2 * kPi * v;
+      d[static_cast<std::size_t>(i)] = static_cast<Vec3f>(Vec3d{r * std::cos(phi), r * std::sin(phi), u});
+    }
+    return d;
+  }();
+  const auto stretched_length = [&](Vec3f w) { return std::sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z); };
+  const Vec3f fx = static_cast<Vec3f>(frame.x), fy = static_cast<Vec3f>(frame.y), fz = static_cast<Vec3f>(frame.z);
+  const float view_length = stretched_length(view);
+  const Vec3f v = Vec3f{ax * view.x, ay * view.y, view.z} * (1 / view_length);
+  const float square = v.x * v.x + v.y * v.y;
+  const Vec3f t1 = square > 0 ? Vec3f{-v.y, v.x, 0} * (1 / std::sqrt(square)) : Vec3f{1, 0, 0}, t2 = cross(v, t1);
+  const float s = 0.5f * (1 + v.z);
+  GgxSums sums;
+  for (const Vec3f& disc : discs) {
+    const float p1 = disc.x, p2 = (1 - s) * std::sqrt(std::max(1 - p1 * p1, 0.0f)) + s * disc.y;
+    const Vec3f n = t1 * p1 + t2 * p2 + v * std::sqrt(std::max(1 - p1 * p1 - p2 * p2, 0.0f));
+    const Vec3f h = normalized(Vec3f{ax * n.x, ay * n.y, std::max(n.z, 1e-6f)});
+    const float v_dot_h = dot(view, h);
+    const Vec3f l = h * (2 * v_dot_h) - view;
+    if (!(l.z > 0) || !(v_dot_h > 0)) continue;
+    const float light_length = stretched_length(l);
+    // G2 / G1 = l.z (|Av| + v.z) / (l.z |Av| + v.z |Al|), where |Aw| is the length in the stretched space.
+    const float weight = l.z * (view_length + view.z) / (l.z * view_length + view.z * light_length) * (1.0f / kCones);
+    // Density per solid angle: G1 D / (4 v.z), G1 = 2 v.z / (v.z + |Av|).
+    const float k = h.x * h.x / (ax * ax) + h.y * h.y / (ay * ay) + h.z * h.z;
+    const float pdf = 1 / (2 * (view.z + view_length) * static_cast<float>(kPi) * ax * ay * k * k);
+    const float width = 0.5f / std::sqrt(kCones * pdf * static_cast<float>(kPi));
+    const Vec3f radiance = filtered_.mean(fx * l.x + fy * l.y + fz * l.z, width) * weight;
+    const float c = std::max(1 - v_dot_h, 0.0f), grazing = c * c * c * c * c;
+    sums.plain += radiance;
+    sums.grazing += radiance * grazing;
+  }
+  return sums;
+}
+
+// Any lobe: its own directions of equal chance, each with as much of the sky about it as it stands for.
+Vec3d EnvironmentLight::through_cones(const Material& material, const Surface& surface, Vec3d normal, Vec3d view) const {
+  const Vec3d tangent = material.tangent == Vec3d{} ? static_cast<Vec3d>(surface.tangent) : material.tangent;
+  const Frame frame = Frame::from_normal_and_tangent(normal, tangent);
+  const Vec3d local_view = normalized(frame.to_local(view));
+  if (!(local_view.z > 0)) return {};
+  if (material.brdf == Brdf::ggx && material.shadowing && !material.multiple_scattering) {
+    const GgxSums sums = ggx_through_cones(frame, static_cast<Vec3f>(local_view), static_cast<float>(material.alpha_x),
+                                           static_cast<float>(material.alpha_y));
+    const Vec3d r = material.f0 * static_cast<Vec3d>(sums.plain - sums.grazing) + material.f90 * static_cast<Vec3d>(sums.grazing);
+    return {std::max(r.x, 0.0), std::max(r.y, 0.0), std::max(r.z, 0.0)};
+  }
+  const lobes::Lobe lobe(lobes::in_frame(material, frame), local_view);
+  if (!lobe.above_surface()) return {};
+  Vec3d sum{};
+  for (int i = 0; i < kCones; ++i) {
+    const auto [u, v] = place_of_cone(i);
+    const Vec3d l = lobe.sample(u, v);
+    if (!(l.z > 0)) continue;
+    const double pdf = lobe.pdf(l);
+    if (!(pdf > 0)) continue;
+    // A disc of solid angle 1 / (n pdf) varies by a quarter of its radius' square in each direction.
+    const double width = 0.5 * std::sqrt(1 / (kCones * pdf * kPi));
+    const auto radiance = static_cast<Vec3d>(filtered_.mean(static_cast<Vec3f>(frame.to_world(l)), static_cast<float>(width)));
+    sum += lobe.radiance(lobe.evaluate(l)) * radiance * (1 / (kCones * pdf));
+  }
+  return {std::max(sum.x, 0.0), std::max(sum.y, 0.0), std::max(sum.z, 0.0)};
+}
+
+Vec3f EnvironmentLight::reflected(const Surface& surface, Vec3f to_view) const {
+  Vec3d sum{};
+  const Vec3d view = normalized(static_cast<Vec3d>(to_view));
+  for (const SurfaceLobe& lobe : lobes_of(surface)) {
+    const Vec3d normal = normalized(static_cast<Vec3d>(lobe.normal));
+    sum += lobe.material.brdf == Brdf::lambert ? diffuse(lobe.material, normal, view) : through_cones(lobe.material, surface, normal, view);
+  }
+  return static_cast<Vec3f>(sum);
+}
+
+}  // namespace steradian::environment
