@@ -101,12 +101,17 @@ LinePlot half_width_plot() {
 LinePlot fits_plot() {
   K k;
   constexpr double c = 0.99, n = 100, phi_high = kQuarterTurn;
-  const integrals::PhongLobe<double> lobe(n, 0);
+  const integrals::PhongLobe<double> lobe(n);
   LinePlot plot{"Errors of the methods' integrands over the peak, n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, -0.03, 0.03, {}};
-  const auto add = [&](const char* name, int colour, auto front) { plot.curves.push_back(error_of(name, c, n, phi_high, colour, front)); };
-  add("lorentzian", 1, [&](const auto& e) { return k.moment_lorentzian_front(e, n, 1); });
-  add("pearson", 2, [&](const auto& e) { return k.moment_pearson_front(e, n, 1); });
-  add("ellipsoid", 5, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, 1); });
+  const auto add = [&](const std::string& name, int colour, auto front) {
+    plot.curves.push_back(error_of(name, c, n, phi_high, colour, front));
+  };
+  for (const int f_is_x : {0, 1}) {
+    const std::string form = f_is_x ? ", f = x" : ", f = 1";
+    add("lorentzian" + form, 1 + 5 * f_is_x, [&](const auto& e) { return k.moment_lorentzian_front(e, n, f_is_x); });
+    add("pearson" + form, 2 + 5 * f_is_x, [&](const auto& e) { return k.moment_pearson_front(e, n, f_is_x); });
+    add("ellipsoid" + form, 5 + 5 * f_is_x, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, f_is_x); });
+  }
   add("series", 3, [&](const auto& e) { return k.moment_series_front(e, lobe.series); });
   add("series high", 0, [&](const auto& e) { return k.moment_series_high_front(e, lobe.series_high); });
   return plot;

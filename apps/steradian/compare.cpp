@@ -240,8 +240,8 @@ void print(const Report& report, const std::string& folder) {
   fmt::print("{:<22} {:>10} {:>11} {:>11} {:>11} {:>10} {:>8}\n", "method", "ms", "relative L2", "rmse", "max", "mean ratio", "FLIP");
   for (const Compared& of : report.methods) {
     const Difference& d = of.run.difference;
-    fmt::print("{:<22} {:>10.1f} {:>11.3e} {:>11.3e} {:>11.3e} {:>10.5f} {:>8.4f}\n", of.run.method, of.run.ms, d.relative_l2, d.rmse, d.max,
-               d.mean_ratio, of.flip);
+    fmt::print("{:<22} {:>10.1f} {:>11.3e} {:>11.3e} {:>11.3e} {:>10.5f} {:>8.4f}\n", of.run.method, of.run.ms, d.relative_l2, d.rmse,
+               d.max, d.mean_ratio, of.flip);
   }
   fmt::print("reference: {}", report.reference_words);
   if (report.reference_error > 0) fmt::print("; as relative L2 it is itself good to {:.1e}", report.reference_error);
@@ -257,8 +257,7 @@ std::shared_ptr<const Scene> scene_of(const Options& options) {
 void run(Options& options) {
   std::vector<std::string> seen;
   for (const std::string& method : options.methods) {
-    if (std::find(seen.begin(), seen.end(), method) != seen.end())
-      throw CLI::ValidationError("--methods", method + " is named twice");
+    if (std::find(seen.begin(), seen.end(), method) != seen.end()) throw CLI::ValidationError("--methods", method + " is named twice");
     if (method == "reference") throw CLI::ValidationError("--methods", "reference is what the others are compared with");
     seen.push_back(method);
   }
@@ -273,7 +272,8 @@ void run(Options& options) {
         throw UsageError("--methods", e.problem(), e.hint());
       }
     }
-    subject = plane_subject(std::make_shared<const PlaneWorld>(load_plane_scene(options.scene, options.limits).scene, options.limits), options);
+    subject =
+        plane_subject(std::make_shared<const PlaneWorld>(load_plane_scene(options.scene, options.limits).scene, options.limits), options);
   } else {
     if (options.methods.empty()) options.methods = {"auto", "ltc", "ltc-compact", "sampled"};
     for (const std::string& method : options.methods)
@@ -296,7 +296,8 @@ void add_compare(CLI::App& app, Exit&) {
   RenderOptions& r = options->render;
   r.target_error = 0.02;
   r.spp = 64;
-  CLI::App* verb = app.add_subcommand("compare", "Methods against the reference: pictures, error maps, numbers, and one page with all of it");
+  CLI::App* verb =
+      app.add_subcommand("compare", "Methods against the reference: pictures, error maps, numbers, and one page with all of it");
   verb->footer("The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n\n" + methods::help());
   verb->add_option("SCENE", options->scene, "scene file: .gltf, .glb, .svg")->required();
   verb->add_option("-o,--output", options->output, "folder")->required();

@@ -66,13 +66,15 @@ std::vector<double> convolved(const std::vector<double>& plane, int width, int h
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       double sum = 0;
-      for (int k = -rx; k <= rx; ++k) sum += kernel.along_x[static_cast<std::size_t>(k + rx)] * plane[at(std::clamp(x + k, 0, width - 1), y)];
+      for (int k = -rx; k <= rx; ++k)
+        sum += kernel.along_x[static_cast<std::size_t>(k + rx)] * plane[at(std::clamp(x + k, 0, width - 1), y)];
       rows[at(x, y)] = sum;
     }
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       double sum = 0;
-      for (int k = -ry; k <= ry; ++k) sum += kernel.along_y[static_cast<std::size_t>(k + ry)] * rows[at(x, std::clamp(y + k, 0, height - 1))];
+      for (int k = -ry; k <= ry; ++k)
+        sum += kernel.along_y[static_cast<std::size_t>(k + ry)] * rows[at(x, std::clamp(y + k, 0, height - 1))];
       result[at(x, y)] = sum;
     }
   return result;
@@ -121,7 +123,7 @@ std::vector<double> filtered(const std::vector<double>& plane, int width, int he
   return result;
 }
 
-std::vector<double> plane_of(const Planes& picture, double Vec3d::* channel) {
+std::vector<double> plane_of(const Planes& picture, double Vec3d::*channel) {
   std::vector<double> plane;
   plane.reserve(picture.size());
   for (const Vec3d& p : picture) plane.push_back(p.*channel);

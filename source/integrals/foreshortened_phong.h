@@ -21,7 +21,7 @@ class ForeshortenedLobe {
         factor_((exponent + 1) / (exponent + 2)),
         flat_(exponent == 0),
         low_(exponent < 8 ? 1 : 0),
-        lower_(exponent - 1, precision) {}
+        lower_(exponent - 1, PhongOptions{.relative_precision = precision}) {}
 
   // One edge's share; r the lobe's unit axis, z the normal.
   template <Method method, Quality quality>

@@ -68,7 +68,7 @@ TEST(Integrate, TakesSingleEdgesInAnyOrder) {
   ggx.alpha_x = ggx.alpha_y = 0.3;
   ggx.quality = Quality::draft;  // the cubature's nodes go by the edges
   expect_the_same_in_any_order(ggx);
-  const integrals::PhongLobe<double> lobe(20, 0);
+  const integrals::PhongLobe<double> lobe(20);
   integrals::with_phong_share<double>(
       lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::Phong<double, decltype(share)>(share, 20, {})); });
 }

@@ -142,7 +142,7 @@ TEST(DoubleAxis, KernelsInConstantTimeAreClose) {
     const double exact = double_axis_moment(light, c.at.position, c.at.normal, axis, c.at.normal, n);
     const auto r = to_kernel(frame.to_local(axis));
     const K::vec3 up(0.0, 0.0, 1.0);
-    const integrals::PhongLobe<double> lobe(n - 1, 0);
+    const integrals::PhongLobe<double> lobe(n - 1);
     const int low = n < 8;
     const double sum =
         integrals::sum_over_edges<double>(integrals::contours_in<double>(light, frame, c.at.position), [&](const K::vec3& a,

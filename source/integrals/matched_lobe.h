@@ -30,7 +30,7 @@ class MatchedLobe {
     auto product = k.lobe_product_begin(peaked_ ? k.lobe_product_peak_of_two(mirror, n1_, axis_, n2_) : mirror);
     product = k.lobe_product_add(k.lobe_product_add(product, mirror, n1_), axis_, n2_);
     lobe_ = k.lobe_product_anisotropic(product);
-    round_.emplace(static_cast<double>(lobe_.exponent.v), 0);
+    round_.emplace(static_cast<double>(lobe_.exponent.v));
     sum_ = 0.0;
     return shading.lit && shading.view.z > Real<S>(0.0);
   }

@@ -68,7 +68,7 @@ S radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material&
   if constexpr (std::is_same_v<S, double>)
     if (options.method == Method::exact)
       return by([n](const auto& a, const auto& b, const auto& axis) { return exact_share(a, b, axis, n); });
-  const integrals::PhongLobe<S> lobe(n, options.relative_precision);
+  const integrals::PhongLobe<S> lobe(n, options);
   return integrals::with_phong_share<S>(lobe, options, by);
 }
 

@@ -10,6 +10,16 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
+inline bool takes_x(const PhongOptions& options, bool even_n) {
+  switch (options.form) {
+    case PeakForm::one: return false;
+    case PeakForm::x: return true;
+    case PeakForm::by_parity: return even_n;
+    case PeakForm::best: break;
+  }
+  return false;
+}
+
 // What does not depend on light and point.
 template <class S>
 struct PhongLobe {
@@ -17,18 +27,19 @@ struct PhongLobe {
 
   Real<S> n{1.0};
   int integer_n = 1;     // arvo's count of steps
-  int even_n = 0;        // of an integer exponent: the peak fits' choice of f
+  int f_is_x = 0;        // the peak fits' choice of f
   bool below_1 = false;  // the series then goes through n + 2
   int can_stop = 0;      // arvo's early exit
   Real<S> relative_precision{0.0};
   typename K::MomentSeries series;
   typename K::MomentSeriesHigh series_high;
 
-  STERADIAN_INLINE PhongLobe(double exponent, double precision) : n(exponent), relative_precision(precision) {
+  STERADIAN_INLINE explicit PhongLobe(double exponent, const PhongOptions& options = {})
+      : n(exponent), relative_precision(options.relative_precision) {
     K k;
     integer_n = static_cast<int>(exponent);
-    even_n = static_cast<double>(integer_n) == exponent && integer_n % 2 == 0;
-    can_stop = precision > 0;
+    f_is_x = takes_x(options, static_cast<double>(integer_n) == exponent && integer_n % 2 == 0);
+    can_stop = options.relative_precision > 0;
     below_1 = exponent < 1;
     const Real<S> order(below_1 ? exponent + 2 : exponent);
     series = k.moment_series_prepare(order);
@@ -54,11 +65,11 @@ struct PhongLobe {
       if (integer_n == 0) return k.moment_solid_angle_front(edge);
       return k.moment_arvo_front(edge, integer_n, can_stop, relative_precision);
     } else if constexpr (method == Method::lorentzian) {
-      return k.moment_lorentzian_front(edge, n, even_n);
+      return k.moment_lorentzian_front(edge, n, f_is_x);
     } else if constexpr (method == Method::pearson) {
-      return k.moment_pearson_front(edge, n, even_n);
+      return k.moment_pearson_front(edge, n, f_is_x);
     } else if constexpr (method == Method::ellipsoid) {
-      return k.moment_ellipsoid_front(edge, n, even_n);
+      return k.moment_ellipsoid_front(edge, n, f_is_x);
     } else if constexpr (quality == Quality::high) {
       return below_1 ? k.moment_series_high_low_front(edge, series_high, n) : k.moment_series_high_front(edge, series_high);
     } else {

@@ -44,7 +44,7 @@ void walk_odd_outlines(int count) {
   for (int i = 0; i < count; ++i) {
     static constexpr double kExponents[] = {0, 1, 2, 3, 7, 8, 64, 100, 1001, 10000};
     const double n = method == Method::arvo || i % 2 ? kExponents[random.bits() % 10] : random.uniform(0, 50);
-    const integrals::PhongLobe<S> lobe(n, i % 3 == 0 ? 1e-4 : 0);
+    const integrals::PhongLobe<S> lobe(n, {.relative_precision = i % 3 == 0 ? 1e-4 : 0, .form = i % 2 == 0 ? PeakForm::one : PeakForm::x});
     auto r = odd_direction<S>(random);
     r.z = abs(r.z);
     Real<S> sum(0.0);

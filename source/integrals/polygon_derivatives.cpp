@@ -227,7 +227,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-      const integrals::PhongLobe<S> lobe(m.exponent, 0.0);
+      const integrals::PhongLobe<S> lobe(m.exponent);
       // Of the series alone: the other methods in dual numbers would take the compiler's budget for inlining.
       const auto share = [&](const auto& a, const auto& b, const auto& axis) {
         return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)

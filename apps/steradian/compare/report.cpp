@@ -55,7 +55,8 @@ std::string encoded_error(const Compared& of, const Picture& reference, double s
     for (int x = 0; x < reference.width; ++x) {
       const double error = luminance(static_cast<Vec3d>(of.picture.at(x, y))) - luminance(static_cast<Vec3d>(reference.at(x, y)));
       const int size = code_of(std::fabs(error), smallest, 1024, 32767), code = 32768 + (error < 0 ? -size : size);
-      const float flip = of.flip_error[static_cast<std::size_t>(y) * static_cast<std::size_t>(reference.width) + static_cast<std::size_t>(x)];
+      const float flip =
+          of.flip_error[static_cast<std::size_t>(y) * static_cast<std::size_t>(reference.width) + static_cast<std::size_t>(x)];
       *row++ = static_cast<std::uint8_t>(code >> 8);
       *row++ = static_cast<std::uint8_t>(code & 255);
       *row++ = static_cast<std::uint8_t>(std::lround(255 * flip));
@@ -65,9 +66,14 @@ std::string encoded_error(const Compared& of, const Picture& reference, double s
 
 Json numbers_of(const Run& run) {
   const Difference& d = run.difference;
-  return {{"name", run.method},        {"setting", run.setting}, {"ms", run.ms},
-          {"relative_l2", d.relative_l2}, {"rmse", d.rmse},         {"max", d.max},
-          {"max_at", {d.max_x, d.max_y}}, {"mean_ratio", d.mean_ratio}};
+  return {{"name", run.method},
+          {"setting", run.setting},
+          {"ms", run.ms},
+          {"relative_l2", d.relative_l2},
+          {"rmse", d.rmse},
+          {"max", d.max},
+          {"max_at", {d.max_x, d.max_y}},
+          {"mean_ratio", d.mean_ratio}};
 }
 
 Json report_data(const Report& report) {
@@ -90,7 +96,10 @@ Json report_data(const Report& report) {
           {"exposure", report.exposure},
           {"white", report.white},
           {"reference",
-           {{"words", report.reference_words}, {"ms", report.reference_ms}, {"relative_error", report.reference_error}, {"picture", "reference.exr"}}},
+           {{"words", report.reference_words},
+            {"ms", report.reference_ms},
+            {"relative_error", report.reference_error},
+            {"picture", "reference.exr"}}},
           {"methods", methods},
           {"over_time", over_time}};
 }

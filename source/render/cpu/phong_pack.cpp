@@ -22,7 +22,7 @@ __attribute__((flatten, noinline)) void radiance_by(const Share& share, double e
 }
 
 void radiance(const PackLight& light, const Points& points, double exponent, const PhongOptions& options, float* result) {
-  const integrals::PhongLobe<Pack> lobe(exponent, options.relative_precision);
+  const integrals::PhongLobe<Pack> lobe(exponent, options);
   integrals::with_phong_share<Pack>(lobe, options,
                                     [&](const auto& share) { radiance_by(share, exponent, options, light, points, result); });
 }
