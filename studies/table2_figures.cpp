@@ -108,9 +108,10 @@ LinePlot fits_plot() {
   };
   for (const int f_is_x : {0, 1}) {
     const std::string form = f_is_x ? ", f = x" : ", f = 1";
-    add("lorentzian" + form, 1 + 5 * f_is_x, [&](const auto& e) { return k.moment_lorentzian_front(e, n, f_is_x); });
-    add("pearson" + form, 2 + 5 * f_is_x, [&](const auto& e) { return k.moment_pearson_front(e, n, f_is_x); });
-    add("ellipsoid" + form, 5 + 5 * f_is_x, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, f_is_x); });
+    add("lorentzian" + form, 1, [&](const auto& e) { return k.moment_lorentzian_front(e, n, f_is_x); });
+    add("pearson" + form, 2, [&](const auto& e) { return k.moment_pearson_front(e, n, f_is_x); });
+    add("ellipsoid" + form, 5, [&](const auto& e) { return k.moment_ellipsoid_front(e, n, f_is_x); });
+    for (std::size_t i = plot.curves.size() - 3; i < plot.curves.size(); ++i) plot.curves[i].dashed = f_is_x == 1;
   }
   add("series", 3, [&](const auto& e) { return k.moment_series_front(e, lobe.series); });
   add("series high", 0, [&](const auto& e) { return k.moment_series_high_front(e, lobe.series_high); });
