@@ -368,7 +368,7 @@ TEST(Render, ShadowsDarkenOnlyWhatTheLightDoesNotSee) {
       }
     }
   EXPECT_GT(lit, 100);
-  (void)umbra;
+  EXPECT_GT(umbra, 8);
 }
 
 TEST(Render, MethodsThatDoNotServeALobeAreWrongUse) {
