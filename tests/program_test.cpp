@@ -114,6 +114,23 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
   }
   EXPECT_TRUE(lambert);
   EXPECT_EQ(run({"bench", "--filter", "nothing"}).status, 1);
+  // Against itself nothing is a thousand times slower; against a thousandth of its time everything is above 100.
+  const std::string base = folder / "base.json";
+  std::ofstream(base) << r.out;
+  const std::vector<std::string> again = {"bench", "--filter", "kernel/l", "--min-time", "0.01", "--compare", base, "--fail-above"};
+  const auto with = [&](const char* limit) {
+    std::vector<std::string> arguments = again;
+    arguments.push_back(limit);
+    return run(arguments);
+  };
+  EXPECT_EQ(with("1000").status, 0);
+  EXPECT_NE(with("1000").out.find("geometric mean"), std::string::npos);
+  json faster = json::parse(r.out);
+  for (json& one : faster) one["ns_per_item"] = one["ns_per_item"].get<double>() / 1000;
+  std::ofstream(base) << faster;
+  EXPECT_EQ(with("100").status, 1);
+  std::ofstream(base) << "[]";
+  EXPECT_EQ(with("100").status, 1);
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "../../bench/benches.h"
 #include "core/progress.h"
+#include "core/read_file.h"
 #include "fit/textured_error.h"
 #include "studies/table2.h"
 #include "steradian/error.h"
@@ -23,7 +26,8 @@ struct Options {
   double min_time = 0.5;
   bool json = false;
   bool table2 = false, textured = false;
-  std::string figures;
+  std::string figures, base;
+  double slower = 0;
 };
 
 // The published comparison of Phong area lights, made again.
@@ -77,6 +81,44 @@ void print_table(const std::vector<BenchResult>& results) {
   }
 }
 
+// What `bench --json` wrote before: median of a call by name.
+std::map<std::string, double> read_base(const std::string& path) {
+  Budget budget{Limits{}};
+  const Bytes bytes = read_file(path, path, budget);
+  const nlohmann::json all = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
+  std::map<std::string, double> base;
+  if (all.is_array())
+    for (const nlohmann::json& one : all)
+      if (one.is_object() && one.contains("name") && one["name"].is_string() && one.contains("ns_per_item") &&
+          one["ns_per_item"].is_number())
+        base[one["name"]] = one["ns_per_item"];
+  if (base.empty()) throw Error(path, "holds no benches", "write it by `steradian bench --json > FILE`");
+  return base;
+}
+
+// Beside what was measured before, name by name; the geometric mean of the ratios last. False where one is above the limit.
+bool print_ratios(const std::vector<BenchResult>& results, const std::map<std::string, double>& base, double limit) {
+  fmt::print("{:<40} {:>12} {:>12} {:>8}\n", "bench", "ns/item", "before", "ratio");
+  double logs = 0;
+  int count = 0;
+  bool holds = true;
+  for (const BenchResult& r : results) {
+    const auto before = base.find(r.name);
+    if (before == base.end()) {
+      fmt::print("{:<40} {:>12.2f} {:>12} {:>8}\n", r.name, r.ns_per_item, "-", "new");
+      continue;
+    }
+    const double ratio = r.ns_per_item / before->second;
+    const bool slower = limit > 0 && ratio > limit;
+    fmt::print("{:<40} {:>12.2f} {:>12.2f} {:>8.3f}{}\n", r.name, r.ns_per_item, before->second, ratio, slower ? "  slower" : "");
+    logs += std::log(ratio);
+    ++count;
+    holds &= !slower;
+  }
+  if (count > 0) fmt::print("{:<40} {:>12} {:>12} {:>8.3f}\n", "geometric mean", "", "", std::exp(logs / count));
+  return holds;
+}
+
 void print_json(const std::vector<BenchResult>& results) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const BenchResult& r : results) {
@@ -91,7 +133,7 @@ void print_json(const std::vector<BenchResult>& results) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, Exit&) {
+void add_bench(CLI::App& app, Exit& exit) {
   CLI::App* verb = app.add_subcommand("bench", "Time the integrals on this machine");
   verb->group("This machine");
   auto options = std::make_shared<Options>();
@@ -110,11 +152,22 @@ void add_bench(CLI::App& app, Exit&) {
   verb->add_option("--figures", options->figures, "With --table2: write the page's figures into this folder")
       ->group("What")
       ->check(CLI::ExistingDirectory);
-  verb->callback([options] {
+  verb->add_option("--compare", options->base, "Print ratios to what an earlier `bench --json` wrote into this file; above 1 is slower")
+      ->group("What")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--fail-above", options->slower, "With --compare: exit 1 when a ratio is above this; 0: never")
+      ->group("What")
+      ->check(CLI::Range(0.0, 1e9).description("0..1e9"));
+  verb->callback([options, &exit] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);
     if (options->textured) return fmt::print("{}", textured_error_text(measure_textured_error({})));
+    const std::map<std::string, double> base = options->base.empty() ? std::map<std::string, double>{} : read_base(options->base);
     const std::vector<BenchResult> results = run(*options);
+    if (!base.empty()) {
+      if (!print_ratios(results, base, options->slower)) exit.code = 1;
+      return;
+    }
     options->json ? print_json(results) : print_table(results);
   });
 }
