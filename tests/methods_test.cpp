@@ -153,7 +153,7 @@ TEST(Methods, RadianceOfRoundLightsIsNearTheReference) {
       const RadianceResult r = radiance(round, at, lobe), truth = radiance(round, at, lobe, {.method = Method::reference});
       EXPECT_GT(truth.radiance.x, 0) << name_of(lobe.brdf);
       EXPECT_EQ(truth.method, Method::reference);
-      // Lambert is closed; a polygon of 12 corners is off by 0.5 % of the lobe at most, the methods by 0.2 % (README).
+      // Lambert is closed; a polygon of 12 corners is off by 0.5 % of the lobe at most, the methods by 0.2 % (docs/methods.md).
       const double allowed = lobe.brdf == Brdf::lambert ? 0 : 0.01;
       EXPECT_NEAR(r.radiance.x, truth.radiance.x, allowed + *truth.bound) << name_of(lobe.brdf);
     }
@@ -236,9 +236,9 @@ TEST(Methods, RenderAnswersAsTheLibraryDoes) {
   compare("exact", ggx, [&](const ShadingPoint& at) { return exact_ggx_radiance(light(), at, ggx).x; });
 }
 
-// The table of docs/eval.md, row by row and none besides; and no method that README does not know.
+// The table of docs/eval.md, row by row and none besides; and no method that the table of methods does not know.
 TEST(Methods, TheManualHasTheTable) {
-  const std::string manual = text_of("docs/eval.md"), readme = text_of("README.md");
+  const std::string manual = text_of("docs/eval.md"), table = text_of("docs/methods.md");
   const std::string head = "| method | lobes | arithmetic | qualities | derivatives | what it is |\n|---|---|---|---|---|---|\n";
   const std::size_t begin = manual.find(head);
   ASSERT_NE(begin, std::string::npos) << "docs/eval.md lacks the head of its table of methods:\n" << head;
@@ -246,7 +246,7 @@ TEST(Methods, TheManualHasTheTable) {
   for (const Row& row : methods::all()) expected += manual_row(row) + "\n";
   EXPECT_EQ(manual.substr(begin, manual.find("\n\n", begin) + 1 - begin), expected);
   for (const Row& row : methods::all())
-    EXPECT_NE(readme.find(std::string("`") + row.name + "`"), std::string::npos) << "README.md does not name " << row.name;
+    EXPECT_NE(table.find(std::string("`") + row.name + "`"), std::string::npos) << "docs/methods.md does not name " << row.name;
 }
 
 }  // namespace steradian

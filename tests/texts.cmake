@@ -75,3 +75,10 @@ foreach(compiler g++ clang++)
   set_tests_properties(Packaging.InstalledTreeServesIntegralsAlone_${compiler} PROPERTIES FIXTURES_REQUIRED installed_tree)
   add_test(NAME Packaging.SubdirectoryServesIntegralsAlone_${compiler} COMMAND ${consume} subdirectory ${compiler})
 endforeach()
+
+# The pages as a site: every link between them leads somewhere.
+find_program(MKDOCS mkdocs)
+if(MKDOCS)
+  add_test(NAME Docs.SiteHasNoBrokenLink
+    COMMAND ${MKDOCS} build --strict --quiet --config-file ${PROJECT_SOURCE_DIR}/mkdocs.yml --site-dir ${CMAKE_CURRENT_BINARY_DIR}/site)
+endif()
