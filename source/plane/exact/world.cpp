@@ -202,6 +202,12 @@ constexpr std::size_t kManyEdges = 24;
 
 }  // namespace
 
+// The same radiance from every place of it to every side, as far as one looks.
+static bool shines_alike(const PlaneBody& body) {
+  return !body.light || (!body.light->gradient && body.light->profile == PlaneProfile::uniform && std::isinf(body.light->range) &&
+                         body.light->spot_half_angle == 0);
+}
+
 PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits) : scene(std::move(from)), scale(scale_of(scene)) {
   if (scale != 1) {
     given = std::move(scene);
@@ -224,6 +230,7 @@ void PlaneWorld::Impl::take_apart(std::size_t edges) {
   curves.reserve(edges);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const PlaneBody& body = scene.bodies[i];
+    if (beyond_par == nullptr && !shines_alike(body)) beyond_par = &body;
     first_curve.push_back(curves.size());
     const std::vector<plane::Curve> outline = plane::outline_of(body, static_cast<int>(i));
     curves.insert(curves.end(), outline.begin(), outline.end());
@@ -252,7 +259,12 @@ const PlaneScene& PlaneWorld::scene() const { return impl_->given ? *impl_->give
 PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSampling& sampling) const {
   if (!is_finite(position)) throw Error("position", "a coordinate is not finite");
   position = position * impl_->scale;
-  if (method == PlaneMethod::par) return plane::par_light(*impl_, position);
+  if (method == PlaneMethod::par) {
+    if (const PlaneBody* body = impl_->beyond_par)
+      throw Error(body->name.empty() ? impl_->scene.name : impl_->scene.name + ": " + body->name,
+                  "a light with a range, a spot, a profile or a gradient, of which the method par knows nothing", "use exact");
+    return plane::par_light(*impl_, position);
+  }
   const Impl::Inside inside = impl_->inside(position);
   if (inside.dark) return {};
   switch (method) {

@@ -29,8 +29,9 @@ struct PlaneWorld::Impl {
   std::vector<std::size_t> first_curve;  // by body, and the number of curves at the end
   std::vector<plane::Box> boxes;         // by body
   plane::RayGrid grid;
-  std::vector<plane::EdgeRows> rows;  // of outlines with many edges
-  std::vector<int> rows_of;           // by body: which of them, or -1
+  std::vector<plane::EdgeRows> rows;      // of outlines with many edges
+  std::vector<int> rows_of;               // by body: which of them, or -1
+  const PlaneBody* beyond_par = nullptr;  // a light whose radiance depends on place or direction: `par` has none such
 
   // What fills the point: an occluder wins, then the last light. -1: nothing.
   struct Inside {
