@@ -254,6 +254,18 @@ std::shared_ptr<const Scene> scene_of(const Options& options) {
   return std::make_shared<const Scene>(std::move(loaded.scene));
 }
 
+using Names = std::vector<std::string>;
+
+// Whether the heuristic serves the scene's lights.
+bool takes_par(const PlaneWorld& world) {
+  try {
+    world.query(world.scene().origin, PlaneMethod::par);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 void run(Options& options) {
   std::vector<std::string> seen;
   for (const std::string& method : options.methods) {
@@ -264,7 +276,9 @@ void run(Options& options) {
   exposure_stops(options.exposure);
   Subject subject;
   if (is_plane_scene(options.scene)) {
-    if (options.methods.empty()) options.methods = {"exact", "par", "sampled", "marched"};
+    const auto world = std::make_shared<const PlaneWorld>(load_plane_scene(options.scene, options.limits).scene, options.limits);
+    if (options.methods.empty())
+      options.methods = takes_par(*world) ? Names{"exact", "par", "sampled", "marched"} : Names{"exact", "sampled", "marched"};
     for (const std::string& method : options.methods) {
       try {
         if (method != "auto") plane_method_from_name(method);
