@@ -286,8 +286,7 @@ void run(Options& options) {
         throw UsageError("--methods", e.problem(), e.hint());
       }
     }
-    subject =
-        plane_subject(std::make_shared<const PlaneWorld>(load_plane_scene(options.scene, options.limits).scene, options.limits), options);
+    subject = plane_subject(world, options);
   } else {
     if (options.methods.empty()) options.methods = {"auto", "ltc", "ltc-compact", "sampled"};
     for (const std::string& method : options.methods)
