@@ -1,6 +1,9 @@
 #include "shadow/arrangement.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
 #include <span>
 
 namespace steradian::shadow {
@@ -107,55 +110,246 @@ bool crossing_of(const Segment& e, const Segment& f, int middle, Crossing& resul
 int side_of(const Segment& f, const Cell& p) { return side(f, once(p), 1).sign(); }
 int side_of_midpoint(const Segment& f, const Segment& e) { return side(f, midpoint(e), 2).sign(); }
 
+namespace {
+
+// What a segment adds to the count of a left ray; middle: on which side of it the ray starts.
+std::int32_t left_ray_crosses(const Segment& f, int middle, bool start_above, bool end_above) {
+  if (start_above == end_above) return 0;
+  // Upwards with m on its right: the way from the left to m goes from its left to its right.
+  if (end_above && middle < 0) return -f.weight;
+  if (start_above && middle > 0) return f.weight;
+  return 0;
+}
+
+std::int32_t count_at_the_box(const SegmentSet& set, const Doubled& m) {
+  std::int32_t count = set.base;
+  for (const LeftEvent& event : set.events) {
+    const std::int64_t y = 2 * std::int64_t{event.y};
+    if (y < m.y || (y == m.y && 2 * std::int64_t{event.dy} < m.dy)) count += event.weight;
+  }
+  return count;
+}
+
+bool has_pieces(const Segment& e) { return e.weight != 0 && (e.a.x != e.b.x || e.a.y != e.b.y); }
+
+// left: the count on the left at its start.
+void add_pieces(const Segment& e, std::uint32_t number, std::int32_t left, const Crossing* begin, const Crossing* end,
+                std::vector<Piece>& pieces) {
+  const double fx = e.b.x - e.a.x, fy = e.b.y - e.a.y;
+  const auto at_x = [&](double s) { return s == 1 ? e.b.x : e.a.x + s * fx; };
+  const auto at_y = [&](double s) { return s == 1 ? e.b.y : e.a.y + s * fy; };
+  double t = 0, x = e.a.x, y = e.a.y;
+  const auto piece_to = [&](double next) {
+    if (!(next > t)) return;
+    const double to_x = at_x(next), to_y = at_y(next);
+    pieces.push_back({x, y, to_x, to_y, left, left - e.weight, number});
+    t = next;
+    x = to_x;
+    y = to_y;
+  };
+  for (const Crossing* c = begin; c != end; ++c) {
+    piece_to(c->t);
+    left += c->change;
+  }
+  piece_to(1);
+}
+
+// The count on e's left at its start, of what the left ray from its middle counts: on the -x side, e's left if e runs up.
+std::int32_t left_at_start(const Segment& e, std::int32_t count, const Crossing* begin, const Crossing* end) {
+  std::int32_t left = runs_up(e) ? count : count + e.weight;
+  for (const Crossing* c = begin; c != end; ++c)
+    if (!c->after) left -= c->change;
+  return left;
+}
+
+}  // namespace
+
 void arrange(const SegmentSet& set, std::vector<Piece>& pieces) {
   pieces.clear();
-  thread_local std::vector<Crossing> crossings;
+  std::vector<Crossing> crossings;
   Neighbours neighbours(set.segments);
   for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
     const Segment& e = set.segments[i];
-    if (e.weight == 0 || (e.a.x == e.b.x && e.a.y == e.b.y)) continue;
+    if (!has_pieces(e)) continue;
     const Doubled m = midpoint(e);
-    std::int32_t count = set.base;
-    for (const LeftEvent& event : set.events) {
-      const std::int64_t y = 2 * std::int64_t{event.y};
-      if (y < m.y || (y == m.y && 2 * std::int64_t{event.dy} < m.dy)) count += event.weight;
-    }
+    std::int32_t count = count_at_the_box(set, m);
     crossings.clear();
     for (const std::uint32_t j : neighbours.of(e)) {
       if (j == i) continue;
       const Segment& f = set.segments[j];
       const bool start_above = above(f.a, m), end_above = above(f.b, m);
-      const bool apart_from_ray = start_above == end_above;
-      if (apart_from_ray && apart(e, f)) continue;
+      if (start_above == end_above && apart(e, f)) continue;
       const int middle = side(f, m, 2).sign();
-      // Upwards with m on its right: the way from the left to m goes from its left to its right.
-      if (!apart_from_ray) {
-        if (end_above && middle < 0) count -= f.weight;
-        if (start_above && middle > 0) count += f.weight;
-      }
+      count += left_ray_crosses(f, middle, start_above, end_above);
       Crossing crossing;
       if (crossing_of(e, f, middle, crossing)) crossings.push_back(crossing);
     }
     std::sort(crossings.begin(), crossings.end());
+    const Crossing *begin = crossings.data(), *end = begin + crossings.size();
+    add_pieces(e, i, left_at_start(e, count, begin, end), begin, end, pieces);
+  }
+}
 
-    // `count` is that on the -x side at the midpoint: e's left if e runs up.
-    std::int32_t left = runs_up(e) ? count : count + e.weight;
-    for (const Crossing& c : crossings)
-      if (!c.after) left -= c.change;
-    double t = 0;
-    const auto piece_to = [&](double end) {
-      if (!(end > t)) return;
-      const double fx = e.b.x - e.a.x, fy = e.b.y - e.a.y;
-      const auto at_x = [&](double s) { return s == 1 ? e.b.x : e.a.x + s * fx; };
-      const auto at_y = [&](double s) { return s == 1 ? e.b.y : e.a.y + s * fy; };
-      pieces.push_back({at_x(t), at_y(t), at_x(end), at_y(end), left, left - e.weight, i});
-      t = end;
-    };
-    for (const Crossing& c : crossings) {
-      piece_to(c.t);
-      left += c.change;
+void SegmentArrays::sort(const SegmentSet& set) {
+  constexpr std::size_t kFew = 32, kRows = 64;
+  constexpr std::int32_t kRow = 2 * kCells / static_cast<std::int32_t>(kRows), kLong = 2 * kRow;
+  const auto n = static_cast<std::uint32_t>(set.segments.size());
+  order.resize(n);
+  place.resize(n);
+  if (n <= kFew) {
+    std::iota(order.begin(), order.end(), 0u);
+    std::iota(place.begin(), place.end(), 0u);
+    return;
+  }
+  // Counted into rows of the box; row 0 is for the long ones.
+  std::array<std::uint32_t, kRows + 2> first{};
+  const auto row_of = [&](const Segment& s) {
+    const std::int32_t low = std::min(s.a.y, s.b.y), high = std::max(s.a.y, s.b.y);
+    return high - low > kLong ? std::size_t{0} : 1 + std::min(static_cast<std::size_t>((low + kCells) / kRow), kRows - 1);
+  };
+  for (const Segment& s : set.segments) ++first[row_of(s) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for (std::uint32_t i = 0; i < n; ++i) order[place[i] = first[row_of(set.segments[i])]++] = i;
+}
+
+void SegmentArrays::assign(const SegmentSet& set) {
+  constexpr float kFar = 1e9f;
+  sort(set);
+  const std::size_t n = set.segments.size(), room = padded(n), blocks = room / kPadding;
+  for (std::vector<float>* v : {&ax, &ay, &bx, &by}) v->resize(room);
+  weight.resize(room);
+  found.resize(room);
+  block_low.assign(blocks, kFar);
+  block_high.assign(blocks, -kFar);
+  block_left.assign(blocks, kFar);
+  block_right.assign(blocks, -kFar);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Segment& s = set.segments[order[i]];
+    ax[i] = static_cast<float>(s.a.x);
+    ay[i] = static_cast<float>(s.a.y);
+    bx[i] = static_cast<float>(s.b.x);
+    by[i] = static_cast<float>(s.b.y);
+    weight[i] = s.weight;
+    const std::size_t block = i / kPadding;
+    block_low[block] = std::min(block_low[block], std::min(ay[i], by[i]));
+    block_high[block] = std::max(block_high[block], std::max(ay[i], by[i]));
+    block_left[block] = std::min(block_left[block], std::min(ax[i], bx[i]));
+    block_right[block] = std::max(block_right[block], std::max(ax[i], bx[i]));
+  }
+  for (std::size_t i = n; i < room; ++i) {
+    ax[i] = ay[i] = bx[i] = by[i] = kFar;
+    weight[i] = 0;
+  }
+}
+
+namespace {
+
+// Segments at vertices: at one that exactly two share, the counts on their sides go on from one to the other.
+class Chains {
+ public:
+  void assign(const std::vector<Segment>& segments) {
+    std::int32_t most = -1;
+    for (const Segment& s : segments) most = std::max({most, s.place_a, s.place_b});
+    vertices_.assign(static_cast<std::size_t>(most + 1), {});
+    for (std::uint32_t i = 0; i < segments.size(); ++i)
+      for (const std::int32_t place : {segments[i].place_a, segments[i].place_b})
+        if (place >= 0) {
+          ++vertices_[static_cast<std::size_t>(place)].degree;
+          vertices_[static_cast<std::size_t>(place)].both ^= i;
+        }
+  }
+  // The other segment at a vertex, or none.
+  std::optional<std::uint32_t> other(std::int32_t place, std::uint32_t segment) const {
+    if (place < 0 || vertices_[static_cast<std::size_t>(place)].degree != 2) return {};
+    return vertices_[static_cast<std::size_t>(place)].both ^ segment;
+  }
+
+ private:
+  struct Vertex {
+    std::uint32_t degree = 0, both = 0;  // both: of two segments, the numbers' exclusive or
+  };
+  std::vector<Vertex> vertices_;
+};
+
+// A segment's crossings in a list, and its count.
+struct Along {
+  std::size_t first = 0, count = 0;
+  std::int32_t change = 0;  // of all crossings
+  std::int32_t left = 0;    // at the start
+  bool known = false;
+};
+
+}  // namespace
+
+void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arrays, std::vector<Piece>& pieces) {
+  pieces.clear();
+  arrays.assign(set);
+  const SegmentView view = arrays.view();
+  thread_local Chains chains;
+  thread_local std::vector<Crossing> crossings;
+  thread_local std::vector<Along> along;
+  chains.assign(set.segments);
+  crossings.clear();
+  along.assign(set.segments.size(), {});
+  std::uint32_t* found = arrays.found.data();
+  for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
+    const Segment& e = set.segments[i];
+    Along& a = along[i];
+    a.first = crossings.size();
+    const std::size_t count = packs.may_cross(view, arrays.place[i], found);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t j = arrays.order[found[k]];
+      const Segment& f = set.segments[j];
+      if (j == i || share_an_end(e, f)) continue;
+      Crossing crossing;
+      if (!crossing_of(e, f, side(f, midpoint(e), 2).sign(), crossing)) continue;
+      crossings.push_back(crossing);
+      a.change += crossing.change;
     }
-    piece_to(1);
+    a.count = crossings.size() - a.first;
+    if (a.count > 1) std::sort(crossings.begin() + static_cast<std::ptrdiff_t>(a.first), crossings.end());
+  }
+
+  // Hands the count of a segment on along its chain, from its end or from its start.
+  const auto hand_on = [&](std::uint32_t i, bool from_end) {
+    while (true) {
+      const Segment& e = set.segments[i];
+      const std::optional<std::uint32_t> next = chains.other(from_end ? e.place_b : e.place_a, i);
+      if (!next || along[*next].known) return;
+      const Segment& g = set.segments[*next];
+      const std::int32_t left = along[i].left + (from_end ? along[i].change : 0), right = left - e.weight;
+      const bool at_start = g.place_a == (from_end ? e.place_b : e.place_a);
+      // The same walk goes on, or g runs against it: then its left is e's right.
+      const std::int32_t of_g = at_start == from_end ? left : right;
+      along[*next].left = at_start ? of_g : of_g - along[*next].change;
+      along[*next].known = true;
+      i = *next;
+      from_end = at_start;
+    }
+  };
+  for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
+    if (along[i].known) continue;
+    const Segment& e = set.segments[i];
+    const Doubled m = midpoint(e);
+    const LeftRay ray = packs.left_ray(view, arrays.place[i], found);
+    std::int32_t count = count_at_the_box(set, m) + ray.count;
+    for (std::size_t k = 0; k < ray.uncertain; ++k) {
+      const std::uint32_t j = arrays.order[found[k]];
+      if (j == i) continue;
+      const Segment& f = set.segments[j];
+      const bool start_above = above(f.a, m), end_above = above(f.b, m);
+      if (start_above != end_above) count += left_ray_crosses(f, side(f, m, 2).sign(), start_above, end_above);
+    }
+    const Crossing* begin = crossings.data() + along[i].first;
+    along[i].left = left_at_start(e, count, begin, begin + along[i].count);
+    along[i].known = true;
+    hand_on(i, true);
+    hand_on(i, false);
+  }
+  for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
+    if (!has_pieces(set.segments[i])) continue;
+    const Crossing* begin = crossings.data() + along[i].first;
+    add_pieces(set.segments[i], i, along[i].left, begin, begin + along[i].count, pieces);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "shadow/packs.h"
 #include "shadow/segments.h"
 
 namespace steradian::shadow {
@@ -26,6 +27,29 @@ int side_of_midpoint(const Segment& f, const Segment& e);
 
 // Replaces `pieces`. Order: by segment, then along it.
 void arrange(const SegmentSet& set, std::vector<Piece>& pieces);
+
+// A set's segments for packs, with memory for what they find.
+struct SegmentArrays {
+  std::vector<float> ax, ay, bx, by;
+  std::vector<std::int32_t> weight;
+  std::vector<float> block_low, block_high, block_left, block_right;
+  std::vector<std::uint32_t> order, place;  // order[k]: which segment stands at k; place[i]: where segment i stands
+  std::vector<std::uint32_t> found;
+
+  // Many segments are sorted by height, the long ones first, so that each meets few blocks.
+  void assign(const SegmentSet& set);
+  SegmentView view() const {
+    return {ax.size(),     ax.data(),        ay.data(),         bx.data(),         by.data(),
+            weight.data(), block_low.data(), block_high.data(), block_left.data(), block_right.data()};
+  }
+
+ private:
+  void sort(const SegmentSet& set);
+};
+
+// The same pieces, to the bit: packs find out what lies near each segment, whole numbers decide. Along a chain of segments counts
+// are handed on at vertices that two of them share, so that one left ray serves them all.
+void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arrays, std::vector<Piece>& pieces);
 
 // The count at a place that lies on no segment, in cells.
 std::int32_t count_at(const SegmentSet& set, double x, double y);

@@ -92,6 +92,23 @@ bool Shaft::needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const {
   return may_meet(corners, 3);
 }
 
+ShaftView Shaft::view_from(const LightFrame& frame) const {
+  ShaftView view{};
+  const auto put = [](float to[3], Vec3d v) {
+    to[0] = static_cast<float>(v.x);
+    to[1] = static_cast<float>(v.y);
+    to[2] = static_cast<float>(v.z);
+  };
+  for (std::size_t i = 0; i < 6; ++i) {
+    put(view.normal[i], frame.axes.to_local(bounds_[i].normal));
+    const double offset = bounds_[i].offset - dot(bounds_[i].normal, frame.origin);
+    view.offset[i] = static_cast<float>(offset + 1e-6 * std::fabs(offset));
+  }
+  put(view.middle, frame.to_local(center_));
+  for (int i = 0; i < 3; ++i) put(view.half[i], frame.axes.to_local(half_[i]) * (1 + 1e-6));
+  return view;
+}
+
 EdgeTree::EdgeTree(const EdgeMesh& mesh) : order_(mesh.edges.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (order_.empty()) return;

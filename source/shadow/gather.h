@@ -7,6 +7,7 @@
 
 #include "shadow/edges.h"
 #include "shadow/light_frame.h"
+#include "shadow/packs.h"
 
 namespace steradian::shadow {
 
@@ -22,6 +23,9 @@ class Shaft {
   // Whether the edge can be a segment for one of the points: it may be a contour, and it may meet the shaft.
   bool needs(const EdgeMesh& mesh, std::uint32_t edge) const;
   bool needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const;
+
+  // In a frame's coordinates, for packs.
+  ShaftView view_from(const LightFrame& frame) const;
 
  private:
   struct Bound {  // inside: dot(normal, x) <= offset

@@ -56,6 +56,12 @@ double margin_of_plane(const PreparedPolygon& light) {
   return kMargin * 0.5 * std::max(b.rectangle.x1 - b.rectangle.x0, b.rectangle.y1 - b.rectangle.y0);
 }
 
+void put_box(LightFrame& frame) {
+  frame.box_x = frame.half_x * (1 + 1.0 / 64);
+  frame.box_y = frame.half_y * (1 + 1.0 / 64);
+  frame.eta = kMargin * std::max(frame.half_x, frame.half_y);
+}
+
 LightFrame light_frame(const PreparedPolygon& light, int side) {
   const Vec3d z = side < 0 ? light.normal : -light.normal;
   const auto [best_x, best_y, best] = bounding_of(light, z);
@@ -64,9 +70,7 @@ LightFrame light_frame(const PreparedPolygon& light, int side) {
   frame.origin = light.centroid + best_x * (0.5 * (best.x0 + best.x1)) + best_y * (0.5 * (best.y0 + best.y1));
   frame.half_x = 0.5 * (best.x1 - best.x0);
   frame.half_y = 0.5 * (best.y1 - best.y0);
-  frame.box_x = frame.half_x * (1 + 1.0 / 64);
-  frame.box_y = frame.half_y * (1 + 1.0 / 64);
-  frame.eta = kMargin * std::max(frame.half_x, frame.half_y);
+  put_box(frame);
   for (std::size_t c = 0; c + 1 < light.contours.size(); ++c) {
     std::vector<Corner> contour;
     for (std::size_t i = light.contours[c]; i < light.contours[c + 1]; ++i) {

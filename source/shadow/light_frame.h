@@ -26,6 +26,9 @@ struct LightFrame {
   Vec3d to_world(Vec3d p) const { return origin + axes.to_world(p); }
 };
 
+// Puts box and eta about the half sides.
+void put_box(LightFrame& frame);
+
 // How close to a light's plane nothing blocks: its vertices may lie 1e-5 of its size off it (prepare_polygon), and so may the
 // triangles that stand for it.
 double margin_of_plane(const PreparedPolygon& light);

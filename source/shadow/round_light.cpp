@@ -4,9 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "shadow/edge_arrays.h"
 #include "steradian/capsule_light.h"
 
 namespace steradian::shadow {
+namespace {
+
+// Radius of the regular polygon that has the unit circle's area.
+double regular_polygon_of_equal_area(int corners) {
+  const double step = 2 * std::numbers::pi / corners;
+  return std::sqrt(step / std::sin(step));
+}
+
+}  // namespace
+
 PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
   PolygonLight seen = polygon_seen_from(area, p, corners);
   if (seen.vertices.empty()) return {};
@@ -32,6 +43,42 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
     }
   }
   return prepare_polygon(seen);
+}
+
+std::optional<LightFrame> frame_of_ellipsoid(const Ellipsoid& light, Vec3d position, int corners) {
+  const std::optional<Ellipse> seen = silhouette(light, position);
+  if (!seen) return {};
+  const double skew = dot(seen->x, seen->y);
+  const double turn = skew == 0 ? 0 : 0.5 * std::atan2(2 * skew, dot(seen->x, seen->x) - dot(seen->y, seen->y));
+  const Vec3d x = seen->x * std::cos(turn) + seen->y * std::sin(turn), y = seen->y * std::cos(turn) - seen->x * std::sin(turn);
+  const Vec3d normal = cross(x, y);
+  LightFrame frame;
+  frame.origin = seen->center;
+  frame.axes.x = normalized(x);
+  frame.axes.z = normalized(dot(normal, position - frame.origin) > 0 ? -normal : normal);
+  frame.axes.y = cross(frame.axes.z, frame.axes.x);
+  const double out = regular_polygon_of_equal_area(corners);
+  frame.half_x = out * length(x);
+  frame.half_y = out * length(y);
+  put_box(frame);
+  return frame;
+}
+
+std::vector<Corner> contour_of_ellipse(const LightFrame& frame, int corners) {
+  std::vector<Corner> contour;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    contour.push_back({frame.half_x * std::cos(angle), frame.half_y * std::sin(angle)});
+  }
+  return contour;
+}
+
+std::vector<Segment> outline_of_ellipse(int corners) {
+  LightFrame frame;
+  frame.half_x = frame.half_y = 1;
+  put_box(frame);
+  frame.contours = {contour_of_ellipse(frame, corners)};
+  return outline_segments(frame);
 }
 
 }  // namespace steradian::shadow

@@ -1,25 +1,14 @@
-// Kernels of this folder's own, and so a namespace of their own.
-#define STERADIAN_ISA isa_shadow
-#define STERADIAN_KERNEL_EXTENSION "shadow/shadow.glsl"
-
 #include "shadow/segments.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "steradian/kernels.h"
+#include "shadow/collect.h"
+#include "shadow/shadow_kernels.h"
 
 namespace steradian::shadow {
 namespace {
-
-// Kinds of ids, in the top bits.
-constexpr std::uint64_t kCutId = 1ull << 60, kCornerId = 2ull << 60, kClipId = 3ull << 60;
-
-// The id of the end of a segment where the box clips it.
-std::uint64_t clip_id(Source source, std::uint32_t index, int end) {
-  return kClipId | static_cast<std::uint64_t>(source) << 56 | static_cast<std::uint64_t>(index) << 1 | static_cast<unsigned>(end);
-}
 
 // Sebastiano Vigna's splitmix64.
 std::uint64_t hashed(std::uint64_t x) {
@@ -34,40 +23,27 @@ std::int32_t odd(std::uint64_t bits) {
   return (bits & 0x100000) != 0 ? -size : size;
 }
 
-// Adds segments after the clip, with the events of what the left side cut.
-class Collector {
- public:
-  Collector(const LightFrame& frame, SegmentSet& result) : box_x_(frame.box_x), box_y_(frame.box_y), result_(result) {}
-
-  template <class S>
-  void add(typename Kernels<S>::vec3 a, typename Kernels<S>::vec3 b, std::uint64_t id_a, std::uint64_t id_b, std::int32_t weight,
-           Source source, std::uint32_t index) {
-    Kernels<S> k;
-    const auto clipped = k.shadow_clip(a, b, {static_cast<S>(box_x_), static_cast<S>(box_y_)});
-    if (!clipped.inside.m) return;
-    const auto cell = [](const auto& v) { return static_cast<std::int32_t>(v.v); };
-    const int side_a = cell(clipped.sides.x), side_b = cell(clipped.sides.y);
-    add_cells(cell_of(side_a != 0 ? clip_id(source, index, 0) : id_a, cell(clipped.start.x), cell(clipped.start.y)),
-              cell_of(side_b != 0 ? clip_id(source, index, 1) : id_b, cell(clipped.end.x), cell(clipped.end.y)), side_a == 1, side_b == 1,
-              weight, source, index);
-  }
-
-  void add_cells(const Cell& a, const Cell& b, bool from_left, bool to_left, std::int32_t weight, Source source, std::uint32_t index) {
-    if (from_left) result_.events.push_back({a.y, a.dy, weight});
-    if (to_left) result_.events.push_back({b.y, b.dy, -weight});
-    result_.segments.push_back({a, b, weight, source, index});
-  }
-
- private:
-  double box_x_, box_y_;
-  SegmentSet& result_;
-};
-
 std::int32_t to_cell(double x, double box) {
   return static_cast<std::int32_t>(std::clamp(std::floor(x / box * kCells + 0.5), -double{kCells}, double{kCells}));
 }
 
-void add_outline(const LightFrame& frame, Collector& collector) {
+// Adds an edge after the clip.
+template <class S>
+void add_clipped(const LightFrame& frame, typename ShadowKernels<S>::vec3 a, typename ShadowKernels<S>::vec3 b, std::uint64_t id_a,
+                 std::uint64_t id_b, std::int32_t weight, Source source, std::uint32_t index, SegmentSet& result) {
+  ShadowKernels<S> k;
+  const auto clipped = k.shadow_clip(a, b, {static_cast<S>(frame.box_x), static_cast<S>(frame.box_y)});
+  if (!clipped.inside.m) return;
+  const auto cell = [](const auto& v) { return static_cast<std::int32_t>(v.v); };
+  const int side_a = cell(clipped.sides.x), side_b = cell(clipped.sides.y);
+  add_cells(result, cell_of(side_a != 0 ? clip_id(source, index, 0) : id_a, cell(clipped.start.x), cell(clipped.start.y)),
+            cell_of(side_b != 0 ? clip_id(source, index, 1) : id_b, cell(clipped.end.x), cell(clipped.end.y)), side_a == 1, side_b == 1,
+            weight, source, index);
+}
+
+}  // namespace
+
+void add_outline(const LightFrame& frame, SegmentSet& result) {
   std::uint32_t number = 0;
   for (const std::vector<Corner>& contour : frame.contours) {
     const auto first = number;
@@ -75,14 +51,15 @@ void add_outline(const LightFrame& frame, Collector& collector) {
       const Corner& c = contour[i % contour.size()];
       return cell_of(kCornerId | (first + i % contour.size()), to_cell(c.x, frame.box_x), to_cell(c.y, frame.box_y));
     };
-    for (std::size_t i = 0; i < contour.size(); ++i)
-      collector.add_cells(corner(i), corner(i + 1), false, false, -kHidden, Source::outline, number++);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      add_cells(result, corner(i), corner(i + 1), false, false, -kHidden, Source::outline, number++);
+      result.segments.back().place_a = static_cast<std::int32_t>(first + i);
+      result.segments.back().place_b = static_cast<std::int32_t>(first + (i + 1) % contour.size());
+    }
   }
 }
 
-// The half plane that a normal looks on, as a line of weight -H with what is above on its left. Returns H where the lower left
-// corner lies below, else 0.
-std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Source source, Collector& collector) {
+std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Source source, SegmentSet& result) {
   // Counter-clockwise from the lower left corner; side i runs from corner i to i + 1.
   const double xs[4] = {-frame.box_x, frame.box_x, frame.box_x, -frame.box_x};
   const double ys[4] = {-frame.box_y, -frame.box_y, frame.box_y, frame.box_y};
@@ -103,11 +80,16 @@ std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Sourc
     cells[i] = cell_of(clip_id(source, 0, end), at(xs[i], xs[j], frame.box_x), at(ys[i], ys[j], frame.box_y));
     (above_i ? enters : leaves) = i;
   }
-  if (enters >= 0 && leaves >= 0) collector.add_cells(cells[enters], cells[leaves], enters == 3, leaves == 3, -kHidden, source, 0);
+  if (enters >= 0 && leaves >= 0) add_cells(result, cells[enters], cells[leaves], enters == 3, leaves == 3, -kHidden, source, 0);
   return height[0] >= 0 ? 0 : kHidden;
 }
 
-}  // namespace
+void add_horizons(const LightFrame& frame, const Viewpoint& from, Vec3d point, SegmentSet& result) {
+  const Vec3d down{point.x, point.y, -point.z};
+  result.base = kHidden + add_horizon(frame, down, frame.axes.to_local(from.normal), Source::shading_horizon, result);
+  if (from.geometric_normal)
+    result.base += add_horizon(frame, down, frame.axes.to_local(*from.geometric_normal), Source::geometric_horizon, result);
+}
 
 Cell cell_of(std::uint64_t id, std::int32_t x, std::int32_t y) {
   const std::uint64_t h = hashed(id);
@@ -204,11 +186,10 @@ void LocalEdges<S>::assign_all(const EdgeMesh& mesh, const LightFrame& frame) {
 
 template <class S>
 void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
-  using K = Kernels<S>;
+  using K = ShadowKernels<S>;
   using vec3 = typename K::vec3;
   K k;
   result.clear();
-  Collector collector(*frame_, result);
   const Vec3d point = frame_->to_local(from.position);
   const vec3 at = {static_cast<S>(point.x), static_cast<S>(point.y), static_cast<S>(point.z)};
   const vec3 eye = {at.x, at.y, -at.z};
@@ -233,7 +214,7 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
       (below0 ? b : a) = cut;
       (below0 ? id_b : id_a) = kCutId | edge.number;
     }
-    collector.add<S>(k.shadow_project(eye, a), k.shadow_project(eye, b), id_a, id_b, weight, Source::edge, edge.number);
+    add_clipped<S>(*frame_, k.shadow_project(eye, a), k.shadow_project(eye, b), id_a, id_b, weight, Source::edge, edge.number, result);
   }
 
   const std::size_t sections = result.segments.size();
@@ -252,25 +233,14 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
           eye, from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height) : k.shadow_cut(vertex(to_v), vertex(from_v), height));
     };
     const std::uint64_t id_a = kCutId | t.edges[leaving], id_b = kCutId | t.edges[returning];
-    collector.add<S>(cut(leaving), cut(returning), id_a, id_b, -facing(t.plane), Source::section, t.number);
-    // Coincident triangles have one section between them: two segments with the same ends could not tell who lies left of whom.
-    for (std::size_t i = sections; i + 1 < result.segments.size(); ++i) {
-      Segment &earlier = result.segments[i], &last = result.segments.back();
-      const bool same = earlier.a.id == last.a.id && earlier.b.id == last.b.id;
-      const bool opposite = earlier.a.id == last.b.id && earlier.b.id == last.a.id;
-      if (last.source != Source::section || (!same && !opposite)) continue;
-      earlier.weight += same ? last.weight : -last.weight;
-      result.segments.pop_back();
-      break;
-    }
+    add_section(result, sections, [&] {
+      add_clipped<S>(*frame_, cut(leaving), cut(returning), id_a, id_b, -facing(t.plane), Source::section, t.number, result);
+    });
   }
   result.occluders = result.segments.size();
 
-  add_outline(*frame_, collector);
-  const Vec3d down{point.x, point.y, -point.z};
-  result.base = kHidden + add_horizon(*frame_, down, frame_->axes.to_local(from.normal), Source::shading_horizon, collector);
-  if (from.geometric_normal)
-    result.base += add_horizon(*frame_, down, frame_->axes.to_local(*from.geometric_normal), Source::geometric_horizon, collector);
+  add_outline(*frame_, result);
+  add_horizons(*frame_, from, point, result);
 }
 
 template class LocalEdges<double>;

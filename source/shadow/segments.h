@@ -32,6 +32,8 @@ struct Segment {
   std::int32_t weight = 0;
   Source source = Source::edge;
   std::uint32_t index = 0;  // of the edge, triangle or corner
+  // Places of its ends in a table of vertices, where there is one: small numbers, equal where ids are equal.
+  std::int32_t place_a = -1, place_b = -1;
 };
 
 // Where the box's left side is crossed upwards, the count grows by weight.

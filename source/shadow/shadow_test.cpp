@@ -8,7 +8,7 @@
 #include "integrals/ltc/ggx_tables.h"
 #include "integrals/ltc/table.h"
 #include "lobes/lobe.h"
-#include "shadow/gather.h"
+#include "shadow/edge_arrays.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
 #include "shadow/triangle_rays.h"
@@ -44,6 +44,8 @@ struct Stage {
   LocalEdges<double> exact[2];
   LocalEdges<float> single[2];
 };
+
+const ShadowTable& packs() { return shadow_table_for(active_simd()); }
 
 double area_of(const VisibleRegion& region) {
   double area = 0;
@@ -256,6 +258,91 @@ TEST(SoftShadow, GroupsGatherWhatTheirPointsSee) {
     }
   }
   EXPECT_LT(gathered, all_edges / 4) << groups;  // or gathering would be for nothing
+}
+
+// Whole numbers decide, so packs and scalars cut every segment to the same pieces, to the bit.
+TEST(SoftShadow, PacksArrangeTheSamePieces) {
+  std::size_t pieces = 0;
+  for (const families::Family& family : families::all()) {
+    SCOPED_TRACE(family.name);
+    const Stage stage(family);
+    families::Random random(4, 17);
+    SegmentSet set;
+    SegmentArrays arrays;
+    std::vector<Piece> by_scalars, by_packs;
+    for (int i = 0; i < 20; ++i) {
+      const Viewpoint at = families::random_point(family, stage.mesh, stage.light, random).at;
+      stage.exact[stage.side_of(at)].see(at, set);
+      arrange(set, by_scalars);
+      arrange(packs(), set, arrays, by_packs);
+      ASSERT_EQ(by_scalars.size(), by_packs.size());
+      for (std::size_t k = 0; k < by_scalars.size(); ++k) {
+        const Piece &a = by_scalars[k], &b = by_packs[k];
+        ASSERT_TRUE(a.ax == b.ax && a.ay == b.ay && a.bx == b.bx && a.by == b.by && a.left == b.left && a.right == b.right &&
+                    a.segment == b.segment)
+            << "piece " << k << " of point " << i;
+      }
+      pieces += by_packs.size();
+    }
+  }
+  EXPECT_GT(pieces, 10000u);  // or there was nothing to compare
+}
+
+// What packs project in float, from what a group gathered, against all edges in double: as for positions in float above.
+TEST(SoftShadow, PacksSeeWhatDoublesSee) {
+  for (const families::Family& family : families::all()) {
+    SCOPED_TRACE(family.name);
+    const Stage stage(family);
+    const EdgeTree tree(stage.mesh);
+    families::Random random(5, 17);
+    Scratch exact, on_packs;
+    VisibleRegion in_exact, in_packs, in_turned;
+    double squares = 0;
+    constexpr int kPoints = 40;
+    for (int i = 0; i < kPoints; ++i) {
+      const Viewpoint at = families::random_point(family, stage.mesh, stage.light, random).at;
+      const std::size_t side = stage.side_of(at);
+      const LightFrame& frame = stage.frames[side];
+      stage.exact[side].see(at, exact.set);
+      find_visible(frame, at.position, stage.rays, exact, in_exact);
+
+      const Shaft around(frame, {at.position + Vec3d{0.1, 0, 0}, at.position, at.position + Vec3d{0, 0, 0.1}}), shaft(frame, {at.position});
+      std::vector<std::uint32_t> edges, crossing;
+      tree.gather(stage.mesh, around, edges);
+      for (const std::uint32_t t : crossing_triangles(stage.mesh, frame))
+        if (around.needs_triangle(stage.mesh, t)) crossing.push_back(t);
+      EdgeArrays tile, group;
+      const std::vector<Segment> outline = outline_segments(frame);
+      const auto region_of = [&](const LightFrame& base, bool turned, VisibleRegion& region) {
+        tile.assign(stage.mesh, base, edges, crossing);
+        group.assign_needed(packs(), stage.mesh, tile, base, shaft);
+        if (turned)
+          group.see_turned(packs(), base, frame, at, outline, on_packs.set);
+        else
+          group.see(packs(), frame, at, outline, on_packs.set);
+        if (on_packs.set.occluders == 0) add_surroundings(frame, at, outline, on_packs.set);
+        find_visible_on_packs(packs(), frame, at.position, stage.rays, on_packs, region);
+        // Counts handed on along chains are those that left rays find.
+        std::vector<Piece> by_scalars;
+        arrange(on_packs.set, by_scalars);
+        EXPECT_TRUE(std::equal(by_scalars.begin(), by_scalars.end(), on_packs.pieces.begin(), on_packs.pieces.end(),
+                               [](const Piece& a, const Piece& b) {
+                                 return a.ax == b.ax && a.by == b.by && a.left == b.left && a.right == b.right && a.segment == b.segment;
+                               }))
+            << i;
+        return area_of(region);
+      };
+      const double change = region_of(frame, false, in_packs) - area_of(in_exact);
+      EXPECT_LE(std::fabs(change), 1e-4) << i;
+      squares += change * change;
+      // The same from another frame's coordinates.
+      LightFrame other;
+      other.origin = frame.origin + frame.axes.x * 0.1;
+      other.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      EXPECT_LE(std::fabs(region_of(other, true, in_turned) - area_of(in_exact)), 1e-4) << i;
+    }
+    EXPECT_LE(std::sqrt(squares / kPoints), 5e-7);
+  }
 }
 
 // Strange input: finite answers in bounded time.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace steradian::shadow {
 namespace {
@@ -25,43 +26,76 @@ Extent extent_of(const std::vector<Piece>& pieces, std::int32_t level) {
     if (!bounds(p, level)) continue;
     const double area = 0.5 * (p.ax * p.by - p.ay * p.bx);
     e.area += p.left < p.right ? area : -area;
-    e.perimeter += std::hypot(p.bx - p.ax, p.by - p.ay);
+    const double x = p.bx - p.ax, y = p.by - p.ay;
+    e.perimeter += std::sqrt(x * x + y * y);
   }
   return {e.area / kCells / kCells, e.perimeter / kCells};
 }
 
-// Distance from a place to the nearest segment.
-double clearance(const SegmentSet& set, Place q) {
-  double least = INFINITY;
-  for (const Segment& s : set.segments) {
-    const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y, x = q.x - s.a.x, y = q.y - s.a.y;
-    const double length2 = fx * fx + fy * fy;
-    const double t = length2 > 0 ? std::clamp((x * fx + y * fy) / length2, 0.0, 1.0) : 0.0;
-    least = std::min(least, std::hypot(x - t * fx, y - t * fy));
-  }
-  return least;
-}
+// What the search for a place asks of the segments, one by one.
+struct ByScalars {
+  const SegmentSet& set;
 
-// How far it is from a place along a direction to the next segment but one.
-double distance_to_next(const SegmentSet& set, Place from, Place direction, std::uint32_t but) {
-  double nearest = INFINITY;
-  for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
-    if (i == but) continue;
-    const Segment& s = set.segments[i];
-    const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y;
-    const double x = s.a.x - from.x, y = s.a.y - from.y;
-    const double det = direction.x * fy - direction.y * fx;
-    if (det == 0) continue;
-    const double distance = (x * fy - y * fx) / det, t = (x * direction.y - y * direction.x) / det;
-    if (distance > 0 && t >= 0 && t <= 1) nearest = std::min(nearest, distance);
+  // Distance from a place to the nearest segment.
+  double clearance(Place q) const {
+    double least = INFINITY;
+    for (const Segment& s : set.segments) {
+      const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y, x = q.x - s.a.x, y = q.y - s.a.y;
+      const double length2 = fx * fx + fy * fy;
+      const double t = length2 > 0 ? std::clamp((x * fx + y * fy) / length2, 0.0, 1.0) : 0.0;
+      least = std::min(least, std::hypot(x - t * fx, y - t * fy));
+    }
+    return least;
   }
-  return nearest;
-}
+  // How far it is from a place along a direction to the next segment but one.
+  double distance_to_next(Place from, Place direction, std::uint32_t but) const {
+    double nearest = INFINITY;
+    for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
+      if (i == but) continue;
+      const Segment& s = set.segments[i];
+      const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y;
+      const double x = s.a.x - from.x, y = s.a.y - from.y;
+      const double det = direction.x * fy - direction.y * fx;
+      if (det == 0) continue;
+      const double distance = (x * fy - y * fx) / det, t = (x * direction.y - y * direction.x) / det;
+      if (distance > 0 && t >= 0 && t <= 1) nearest = std::min(nearest, distance);
+    }
+    return nearest;
+  }
+  bool lies_within(Place q, std::int32_t level) const { return count_at(set, q.x, q.y) <= level; }
+};
+
+// The same on packs.
+struct ByPacks {
+  const SegmentSet& set;
+  const SegmentArrays& arrays;
+  const ShadowTable& packs;
+  SegmentView view = arrays.view();
+
+  static float single(double x) { return static_cast<float>(x); }
+  double clearance(Place q) const { return std::sqrt(static_cast<double>(packs.clearance2(view, single(q.x), single(q.y)))); }
+  double distance_to_next(Place from, Place direction, std::uint32_t but) const {
+    const float d =
+        packs.distance_to_next(view, single(from.x), single(from.y), single(direction.x), single(direction.y), arrays.place[but]);
+    return d < 1e29f ? static_cast<double>(d) : std::numeric_limits<double>::infinity();
+  }
+  bool lies_within(Place q, std::int32_t level) const {
+    const float y = single(q.y);
+    std::int32_t count = packs.count_at(view, single(q.x), y);
+    if (count == kUncertain) return false;
+    count += set.base;
+    for (const LeftEvent& event : set.events)
+      if (static_cast<float>(event.y) < y) count += event.weight;
+    return count <= level;
+  }
+};
 
 // A place well inside the region of a level: from the middles of its longest pieces along the normal, half way to what comes
 // next. False where there is none, which happens to slivers only.
-bool place_inside(const Scratch& scratch, std::int32_t level, Place& result) {
+template <class By>
+bool place_inside(const By& by, const Scratch& scratch, std::int32_t level, Place& result) {
   constexpr int kTrials = 4;
+  constexpr double kRoomEnough = kCells / 32.0;
   thread_local std::vector<std::pair<double, const Piece*>> longest;
   longest.clear();
   for (const Piece& p : scratch.pieces) {
@@ -76,17 +110,17 @@ bool place_inside(const Scratch& scratch, std::int32_t level, Place& result) {
     const double scale = (p->left < p->right ? 1 : -1) / std::sqrt(length2);
     const Place inward{-(p->by - p->ay) * scale, (p->bx - p->ax) * scale};
     const Place middle{0.5 * (p->ax + p->bx), 0.5 * (p->ay + p->by)};
-    const double distance = distance_to_next(scratch.set, middle, inward, p->segment);
+    const double distance = by.distance_to_next(middle, inward, p->segment);
     if (!std::isfinite(distance)) continue;
     const Place q{middle.x + 0.5 * distance * inward.x, middle.y + 0.5 * distance * inward.y};
     // Collinear edges of abutting faces send it to the wrong side.
-    if (count_at(scratch.set, q.x, q.y) > level) continue;
-    const double room = clearance(scratch.set, q);
+    if (!by.lies_within(q, level)) continue;
+    const double room = by.clearance(q);
     if (room > best) {
       best = room;
       result = q;
     }
-    if (++trials == kTrials) break;
+    if (++trials == kTrials || best > kRoomEnough) break;
   }
   return trials > 0 && best > 0;
 }
@@ -103,17 +137,16 @@ void take(const Scratch& scratch, std::int32_t level, VisibleRegion& result) {
   }
 }
 
-}  // namespace
-
-void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result) {
+// The visible region of scratch.pieces.
+template <class By>
+void find_in_pieces(const By& by, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result) {
   result.boundary.clear();
   result.rays = 0;
-  arrange(scratch.set, scratch.pieces);
-  std::vector<std::int32_t> levels;
+  std::vector<std::int32_t>& levels = scratch.levels;
+  levels.clear();
   for (const Piece& p : scratch.pieces)
-    if (p.low() < kHidden / 2) levels.push_back(p.low());
+    if (p.low() < kHidden / 2 && std::find(levels.begin(), levels.end(), p.low()) == levels.end()) levels.push_back(p.low());
   std::sort(levels.begin(), levels.end());
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
 
   const double z = -frame.to_local(from).z;
   const auto free = [&](Place q) {
@@ -127,7 +160,7 @@ void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers,
   for (const std::int32_t level : levels) {
     const Extent extent = extent_of(scratch.pieces, level);
     Place q;
-    if (!(extent.area > 0) || !place_inside(scratch, level, q)) continue;
+    if (!(extent.area > 0) || !(place_inside(by, scratch, level, q) || place_inside(ByScalars{scratch.set}, scratch, level, q))) continue;
     if (extent.area < extent.perimeter * kThin) {
       thin = true;
       thin_level = level;
@@ -138,6 +171,19 @@ void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers,
     break;
   }
   if (thin && free(thin_place)) take(scratch, thin_level, result);
+}
+
+}  // namespace
+
+void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result) {
+  arrange(scratch.set, scratch.pieces);
+  find_in_pieces(ByScalars{scratch.set}, frame, from, blockers, scratch, result);
+}
+
+void find_visible_on_packs(const ShadowTable& packs, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch,
+                           VisibleRegion& result) {
+  arrange(packs, scratch.set, scratch.arrays, scratch.pieces);
+  find_in_pieces(ByPacks{scratch.set, scratch.arrays, packs}, frame, from, blockers, scratch, result);
 }
 
 WorldPiece relative_to(Vec3d from, const LightFrame& frame, const Boundary& piece) {

@@ -33,10 +33,16 @@ struct VisibleRegion {
 struct Scratch {
   SegmentSet set;
   std::vector<Piece> pieces;
+  SegmentArrays arrays;
+  std::vector<std::int32_t> levels;
 };
 
 // Arranges scratch.set and finds the visible region; `from` is the point of which the set was made.
 void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result);
+
+// The same on packs.
+void find_visible_on_packs(const ShadowTable& packs, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch,
+                           VisibleRegion& result);
 
 // A boundary's ends relative to the point, in world space.
 struct WorldPiece {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "shapes/area_moments.h"
 #include "shapes/polygon.h"
 #include "steradian/error.h"
 
@@ -20,22 +21,6 @@ Vec3d area_vector(const Contour& contour) {
   return sum * 0.5;
 }
 
-// Moments of the area up to the second, about the plane point `origin` in the plane's own coordinates.
-struct AreaMoments {
-  double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-
-  // The triangle from the origin to two corners, with the sign of its order.
-  void add(double ax, double ay, double bx, double by) {
-    const double twice = ax * by - ay * bx;
-    area += twice / 2;
-    x += twice * (ax + bx) / 6;
-    y += twice * (ay + by) / 6;
-    xx += twice * (ax * ax + ax * bx + bx * bx) / 12;
-    xy += twice * (2 * ax * ay + ax * by + bx * ay + 2 * bx * by) / 24;
-    yy += twice * (ay * ay + ay * by + by * by) / 12;
-  }
-};
-
 LightQuarters quarters_of(const PreparedPolygon& light) {
   const Frame plane = Frame::from_normal(light.normal);
   AreaMoments m;
@@ -46,18 +31,10 @@ LightQuarters quarters_of(const PreparedPolygon& light) {
       m.add(dot(a, plane.x), dot(a, plane.y), dot(b, plane.x), dot(b, plane.y));
     }
   }
-  LightQuarters quarters;
-  quarters.center = light.centroid;
-  if (!(std::fabs(m.area) > 0)) return quarters;
-  const double x = m.x / m.area, y = m.y / m.area;
-  const double xx = m.xx / m.area - x * x, xy = m.xy / m.area - x * y, yy = m.yy / m.area - y * y;
-  quarters.center += plane.x * x + plane.y * y;
-  // Principal axes; each point stands at the deviation along its axis times the square root of 2.
-  const double middle = (xx + yy) / 2, apart = std::hypot((xx - yy) / 2, xy), turn = 0.5 * std::atan2(2 * xy, xx - yy);
-  const Vec3d along = plane.x * std::cos(turn) + plane.y * std::sin(turn);
-  quarters.reach_a = along * std::sqrt(2 * (middle + apart));
-  quarters.reach_b = cross(light.normal, along) * std::sqrt(2 * std::max(middle - apart, 0.0));
-  return quarters;
+  if (std::fabs(m.area) > 0) return quarters_of(m, light.centroid, plane.x, plane.y);
+  LightQuarters nowhere;
+  nowhere.center = light.centroid;
+  return nowhere;
 }
 
 Contour without_repeats(const Contour& contour) {

@@ -12,7 +12,7 @@ __attribute__((flatten)) void ggx(const PackLight& light, const Points& points, 
   integral.quality = quality;
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
-    const SeenLight seen(light, p);
+    const SeenLight seen(light, p, i);
     if (!any_lane(seen.lit && dot(n, v) > PackReal(0.0))) {
       store(plain + i, PackReal(0.0));
       store(fresnel + i, PackReal(0.0));

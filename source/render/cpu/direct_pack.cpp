@@ -39,7 +39,7 @@ __attribute__((flatten)) void add_diffuse(SurfaceTile& tile, const PackLight* co
         const auto incident = shapes::incident<Pack>(*source, p);
         e = incident.irradiance * max(dot(n, incident.direction), PackReal(0.0));
         if (any_lane(loss > PackReal(0.0))) e = e * (PackReal(1.0) - loss * k.lambert_grazing(incident.direction, v));
-      } else if (const SeenLight seen(light, p); any_lane(seen.lit)) {
+      } else if (const SeenLight seen(light, p, i); any_lane(seen.lit)) {
         e = any_lane(loss > PackReal(0.0))
                 ? k.lambert_irradiance_below(irradiance_vector(seen, frame, p), transform_transposed(frame, v), loss)
                 : irradiance_of(seen, frame, p);

@@ -1,6 +1,9 @@
 // Fills the G-buffer of a tile by tracing primary rays.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "render/cpu/camera_rays.h"
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/surface.h"
@@ -29,6 +32,10 @@ void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile);
 
 // Empties a slot: what packs read there is finite and weighs nothing.
 void put_nothing(SurfaceTile& tile, std::size_t slot);
+
+// Some slots of a tile, side by side at the beginning of another one whose first `filled` slots may hold something; all radiance 0.
+// Returns how many.
+std::size_t take_slots(const SurfaceTile& from, const std::vector<std::uint32_t>& slots, std::size_t filled, SurfaceTile& to);
 
 // The surface in a slot that has one, put together again.
 Surface surface_in(const SurfaceTile& tile, std::size_t slot);

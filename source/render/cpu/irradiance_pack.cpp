@@ -8,7 +8,7 @@ __attribute__((flatten)) void irradiance(const PackLight& light, const Points& p
   PackKernels k;
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i);
-    const SeenLight seen(light, p);
+    const SeenLight seen(light, p, i);
     if (!any_lane(seen.lit)) {
       store(result + i, PackReal(0.0));
       continue;

@@ -36,6 +36,7 @@ bool has_extent(const packed::Disk& light) { return is_finite(light.normal); }
 bool has_extent(const packed::Ellipsoid& light) { return is_finite(light.inverse_x); }
 bool has_extent(const packed::Capsule& light) { return light.radius > 0; }
 bool has_extent(const packed::Punctual&) { return true; }
+bool has_extent(const packed::Pieces&) { return true; }
 
 struct Interval {
   float low = INFINITY, high = -INFINITY;
@@ -77,6 +78,7 @@ bool faces(const auto& flat, const Box& positions) { return flat.two_sided || he
 bool faces(const packed::Ellipsoid&, const Box&) { return true; }
 bool faces(const packed::Capsule&, const Box&) { return true; }
 bool faces(const packed::Punctual&, const Box&) { return true; }
+bool faces(const packed::Pieces&, const Box&) { return true; }
 
 bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
   if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape);

@@ -9,6 +9,7 @@
 #include "render/cpu/tile.h"
 #include "shapes/capsule.h"
 #include "shapes/ellipse.h"
+#include "shapes/pieces.h"
 #include "shapes/punctual.h"
 #include "steradian/scene.h"
 
@@ -17,7 +18,7 @@ namespace steradian {
 class TexturedLight;
 
 struct PackLight {
-  std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual> shape;
+  std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual, packed::Pieces> shape;
   Vec3f radiance{};                               // punctual lights: intensity (illuminance for directional)
   const AreaLight* area = nullptr;                // what it was made of; null for punctual lights
   PreparedPolygon polygon;                        // polygon, in double
@@ -25,7 +26,8 @@ struct PackLight {
 
   bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
   bool is_area() const { return !std::holds_alternative<packed::Punctual>(shape); }
-  bool is_round() const { return !is_polygon() && is_area(); }
+  bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // of the points of one tile (shadow_pass.h)
+  bool is_round() const { return is_area() && !is_polygon() && !is_pieces(); }
 
   // Calls use(shape) with the shape of a round light.
   template <class Use>

@@ -26,7 +26,7 @@ STERADIAN_INLINE Both integrate_over(const Outline& outline, const integrals::Sh
   }
 }
 
-// Two functions of their own, so that each holds one walk in registers.
+// Functions of their own, so that each holds one walk in registers.
 template <bool with_diffuse>
 __attribute__((flatten, noinline)) Both integrate_polygon(const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
                                                           const PackVec3& view, const Lobe& lobe) {
@@ -37,6 +37,12 @@ template <bool with_diffuse>
 __attribute__((flatten, noinline)) Both integrate_round(const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
                                                         const PackVec3& view, const Lobe& lobe, const AboutLobe& about) {
   return integrate_over<with_diffuse>(RoundOutline{seen, frame, p, about}, seen.shading(view), lobe);
+}
+
+template <bool with_diffuse>
+__attribute__((flatten, noinline)) Both integrate_pieces(const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& view,
+                                                         const Lobe& lobe) {
+  return integrate_over<with_diffuse>(PiecesOutline{seen, frame}, seen.shading(view), lobe);
 }
 
 template <bool with_diffuse, class Decode>
@@ -53,12 +59,13 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
     const Lobe lobe = {decode(look_up(tables.matrix.nodes.data(), tables.matrix.size, coordinates.x, coordinates.y), roughness, view),
                        scale.x, scale.y};
 
-    const SeenLight seen(light, p);
+    const SeenLight seen(light, p, i);
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
     if (any_lane(seen.lit)) {
       const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
-      both = light.is_round() ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
-                              : integrate_polygon<with_diffuse>(seen, frame, p, view, lobe);
+      both = light.is_round()    ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
+             : light.is_pieces() ? integrate_pieces<with_diffuse>(seen, frame, view, lobe)
+                                 : integrate_polygon<with_diffuse>(seen, frame, p, view, lobe);
     }
     if (with_diffuse) store(sums.irradiance + i, irradiance_below(both.irradiance, view, fresnel_loss(points, i)));
     store(sums.specular + i, both.specular.x);

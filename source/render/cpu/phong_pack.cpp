@@ -15,9 +15,11 @@ __attribute__((flatten, noinline)) void radiance_by(const Share& share, double e
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
     const auto frame = k.frame_from_normal(n);
-    const SeenLight seen(light, p);
+    const SeenLight seen(light, p, i);
     const auto shading = seen.shading(transform_transposed(frame, v));
-    store(result + i, integrate(PolygonOutline{seen, frame, p}, shading, integral).x);
+    const auto r = light.is_pieces() ? integrate(PiecesOutline{seen, frame}, shading, integral)
+                                     : integrate(PolygonOutline{seen, frame, p}, shading, integral);
+    store(result + i, r.x);
   }
 }
 

@@ -60,6 +60,16 @@ constexpr int kMaxPairs = 1 << 16;
 constexpr int kMostLayers = 8;        // surfaces that light passes, one behind the other, and what is behind them
 constexpr float kLeastShare = 1e-3f;  // of the light from behind; less is black
 
+// Shadows of a tile in work, and their thread's memory.
+struct ShadowWork {
+  TileShadow shadow;
+  ShadowCounts counts;
+  PackLight pieces;                  // what slots see of a light
+  std::vector<std::uint32_t> slots;  // in `some`, side by side
+  SurfaceTile some;
+  std::size_t filled = kTilePixels;  // slots of `some` that may hold a surface
+};
+
 class Renderer {
  public:
   Renderer(const Scene& scene, const RenderOptions& options)
@@ -254,58 +264,81 @@ class Renderer {
     if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });
   }
 
-  // The light of one light past what blocks it: on packs where all of it arrives, or a share; piece by piece where a part does.
-  void add_shadowed(SurfaceTile& tile, const PackLight& light) {
+  // The light of a tile past what blocks it. A light before which nothing stands goes the usual way; of the others, the slots that see
+  // all of it or a part are evaluated side by side.
+  void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+    if (lights.empty()) return;
     ShadowWork& work = *shadow_work_.local();
-    TileShadow& shadow = work.shadow;
-    shadow_clock_.run([&] { shadows_->find(tile, light, shadow, work.counts); });
-    using Seen = TileShadow::Seen;
-    const auto add_to = [&](std::size_t i, Vec3d r) {
-      tile.radiance.x[i] += static_cast<float>(r.x);
-      tile.radiance.y[i] += static_cast<float>(r.y);
-      tile.radiance.z[i] += static_cast<float>(r.z);
-    };
-    const auto at = [&](const TileShadow::Part& part) -> ShadingPoint {
-      const auto get = [&](const TileVector& v) {
-        return normalized(static_cast<Vec3d>(Vec3f{v.x[part.slot], v.y[part.slot], v.z[part.slot]}));
-      };
-      return {part.position, get(tile.normal), get(tile.view)};
-    };
-
-    bool any_whole = false;
-    std::array<bool, kTilePixels> lit;
-    for (std::size_t i = 0; i < kTilePixels; ++i) any_whole |= lit[i] = shadow.seen[i] == Seen::whole || shadow.seen[i] == Seen::share;
-    for (const TileShadow::Part& part : shadow.parts)
-      if (!part.all.vertices.empty()) any_whole |= lit[part.slot] = true;
-    if (any_whole) {
-      SurfaceTile& masked = work.masked;
-      masked = tile;
-      for (TilePlane* plane : {&masked.radiance.x, &masked.radiance.y, &masked.radiance.z}) plane->fill(0);
-      for (std::size_t i = 0; i < kTilePixels; ++i)
-        if (!lit[i]) put_nothing(masked, i);
-      add_light(masked, {&light});
-      for (std::size_t i = 0; i < kTilePixels; ++i) {
-        const Vec3d whole{masked.radiance.x[i], masked.radiance.y[i], masked.radiance.z[i]};
-        if (shadow.seen[i] == Seen::whole) add_to(i, whole);
-        if (shadow.seen[i] == Seen::share) add_to(i, whole * static_cast<double>(shadow.share[i]));
+    TilePoints points;
+    shadow_clock_.run([&] { points = points_for_shadows(tile); });
+    std::vector<const PackLight*> plain;
+    for (const PackLight* light : lights) {
+      shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts); });
+      if (work.shadow.is_plain()) {
+        plain.push_back(light);
+        continue;
       }
+      add_whole(tile, *light, work);
+      add_parts(tile, *light, work);
     }
-    specular_clock_.run([&] {
-      for (const TileShadow::Part& part : shadow.parts) {
-        const Surface surface = surface_in(tile, part.slot);
-        const Vec3d seen = specular_.at_point(surface, at(part), part.visible) * static_cast<double>(part.passes);
-        if (part.all.vertices.empty()) {
-          add_to(part.slot, seen);
-          continue;
-        }
-        // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
-        const Vec3d all = specular_.at_point(surface, at(part), part.all);
-        const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
-        const std::size_t i = part.slot;
-        add_to(i, Vec3d{work.masked.radiance.x[i], work.masked.radiance.y[i], work.masked.radiance.z[i]} *
-                      Vec3d{share(seen.x, all.x), share(seen.y, all.y), share(seen.z, all.z)});
+    if (!plain.empty()) add_light(tile, plain);
+  }
+
+  // Slots that see all of a light, or a share of it.
+  void add_whole(SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
+    using Seen = TileShadow::Seen;
+    work.slots.clear();
+    for (std::uint32_t i = 0; i < kTilePixels; ++i)
+      if (work.shadow.seen[i] == Seen::whole || work.shadow.seen[i] == Seen::share) work.slots.push_back(i);
+    if (work.slots.empty()) return;
+    SurfaceTile& some = light_slots(tile, light, work);
+    for (std::size_t k = 0; k < work.slots.size(); ++k) {
+      const std::uint32_t i = work.slots[k];
+      add_radiance(tile, i, radiance_in(some, k) * (work.shadow.seen[i] == Seen::share ? work.shadow.share[i] : 1.0f));
+    }
+  }
+
+  // The radiance that a light sends to some slots alone, in their order.
+  SurfaceTile& light_slots(const SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
+    work.filled = take_slots(tile, work.slots, work.filled, work.some);
+    add_light(work.some, {&light});
+    return work.some;
+  }
+
+  static Vec3f radiance_in(const SurfaceTile& tile, std::size_t i) { return {tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]}; }
+  static void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
+    tile.radiance.x[i] += r.x;
+    tile.radiance.y[i] += r.y;
+    tile.radiance.z[i] += r.z;
+  }
+
+  // Slots that see a part of a light.
+  void add_parts(SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
+    std::vector<TileShadow::Part>& parts = work.shadow.parts;
+    if (parts.empty()) return;
+    // Packs walk as many edges as their longest list has.
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const TileShadow::Part& a, const TileShadow::Part& b) { return a.visible.count > b.visible.count; });
+    work.slots.clear();
+    for (const TileShadow::Part& part : parts) work.slots.push_back(part.slot);
+    work.pieces.radiance = light.radiance;
+    work.pieces.shape = pieces_of(work.shadow, [](const TileShadow::Part& part) { return part.visible; });
+    const SurfaceTile& seen = light_slots(tile, work.pieces, work);
+    std::vector<Vec3f> radiance;
+    for (std::size_t k = 0; k < parts.size(); ++k) radiance.push_back(radiance_in(seen, k) * parts[k].passes);
+    if (parts[0].all.count > 0) {
+      // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
+      const auto share = [](float part, float all) { return all > 0 ? part / all : 0.0f; };
+      work.pieces.shape = pieces_of(work.shadow, [](const TileShadow::Part& part) { return part.all; });
+      const SurfaceTile& all = light_slots(tile, work.pieces, work);
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Vec3f a = radiance_in(all, k);
+        radiance[k] = {share(radiance[k].x, a.x), share(radiance[k].y, a.y), share(radiance[k].z, a.z)};
       }
-    });
+      const SurfaceTile& whole = light_slots(tile, light, work);
+      for (std::size_t k = 0; k < parts.size(); ++k) radiance[k] = radiance[k] * radiance_in(whole, k);
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) add_radiance(tile, parts[k].slot, radiance[k]);
   }
 
   // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
@@ -313,7 +346,7 @@ class Renderer {
     const float weight = 1.0f / static_cast<float>(options_.aa);
     const auto reaching = lights_reaching(lights_, tile);
     if (shadows_) {
-      for (const PackLight* light : reaching) add_shadowed(tile, *light);
+      add_shadowed(tile, reaching);
     } else {
       add_light(tile, reaching);
     }
@@ -387,11 +420,6 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
-  struct ShadowWork {
-    TileShadow shadow;
-    SurfaceTile masked;
-    ShadowCounts counts;
-  };
   std::optional<ShadowPass> shadows_;
   tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;

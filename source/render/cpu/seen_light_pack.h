@@ -14,12 +14,16 @@ using AboutLobe = shapes::AboutLobe<Pack>;
 
 struct SeenLight {
   const PackLight& light;
+  std::size_t first;  // the number of the pack's first point, by which pieces are looked up
   PackKernels::mask lit, reversed;
 
-  STERADIAN_INLINE SeenLight(const PackLight& l, const PackVec3& p) : light(l) {
-    if (const auto* polygon = std::get_if<packed::Polygon>(&l.shape))
+  STERADIAN_INLINE SeenLight(const PackLight& l, const PackVec3& p, std::size_t first_point) : light(l), first(first_point) {
+    if (const auto* polygon = std::get_if<packed::Polygon>(&l.shape)) {
       take(shapes::see<Pack>(*polygon, p));
-    else
+    } else if (const auto* pieces = std::get_if<packed::Pieces>(&l.shape)) {
+      lit = PackReal(0.0) < PackReal(first_point < pieces->point_count() ? 1.0 : 0.0);
+      reversed = PackReal(1.0) < PackReal(0.0);
+    } else
       l.with_round([&](const auto& shape) { take(shapes::see<Pack>(shape, p)); });
   }
   STERADIAN_INLINE integrals::Shading<Pack> shading(const PackVec3& view) const { return {view, lit, reversed}; }
@@ -71,6 +75,41 @@ struct PolygonOutline {
   STERADIAN_INLINE const packed::Polygon& polygon() const { return *std::get_if<packed::Polygon>(&seen.light.shape); }
 };
 
+// What bounds the visible part behind occluders, for each point by itself. Edges lie above the horizon of the surface's normal.
+struct PiecesOutline {
+  const SeenLight& seen;
+  const PackKernels::mat3& frame;
+
+  template <class End, class Add>
+  STERADIAN_INLINE void walk(End end, Add add) const {
+    PackKernels k;
+    const packed::Pieces& pieces = of();
+    const std::size_t count = pieces.edge_count(seen.first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* edge = pieces.edge(seen.first, i);
+      const auto corner = [&](std::size_t c) { return k.polygon_direction(transform_transposed(frame, vector_at(edge, c))); };
+      add(end(corner(0)), end(corner(3)));
+    }
+  }
+  PackKernels::LightElements elements() const {
+    const float* e = of().elements(seen.first);
+    const auto vector = [&](std::size_t plane) { return transform_transposed(frame, vector_at(e, plane)); };
+    return {vector(0), vector(3), vector(6), vector(9)};
+  }
+  STERADIAN_INLINE PackReal deviation2() const { return load(of().elements(seen.first) + 12 * packed::Pieces::kBlock); }
+  STERADIAN_INLINE PackReal distance2() const {
+    const PackVec3 to = vector_at(of().elements(seen.first), 0);
+    return dot(to, to);
+  }
+
+ private:
+  STERADIAN_INLINE const packed::Pieces& of() const { return *std::get_if<packed::Pieces>(&seen.light.shape); }
+  STERADIAN_INLINE static PackVec3 vector_at(const float* planes, std::size_t plane) {
+    constexpr std::size_t kBlock = packed::Pieces::kBlock;
+    return {load(planes + plane * kBlock), load(planes + (plane + 1) * kBlock), load(planes + (plane + 2) * kBlock)};
+  }
+};
+
 // A function of its own: inlined, it would take registers from the walks.
 __attribute__((flatten, noinline)) inline int fill_round_corners(const PackLight& light, const AboutLobe& lobe,
                                                                  const PackKernels::mat3& frame, const PackVec3& p,
@@ -100,7 +139,7 @@ struct RoundOutline {
   STERADIAN_INLINE PackReal distance2() const { return distance2_of(seen.light, p); }
 };
 
-// Either of the two, where one place in the code must serve both.
+// Any of the three, where one place in the code must serve all.
 struct AnyOutline {
   RoundOutline round;
 
@@ -108,19 +147,32 @@ struct AnyOutline {
   STERADIAN_INLINE void walk(End end, Add add) const {
     if (round.seen.light.is_round())
       round.walk(end, add);
+    else if (round.seen.light.is_pieces())
+      pieces().walk(end, add);
     else
       PolygonOutline{round.seen, round.frame, round.p}.walk(end, add);
   }
-  PackKernels::LightElements elements() const { return round.elements(); }
-  STERADIAN_INLINE PackReal deviation2() const { return round.deviation2(); }
-  STERADIAN_INLINE PackReal distance2() const { return round.distance2(); }
+  PackKernels::LightElements elements() const { return is_pieces() ? pieces().elements() : round.elements(); }
+  STERADIAN_INLINE PackReal deviation2() const { return is_pieces() ? pieces().deviation2() : round.deviation2(); }
+  STERADIAN_INLINE PackReal distance2() const { return is_pieces() ? pieces().distance2() : round.distance2(); }
+
+ private:
+  STERADIAN_INLINE bool is_pieces() const { return round.seen.light.is_pieces(); }
+  STERADIAN_INLINE PiecesOutline pieces() const { return {round.seen, round.frame}; }
 };
+
+// Over pieces: a function of its own, so that it takes no registers from the walk along a polygon.
+__attribute__((flatten, noinline)) inline PackVec3 irradiance_vector_of_pieces(const SeenLight& light, const PackKernels::mat3& frame) {
+  integrals::Irradiance<Pack> integral;
+  return integrate(PiecesOutline{light, frame}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
+}
 
 // Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z it is. Functions of their own: g++
 // flattens nothing that reaches it through a caller that is itself always inlined. The irradiance alone is an eighth
 // quicker than the vector.
 __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight& light, const PackKernels::mat3& frame,
                                                                  const PackVec3& p) {
+  if (light.light.is_pieces()) return irradiance_vector_of_pieces(light, frame).z;
   if (light.light.is_round()) {
     PackReal e(0.0);
     light.light.with_round([&](const auto& shape) { e = select(light.lit, shapes::irradiance_vector<Pack>(shape, frame, p).z, e); });
@@ -132,6 +184,7 @@ __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight
 
 __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame,
                                                                      const PackVec3& p) {
+  if (light.light.is_pieces()) return irradiance_vector_of_pieces(light, frame);
   if (light.light.is_round()) {
     PackVec3 e(0.0, 0.0, 0.0);
     light.light.with_round([&](const auto& shape) { e = select(light.lit, shapes::irradiance_vector<Pack>(shape, frame, p), e); });

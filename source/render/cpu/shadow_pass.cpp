@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "core/random.h"
+#include "shapes/area_moments.h"
 #include "shadow/round_light.h"
-#include "shadow/visible_part.h"
+#include "shadow/visible.h"
 
 namespace steradian {
 namespace {
@@ -27,14 +28,6 @@ constexpr double kLift = 1e-6;  // integrals are taken in float
 
 Vec3d get(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(Vec3f{v.x[i], v.y[i], v.z[i]}); }
 
-// Groups of 8 x 8 pixels: four blocks of slots.
-std::uint32_t group_of(std::uint32_t slot) {
-  constexpr std::uint32_t kBlocks = kTileSide / 4;
-  const std::uint32_t block = slot / 16;
-  return block / kBlocks / 2 * (kBlocks / 2) + block % kBlocks / 2;
-}
-constexpr std::uint32_t kGroups = kTilePixels / 64;
-
 bool is_disk(const PackLight& light) { return std::holds_alternative<packed::Disk>(light.shape); }
 
 class EmbreeBlockers : public shadow::Blockers {
@@ -45,32 +38,6 @@ class EmbreeBlockers : public shadow::Blockers {
  private:
   const RayScene& rays_;
 };
-
-// Splits points where a gap is wider than 35 % of their box: a shaft around both sides of a depth edge holds too much.
-void split(std::vector<std::uint32_t> slots, const std::vector<Viewpoint>& points, std::vector<std::vector<std::uint32_t>>& groups) {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
-  for (const std::uint32_t s : slots) {
-    const Vec3d p = points[s].position;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3d size = high - low;
-  const auto along = [&](std::uint32_t s) {
-    const Vec3d p = points[s].position;
-    return size.x >= size.y && size.x >= size.z ? p.x : size.y >= size.z ? p.y : p.z;
-  };
-  const double longest = std::max({size.x, size.y, size.z});
-  std::vector<std::uint32_t> order = slots;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return along(a) < along(b); });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (along(order[i]) - along(order[i - 1]) > 0.35 * longest && longest > 0) {
-      const auto middle = order.begin() + static_cast<std::ptrdiff_t>(i);
-      split({order.begin(), middle}, points, groups);
-      split({middle, order.end()}, points, groups);
-      return;
-    }
-  groups.push_back(std::move(slots));
-}
 
 struct Ball {
   Vec3d center;
@@ -129,23 +96,103 @@ std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight&
   return result;
 }
 
+bool on_light(const LightFrame& frame, double x, double y) {
+  bool inside = false;
+  for (const auto& c : frame.contours)
+    for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++)
+      if ((c[i].y > y) != (c[j].y > y) && x < (c[j].x - c[i].x) * (y - c[i].y) / (c[j].y - c[i].y) + c[i].x) inside = !inside;
+  return inside;
+}
+
+// Ellipsoids' frames come without.
+LightFrame with_contours(LightFrame frame) {
+  if (frame.contours.empty()) frame.contours = {shadow::contour_of_ellipse(frame, kRoundCorners)};
+  return frame;
+}
+
+// How much of the light's box a normal looks on.
+enum class Above { all, some, none };
+Above above_horizon(const LightFrame& frame, Vec3d position, Vec3d normal) {
+  const double middle = dot(frame.origin - position, normal);
+  const double reach = std::fabs(dot(frame.axes.x, normal)) * frame.box_x + std::fabs(dot(frame.axes.y, normal)) * frame.box_y;
+  return middle - reach > 0 ? Above::all : middle + reach > 0 ? Above::some : Above::none;
+}
+
+// From less than ten half diagonals away, no integral takes a light's elements (least_distance2 of shapes/small_light.h).
+constexpr double kNeverSmall = 100;
+
 }  // namespace
 
-// A tile in work.
+TilePoints points_for_shadows(const SurfaceTile& tile) {
+  TilePoints result;
+  result.points.resize(kTilePixels);
+  std::vector<Vec3d> positions(kTilePixels);
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (tile.material[i] == nullptr) continue;
+    const Vec3d position = get(tile.position, i), geometric = get(tile.geometric_normal, i), normal = normalized(get(tile.normal, i));
+    Viewpoint& at = result.points[i];
+    positions[i] = at.position = position + geometric * shadow::offset_from_surface(position);
+    at.normal = normal;
+    if (length(normal - geometric) > 1e-5) at.geometric_normal = geometric;
+  }
+  result.groups = groups_of(tile, positions);
+  return result;
+}
+
+bool TileShadow::is_plain() const {
+  return std::all_of(seen.begin(), seen.end(), [](Seen s) { return s == Seen::whole || s == Seen::dark; });
+}
+
+// A tile in work, and its thread's memory.
 struct ShadowPass::Work {
-  const std::vector<Viewpoint>& points;
-  TileShadow& result;
-  ShadowCounts& counts;
-  EmbreeBlockers blockers;
-  shadow::LocalEdges<double> local;
+  const std::vector<Viewpoint>* points = nullptr;
+  TileShadow* result = nullptr;
+  ShadowCounts* counts = nullptr;
+  shadow::EdgeArrays tile, group;
   shadow::Scratch scratch;
   shadow::VisibleRegion region;
-  std::vector<std::uint32_t> edges, crossing;
-  bool cut_outs = false;  // whether the group's shaft meets any
+  std::vector<Vec3d> positions;
+  std::vector<std::uint32_t> slots, edges, crossing;
+  LightFrame base;             // of round lights: in whose coordinates the arrays are
+  bool turned = false;         // they are
+  bool whole_outline = false;  // parts come with their light's polygon
+  bool cut_outs = false;       // whether the group's shaft meets any
+
+  const Viewpoint& at(std::uint32_t slot) const { return (*points)[slot]; }
 };
 
+ShadowPass::Side ShadowPass::side_of(const PreparedPolygon& polygon, int side) {
+  Side result;
+  result.side = side;
+  result.frame = shadow::light_frame(polygon, side);
+  result.outline = std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_segments(result.frame));
+  if (on_light(result.frame, 0, 0)) result.middle = result.frame.origin;
+  return result;
+}
+
+std::optional<ShadowPass::Side> ShadowPass::side_of_round(const PackLight& light, Vec3d position) const {
+  if (std::holds_alternative<Capsule>(light.area->shape)) {
+    const PreparedPolygon polygon = shadow::polygon_of_round(*light.area, position, kRoundCorners);
+    if (polygon.side_of(position) <= 0) return {};
+    return side_of(polygon, 1);
+  }
+  std::optional<LightFrame> frame = shadow::frame_of_ellipsoid(std::get<Ellipsoid>(light.area->shape), position, kRoundCorners);
+  if (!frame) return {};
+  Side result;
+  result.frame = std::move(*frame);
+  result.outline = ellipse_;
+  result.middle = result.frame.origin;
+  return result;
+}
+
 ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const RayScene& rays, Shadows mode)
-    : rays_(rays), mode_(mode), lights_(lights), mesh_(shadow::build_edges(scene)), tree_(mesh_) {
+    : packs_(shadow_table_for(active_simd())),
+      rays_(rays),
+      mode_(mode),
+      lights_(lights),
+      mesh_(shadow::build_edges(scene)),
+      tree_(mesh_),
+      ellipse_(std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_of_ellipse(kRoundCorners))) {
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != AlphaMode::mask) continue;
     Box box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -164,8 +211,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     }
     if (!flat.polygon.vertices.empty())
       for (int s = 0; s < (flat.polygon.two_sided ? 2 : 1); ++s) {
-        flat.sides[s].emplace();
-        flat.sides[s]->frame = shadow::light_frame(flat.polygon, s == 0 ? 1 : -1);
+        flat.sides[s] = side_of(flat.polygon, s == 0 ? 1 : -1);
         flat.sides[s]->crossing = shadow::crossing_triangles(mesh_, flat.sides[s]->frame);
       }
     if (light.is_round() && !is_disk(light)) flat.near = triangles_near(mesh_, *light.area);
@@ -173,200 +219,276 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
   }
 }
 
-void ShadowPass::find(const SurfaceTile& tile, const PackLight& light, TileShadow& result, ShadowCounts& counts) const {
-  result.seen.fill(Seen::none);
+void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result,
+                      ShadowCounts& counts) const {
+  thread_local Work work;
+  work.turned = work.whole_outline = work.cut_outs = false;
+  work.points = &points.points;
+  work.result = &result;
+  work.counts = &counts;
+  result.seen.fill(Seen::dark);
   result.parts.clear();
-  result.wholes = 0;
-  thread_local std::vector<Viewpoint> points(kTilePixels);
-  for (std::size_t i = 0; i < kTilePixels; ++i) {
-    if (tile.material[i] == nullptr) continue;
-    const Vec3d position = get(tile.position, i), geometric = get(tile.geometric_normal, i), normal = normalized(get(tile.normal, i));
-    points[i].position = position + geometric * shadow::offset_from_surface(position);
-    points[i].normal = normal;
-    points[i].geometric_normal.reset();
-    if (length(normal - geometric) > 1e-5) points[i].geometric_normal = geometric;
-  }
-  Work work{points, result, counts, EmbreeBlockers(rays_), {}, {}, {}, {}, {}, false};
-  const auto number = static_cast<std::size_t>(&light - lights_.data());
+  result.edges.clear();
+  const Flat& flat = flats_[static_cast<std::size_t>(&light - lights_.data())];
   if (!light.is_area())
     find_punctual(tile, light, work);
-  else if (light.is_polygon() || is_disk(light))
-    find_flat(tile, light, flats_[number], work);
+  else if (!flat.polygon.vertices.empty())
+    find_flat(tile, points.groups, light, flat, work);
   else
-    find_round(tile, light, work);
-  for (const Seen s : result.seen) result.wholes += s == Seen::whole;
+    find_round(tile, points.groups, light, flat, work);
 }
 
 void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const {
-  for (std::size_t i = 0; i < kTilePixels; ++i) {
+  const packed::Punctual& source = *std::get_if<packed::Punctual>(&light.shape);
+  const bool directional = source.kind == PunctualKind::directional;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i) {
     if (tile.material[i] == nullptr) continue;
-    const Viewpoint& at = work.points[i];
-    const packed::Punctual& source = *std::get_if<packed::Punctual>(&light.shape);
-    const bool directional = source.kind == PunctualKind::directional;
+    const Viewpoint& at = work.at(i);
     const Vec3d to = directional ? -source.direction : source.position - at.position;
-    if (!(dot(to, at.normal) > 0) || (at.geometric_normal && !(dot(to, *at.geometric_normal) > 0))) continue;
-    ++work.counts.points;
+    if (!(dot(to, at.normal) > 0)) continue;
+    work.result->seen[i] = Seen::none;
+    if (at.geometric_normal && !(dot(to, *at.geometric_normal) > 0)) continue;
+    ++work.counts->points;
     const bool blocked = directional ? rays_.blocked_towards(at.position, to) : rays_.between(at.position, at.position + to, Casters::all);
-    if (!blocked) work.result.seen[i] = Seen::whole;
+    if (!blocked) work.result->seen[i] = Seen::whole;
   }
 }
 
-void ShadowPass::find_flat(const SurfaceTile& tile, const PackLight& light, const Flat& flat, Work& work) const {
-  std::vector<std::uint32_t> of_side[2];
-  for (std::uint32_t i = 0; i < kTilePixels; ++i) {
-    if (tile.material[i] == nullptr || tile.material[i]->unlit) continue;
-    const int side = flat.polygon.side_of(work.points[i].position);
-    if (side == 0 || (side < 0 && !flat.polygon.two_sided)) continue;
-    of_side[side > 0 ? 0 : 1].push_back(i);
-  }
-  for (int s = 0; s < 2; ++s) {
-    if (of_side[s].empty() || !flat.sides[s]) continue;
-    const LightFrame& frame = flat.sides[s]->frame;
-    // What the tile needs, of which each group takes its part.
-    std::vector<Vec3d> positions;
-    for (const std::uint32_t i : of_side[s]) positions.push_back(work.points[i].position);
-    std::vector<std::uint32_t> edges;
-    tree_.gather(mesh_, Shaft(frame, positions), edges);
-    for (std::uint32_t g = 0; g < kGroups; ++g) {
-      std::vector<std::uint32_t> slots;
-      for (const std::uint32_t i : of_side[s])
-        if (group_of(i) == g) slots.push_back(i);
-      if (slots.empty()) continue;
-      std::vector<std::vector<std::uint32_t>> groups;
-      split(std::move(slots), work.points, groups);
-      for (const auto& group : groups) find_group(light, flat, s == 0 ? 1 : -1, edges, group, work);
+void ShadowPass::find_flat(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
+  work.whole_outline = is_disk(light) || light.textured != nullptr;
+  std::vector<std::vector<std::uint32_t>> with_light;
+  for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
+    for (const std::optional<Side>& side : flat.sides) {
+      if (!side) continue;
+      // The slots of each group that may see this side of the light.
+      with_light.clear();
+      work.positions.clear();
+      for (const std::uint32_t g : cluster) {
+        work.slots.clear();
+        for (const std::uint32_t i : groups.groups[g]) {
+          const Viewpoint& at = work.at(i);
+          if (tile.material[i]->unlit || flat.polygon.side_of(at.position) != side->side) continue;
+          if (above_horizon(side->frame, at.position, at.normal) == Above::none) continue;
+          work.result->seen[i] = Seen::none;
+          if (at.geometric_normal && above_horizon(side->frame, at.position, *at.geometric_normal) == Above::none) continue;
+          work.slots.push_back(i);
+          work.positions.push_back(at.position);
+        }
+        if (!work.slots.empty()) with_light.push_back(work.slots);
+      }
+      if (with_light.empty()) continue;
+      const Shaft shaft(side->frame, work.positions);
+      tree_.gather(mesh_, shaft, work.edges);
+      work.crossing.clear();
+      for (const std::uint32_t t : side->crossing)
+        if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+      work.tile.assign(mesh_, side->frame, work.edges, work.crossing);
+      for (const auto& slots : with_light) {
+        work.positions.clear();
+        for (const std::uint32_t i : slots) work.positions.push_back(work.at(i).position);
+        const Shaft of_group(side->frame, work.positions);
+        work.cut_outs = meets_cut_outs(of_group);
+        work.group.assign_needed(packs_, mesh_, work.tile, side->frame, of_group);
+        find_group(
+            slots, [&](std::uint32_t) { return &*side; }, work);
+      }
     }
   }
 }
 
 bool ShadowPass::is_cut(const LightFrame& frame, const Viewpoint& at) const {
-  if (!at.geometric_normal) return false;
-  for (const double x : {-frame.box_x, frame.box_x})
-    for (const double y : {-frame.box_y, frame.box_y})
-      if (!(dot(frame.to_world({x, y, 0}) - at.position, *at.geometric_normal) > 0)) return true;
-  return false;
+  return at.geometric_normal && above_horizon(frame, at.position, *at.geometric_normal) != Above::all;
 }
 
-void ShadowPass::find_point(const PreparedPolygon& polygon, const LightFrame& frame, int side, std::uint32_t slot, bool round,
-                            Work& work) const {
-  const Viewpoint& at = work.points[slot];
-  ++work.counts.points;
-  work.local.see(at, work.scratch.set);
-  const std::size_t occluders = work.scratch.set.occluders;
-  if (occluders > kMostSegments && mode_ != Shadows::exact) {
-    ++work.counts.fallback;
-    work.result.seen[slot] = Seen::share;
-    work.result.share[slot] = share_by_rays(frame, at);
-    return;
-  }
-  find_visible(frame, at.position, work.blockers, work.scratch, work.region);
+void ShadowPass::take_rays(const Side& side, std::uint32_t slot, Work& work) const {
+  ++work.counts->fallback;
+  work.result->seen[slot] = Seen::share;
+  work.result->share[slot] = share_by_rays(side, work.at(slot));
+}
+
+// The segments are those of the point.
+void ShadowPass::find_in_segments(const Side& side, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
+  find_visible_on_packs(packs_, side.frame, at.position, EmbreeBlockers(rays_), work.scratch, work.region);
   if (work.region.boundary.empty()) return;
-  if (occluders == 0 && !is_cut(frame, at)) {
-    work.result.seen[slot] = Seen::whole;
-    if (work.cut_outs) pass_cut_outs(frame, slot, work);
+  if (work.scratch.set.occluders == 0 && !is_cut(side.frame, at)) {
+    work.result->seen[slot] = Seen::whole;
     return;
   }
-  ++work.counts.parts;
-  work.result.seen[slot] = Seen::part;
+  ++work.counts->parts;
+  work.result->seen[slot] = Seen::part;
   TileShadow::Part part;
   part.slot = slot;
-  part.position = at.position;
-  part.visible = shadow::light_of(work.region, polygon, frame, side, at, kLift);
-  if (round) part.all = polygon;
-  work.result.parts.push_back(std::move(part));
-  if (work.cut_outs) pass_cut_outs(frame, slot, work);
+  const Vec3d eye = side.frame.to_local(at.position);
+  // Edges between places of the light's plane, relative to the point.
+  const auto outline_of = [&](auto each_edge) {
+    TileShadow::Outline outline;
+    std::vector<TileShadow::Edge>& edges = work.result->edges;
+    outline.first = edges.size();
+    AreaMoments moments;
+    each_edge([&](double ax, double ay, double bx, double by) {
+      moments.add(ax, ay, bx, by);
+      const auto corner = [&](double x, double y) { return static_cast<Vec3f>(side.frame.axes.to_world({x - eye.x, y - eye.y, -eye.z})); };
+      edges.push_back({corner(ax, ay), corner(bx, by)});
+    });
+    outline.count = edges.size() - outline.first;
+    const double extent2 = side.frame.half_x * side.frame.half_x + side.frame.half_y * side.frame.half_y;
+    if (moments.area > 0 && dot(eye, eye) > kNeverSmall * extent2) {
+      outline.elements = quarters_of(moments, side.frame.origin - at.position, side.frame.axes.x, side.frame.axes.y);
+      outline.area = side.frame.axes.z * -moments.area;
+    }
+    return outline;
+  };
+  part.visible = outline_of([&](auto edge) {
+    const double x = side.frame.box_x / shadow::kCells, y = side.frame.box_y / shadow::kCells;
+    for (const shadow::Boundary& b : work.region.boundary) edge(b.ax * x, b.ay * y, b.bx * x, b.by * y);
+  });
+  // Lifted to the horizon, so that no rounding puts an edge below.
+  for (std::size_t i = part.visible.first; i < part.visible.first + part.visible.count; ++i)
+    for (Vec3f* v : {&work.result->edges[i].a, &work.result->edges[i].b}) {
+      const auto d = static_cast<Vec3d>(*v);
+      const double least = kLift * length(d), height = dot(d, at.normal);
+      if (height < least) *v = static_cast<Vec3f>(d + at.normal * (least - height));
+    }
+  if (work.whole_outline)
+    part.all = outline_of([&](auto edge) {
+      for (const auto& c : with_contours(side.frame).contours)
+        for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) edge(c[j].x, c[j].y, c[i].x, c[i].y);
+    });
+  work.result->parts.push_back(part);
 }
 
-void ShadowPass::find_group(const PackLight& light, const Flat& flat, int side, const std::vector<std::uint32_t>& edges,
-                            const std::vector<std::uint32_t>& slots, Work& work) const {
-  const Flat::Side& of = *flat.sides[side > 0 ? 0 : 1];
-  std::vector<Vec3d> positions;
-  for (const std::uint32_t i : slots) positions.push_back(work.points[i].position);
-  const Shaft shaft(of.frame, positions);
-  work.cut_outs = meets_cut_outs(shaft);
-  work.edges.clear();
-  for (const std::uint32_t e : edges)
-    if (shaft.needs(mesh_, e)) work.edges.push_back(e);
-  work.crossing.clear();
-  for (const std::uint32_t t : of.crossing)
-    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
-  const bool round = is_disk(light) || light.textured != nullptr;
+void ShadowPass::find_point(const Side& side, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
+  ++work.counts->points;
+  shadow::SegmentSet& set = work.scratch.set;
+  if (work.turned)
+    work.group.see_turned(packs_, work.base, side.frame, at, *side.outline, set);
+  else
+    work.group.see(packs_, side.frame, at, *side.outline, set);
+  if (set.occluders > kMostSegments && mode_ != Shadows::exact) {
+    take_rays(side, slot, work);
+    return;
+  }
+  // Nothing to arrange: one ray to any place of the light above the horizons decides.
+  const auto sees = [&](Vec3d normal) { return dot(*side.middle - at.position, normal) > 0; };
+  if (set.occluders == 0 && side.middle && sees(at.normal) && !is_cut(side.frame, at)) {
+    const double z = -side.frame.to_local(at.position).z;
+    const Vec3d to = (*side.middle - at.position) * std::max((z - side.frame.eta) / z, 0.0);
+    if (!rays_.between(at.position, at.position + to)) work.result->seen[slot] = Seen::whole;
+  } else {
+    if (set.occluders == 0) shadow::add_surroundings(side.frame, at, *side.outline, set);
+    find_in_segments(side, slot, work);
+  }
+  if (work.cut_outs && work.result->seen[slot] != Seen::none) pass_cut_outs(side, slot, work);
+}
 
-  if (work.edges.size() > kMostEdges && mode_ != Shadows::exact) {
-    for (const std::uint32_t i : slots) {
-      ++work.counts.points;
-      ++work.counts.fallback;
-      work.result.seen[i] = Seen::share;
-      work.result.share[i] = share_by_rays(of.frame, work.points[i]);
-    }
-    return;
-  }
-  work.local.assign(mesh_, of.frame, work.edges, work.crossing);
-  if (!work.edges.empty() || !work.crossing.empty()) {
-    for (const std::uint32_t i : slots) find_point(flat.polygon, of.frame, side, i, round, work);
-    return;
-  }
-  // Nothing can come between: what one point's ray finds, all find.
+// work.group holds what the group needs. side_at(slot): a pointer to the side of the light that it sees, or null.
+template <class SideAt>
+void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, SideAt side_at, Work& work) const {
+  const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
+  const bool empty = work.group.empty();
   std::optional<bool> free;
   for (const std::uint32_t i : slots) {
-    const Viewpoint& at = work.points[i];
+    const Side* side = side_at(i);
+    if (side == nullptr) continue;
+    const Viewpoint& at = work.at(i);
+    if (by_rays) {
+      ++work.counts->points;
+      take_rays(*side, i, work);
+      continue;
+    }
+    if (!empty) {
+      find_point(*side, i, work);
+      continue;
+    }
+    // Nothing can come between: what one point's ray finds, all find.
     if (!free) {
-      work.local.see(at, work.scratch.set);
-      find_visible(of.frame, at.position, work.blockers, work.scratch, work.region);
+      work.scratch.set.clear();
+      shadow::add_surroundings(side->frame, at, *side->outline, work.scratch.set);
+      find_visible_on_packs(packs_, side->frame, at.position, EmbreeBlockers(rays_), work.scratch, work.region);
       if (work.region.rays > 0) free = !work.region.boundary.empty();
     }
     if (!free) continue;  // below this point's horizons
-    if (*free && is_cut(of.frame, at)) {
-      find_point(flat.polygon, of.frame, side, i, round, work);
+    if (*free && is_cut(side->frame, at)) {
+      find_point(*side, i, work);
       continue;
     }
-    ++work.counts.points;
-    if (*free) work.result.seen[i] = Seen::whole;
-    if (*free && work.cut_outs) pass_cut_outs(of.frame, i, work);
+    ++work.counts->points;
+    if (!*free) continue;
+    work.result->seen[i] = Seen::whole;
+    if (work.cut_outs) pass_cut_outs(*side, i, work);
   }
 }
 
-void ShadowPass::find_round(const SurfaceTile& tile, const PackLight& light, Work& work) const {
-  for (std::uint32_t g = 0; g < kGroups; ++g) {
-    std::vector<std::uint32_t> slots;
-    for (std::uint32_t i = 0; i < kTilePixels; ++i)
-      if (group_of(i) == g && tile.material[i] != nullptr && !tile.material[i]->unlit) slots.push_back(i);
-    if (slots.empty()) continue;
-    std::vector<std::vector<std::uint32_t>> groups;
-    split(std::move(slots), work.points, groups);
-    for (const auto& group : groups) find_round_group(light, group, work);
+void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat,
+                            Work& work) const {
+  work.whole_outline = true;
+  work.turned = true;
+  const Ball ball = ball_around(*light.area);
+  work.base.origin = ball.center;
+  work.base.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
+    std::vector<std::vector<std::uint32_t>> with_light;
+    work.positions.clear();
+    for (const std::uint32_t g : cluster) {
+      work.slots.clear();
+      for (const std::uint32_t i : groups.groups[g]) {
+        const Viewpoint& at = work.at(i);
+        if (tile.material[i]->unlit || dot(ball.center - at.position, at.normal) <= -ball.radius) continue;
+        work.result->seen[i] = Seen::none;
+        if (at.geometric_normal && dot(ball.center - at.position, *at.geometric_normal) <= -ball.radius) continue;
+        work.slots.push_back(i);
+        work.positions.push_back(at.position);
+      }
+      if (!work.slots.empty()) with_light.push_back(work.slots);
+    }
+    if (with_light.empty()) continue;
+    // For all of the cluster where a frame holds it; else each group gathers by itself.
+    const bool together = gather_round(light, flat, work.positions, work);
+    for (const auto& slots : with_light) find_round_group(light, flat, slots, together, work);
   }
 }
 
-void ShadowPass::find_round_group(const PackLight& light, const std::vector<std::uint32_t>& slots, Work& work) const {
-  std::vector<Vec3d> positions;
-  for (const std::uint32_t i : slots) positions.push_back(work.points[i].position);
-  work.edges.clear();
+// Fills work.tile with what points that see a round light need. False where no shaft holds them: then with everything.
+bool ShadowPass::gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const {
+  const std::optional<LightFrame> behind = frame_behind(light, positions);
+  if (!behind) return false;
+  const Shaft shaft(*behind, positions);
+  tree_.gather(mesh_, shaft, work.edges);
+  // Planes differ from point to point: any triangle near the light may cross one.
   work.crossing.clear();
-  if (const std::optional<LightFrame> behind = frame_behind(light, positions)) {
+  for (const std::uint32_t t : flat.near)
+    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+  work.tile.assign(mesh_, work.base, work.edges, work.crossing);
+  return true;
+}
+
+void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together,
+                                  Work& work) const {
+  std::vector<Vec3d> positions;
+  for (const std::uint32_t i : slots) positions.push_back(work.at(i).position);
+  const std::optional<LightFrame> behind = frame_behind(light, positions);
+  work.cut_outs = !cut_outs_.empty();
+  if (behind && (together || gather_round(light, flat, positions, work))) {
     const Shaft shaft(*behind, positions);
     work.cut_outs = meets_cut_outs(shaft);
-    tree_.gather(mesh_, shaft, work.edges);
-    // Planes differ from point to point: any triangle near the light may cross one.
-    for (const std::uint32_t t : flats_[static_cast<std::size_t>(&light - lights_.data())].near)
-      if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+    work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
   } else {
-    work.cut_outs = !cut_outs_.empty();
-    for (std::uint32_t e = 0; e < mesh_.edges.size(); ++e) work.edges.push_back(e);
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) work.crossing.push_back(t);
+    work.edges.resize(mesh_.edges.size());
+    std::iota(work.edges.begin(), work.edges.end(), 0u);
+    work.crossing.resize(mesh_.triangles.size());
+    std::iota(work.crossing.begin(), work.crossing.end(), 0u);
+    work.group.assign(mesh_, work.base, work.edges, work.crossing);
   }
-  bool is_first = true;
-  for (const std::uint32_t i : slots) {
-    const Viewpoint& at = work.points[i];
-    const PreparedPolygon polygon = shadow::polygon_of_round(*light.area, at.position, kRoundCorners);
-    if (polygon.side_of(at.position) <= 0) continue;
-    const int side = 1;
-    const LightFrame frame = shadow::light_frame(polygon, side);
-    if (is_first) work.local.assign(mesh_, frame, work.edges, work.crossing);
-    if (!is_first) work.local.move_to(mesh_, frame);
-    is_first = false;
-    find_point(polygon, frame, side, i, true, work);
-  }
+  std::optional<Side> side;
+  find_group(
+      slots,
+      [&](std::uint32_t i) {
+        side = side_of_round(light, work.at(i).position);
+        return side ? &*side : nullptr;
+      },
+      work);
 }
 
 bool ShadowPass::meets_cut_outs(const Shaft& shaft) const {
@@ -374,14 +496,6 @@ bool ShadowPass::meets_cut_outs(const Shaft& shaft) const {
 }
 
 namespace {
-
-bool on_light(const LightFrame& frame, double x, double y) {
-  bool inside = false;
-  for (const auto& c : frame.contours)
-    for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++)
-      if ((c[i].y > y) != (c[j].y > y) && x < (c[j].x - c[i].x) * (y - c[i].y) / (c[j].y - c[i].y) + c[i].x) inside = !inside;
-  return inside;
-}
 
 // The share of a light by stratified rays, weighted by what each place sends to a diffuse surface: of the places that count,
 // those that are open. counts(x, y) in the light's frame, open(to) for the way there, short of the light.
@@ -411,7 +525,8 @@ double stratified_share(const LightFrame& frame, const Viewpoint& at, Counts cou
 
 }  // namespace
 
-float ShadowPass::share_by_rays(const LightFrame& frame, const Viewpoint& at) const {
+float ShadowPass::share_by_rays(const Side& of, const Viewpoint& at) const {
+  const LightFrame frame = with_contours(of.frame);
   return static_cast<float>(stratified_share(
       frame, at, [&](double x, double y) { return on_light(frame, x, y); },
       [&](Vec3d to) {
@@ -421,9 +536,10 @@ float ShadowPass::share_by_rays(const LightFrame& frame, const Viewpoint& at) co
 }
 
 // What cut-outs let through of what a slot sees. A part's levels are still in work.
-void ShadowPass::pass_cut_outs(const LightFrame& frame, std::uint32_t slot, Work& work) const {
-  const Viewpoint& at = work.points[slot];
-  const bool part = work.result.seen[slot] == Seen::part;
+void ShadowPass::pass_cut_outs(const Side& side, std::uint32_t slot, Work& work) const {
+  const LightFrame frame = with_contours(side.frame);
+  const Viewpoint& at = work.at(slot);
+  const bool part = work.result->seen[slot] == Seen::part;
   const auto counts = [&](double x, double y) {
     if (!part) return on_light(frame, x, y);
     const double scale_x = shadow::kCells / frame.box_x, scale_y = shadow::kCells / frame.box_y;
@@ -433,10 +549,10 @@ void ShadowPass::pass_cut_outs(const LightFrame& frame, std::uint32_t slot, Work
       stratified_share(frame, at, counts, [&](Vec3d to) { return !rays_.between(at.position, at.position + to, Casters::cut_outs); });
   if (share == 1) return;
   if (part) {
-    work.result.parts.back().passes = static_cast<float>(share);
+    work.result->parts.back().passes = static_cast<float>(share);
   } else {
-    work.result.seen[slot] = Seen::share;
-    work.result.share[slot] = static_cast<float>(share);
+    work.result->seen[slot] = Seen::share;
+    work.result->share[slot] = static_cast<float>(share);
   }
 }
 

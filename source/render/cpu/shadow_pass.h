@@ -1,36 +1,84 @@
 // What of a light reaches the surfaces of a tile: nothing, all of it, or the pieces that triangles leave.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "render/cpu/light_list.h"
 #include "render/cpu/ray_scene.h"
+#include "render/cpu/shadow_groups.h"
 #include "render/cpu/tile.h"
-#include "shadow/gather.h"
+#include "shadow/edge_arrays.h"
 #include "shadow/visible.h"
 #include "steradian/render.h"
 
 namespace steradian {
 
+// The surface points of a tile as shadows see them.
+struct TilePoints {
+  std::vector<shadow::Viewpoint> points;  // by slot
+  PointGroups groups;
+};
+TilePoints points_for_shadows(const SurfaceTile& tile);
+
 // How one light reaches a tile.
 struct TileShadow {
-  enum class Seen : std::uint8_t { none, whole, part, share };
+  // dark: the surface looks away from all of the light, which sends nothing past its horizon, whatever stands between.
+  enum class Seen : std::uint8_t { dark, none, whole, part, share };
+  // Edges, and where it is small the elements that stand for it, relative to the point.
+  struct Outline {
+    std::size_t first = 0, count = 0;
+    std::optional<LightQuarters> elements;
+    Vec3d area{};  // of the elements, towards the point
+  };
   // A slot that sees a part of the light.
   struct Part {
-    std::size_t slot = 0;
-    Vec3d position;           // moved off the surface
-    PreparedPolygon visible;  // edges in no order, see shadow/visible_part.h
-    PreparedPolygon all;      // round lights: the polygon of which `visible` is the part; else no vertices
-    float passes = 1;         // share that cut-outs let through
+    std::uint32_t slot = 0;
+    Outline visible;   // edges in no order
+    Outline all;       // round and textured lights: the polygon of which `visible` is the part, in walk order
+    float passes = 1;  // share that cut-outs let through
+  };
+  struct Edge {
+    Vec3f a, b;  // relative to the point, in the world's frame
   };
   std::array<Seen, kTilePixels> seen;
   std::array<float, kTilePixels> share;  // of Seen::share: by rays
   std::vector<Part> parts;
-  std::size_t wholes = 0;  // slots that are whole
+  std::vector<Edge> edges;
+
+  // Whether it is as if nothing stood between.
+  bool is_plain() const;
 };
+
+// One outline of every part, for packs, in the parts' order.
+template <class Choose>
+packed::Pieces pieces_of(const TileShadow& shadow, Choose choose) {
+  constexpr std::size_t kBlock = packed::Pieces::kBlock;
+  packed::Pieces pieces;
+  for (std::size_t first = 0; first < shadow.parts.size(); first += kBlock) {
+    const std::size_t last = std::min(first + kBlock, shadow.parts.size());
+    std::size_t most = 0;
+    for (std::size_t i = first; i < last; ++i) most = std::max(most, choose(shadow.parts[i]).count);
+    pieces.add_block(most);
+    for (std::size_t i = first; i < last; ++i) {
+      const TileShadow::Outline outline = choose(shadow.parts[i]);
+      for (std::size_t k = 0; k < most; ++k) {
+        // Edges of no length where the list is shorter.
+        const TileShadow::Edge& e = shadow.edges[outline.first + std::min(k, outline.count - 1)];
+        pieces.set_edge(i, k, k < outline.count ? e.a : e.b, e.b);
+      }
+      if (outline.elements) pieces.set_elements(i, *outline.elements, outline.area);
+    }
+    // The last block's other lanes hold no surface.
+    for (std::size_t i = last; i < first + kBlock; ++i)
+      for (std::size_t k = 0; k < most; ++k) pieces.set_edge(i, k, {0, 1, 0}, {0, 1, 0});
+  }
+  return pieces;
+}
 
 // Counts of all tiles, for --stats.
 struct ShadowCounts {
@@ -44,33 +92,41 @@ class ShadowPass {
   // Keeps references.
   ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const RayScene& rays, Shadows mode);
 
-  void find(const SurfaceTile& tile, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
+  void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
 
  private:
-  // A light made ready.
+  // One side of a flat light, made ready.
+  struct Side {
+    int side = 1;  // -1: behind it
+    shadow::LightFrame frame;
+    std::shared_ptr<const std::vector<shadow::Segment>> outline;
+    std::vector<std::uint32_t> crossing;  // triangles
+    std::optional<Vec3d> middle;          // a place of the light, if one is at hand
+  };
   struct Flat {
-    PreparedPolygon polygon;  // no vertices: it is not flat
-    struct Side {
-      shadow::LightFrame frame;
-      std::vector<std::uint32_t> crossing;  // triangles
-    };
+    PreparedPolygon polygon;          // no vertices: it is not flat
     std::optional<Side> sides[2];     // the lit one, the other
     std::vector<std::uint32_t> near;  // of a round light: triangles that may reach into the planes that stand for it
   };
   struct Work;
-  void find_flat(const SurfaceTile& tile, const PackLight& light, const Flat& flat, Work& work) const;
-  void find_round(const SurfaceTile& tile, const PackLight& light, Work& work) const;
+  static Side side_of(const PreparedPolygon& polygon, int side);
+  std::optional<Side> side_of_round(const PackLight& light, Vec3d position) const;
+  void find_flat(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
+  void find_round(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
-  void find_group(const PackLight& light, const Flat& flat, int side, const std::vector<std::uint32_t>& edges,
-                  const std::vector<std::uint32_t>& slots, Work& work) const;
-  void find_round_group(const PackLight& light, const std::vector<std::uint32_t>& slots, Work& work) const;
-  void find_point(const PreparedPolygon& polygon, const shadow::LightFrame& frame, int side, std::uint32_t slot, bool round,
-                  Work& work) const;
+  template <class SideAt>
+  void find_group(const std::vector<std::uint32_t>& slots, SideAt side_at, Work& work) const;
+  bool gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const;
+  void find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together, Work& work) const;
+  void find_point(const Side& side, std::uint32_t slot, Work& work) const;
+  void find_in_segments(const Side& side, std::uint32_t slot, Work& work) const;
+  void take_rays(const Side& side, std::uint32_t slot, Work& work) const;
   bool is_cut(const shadow::LightFrame& frame, const shadow::Viewpoint& at) const;
-  float share_by_rays(const shadow::LightFrame& frame, const shadow::Viewpoint& at) const;
+  float share_by_rays(const Side& side, const shadow::Viewpoint& at) const;
   bool meets_cut_outs(const shadow::Shaft& shaft) const;
-  void pass_cut_outs(const shadow::LightFrame& frame, std::uint32_t slot, Work& work) const;
+  void pass_cut_outs(const Side& side, std::uint32_t slot, Work& work) const;
 
+  const shadow::ShadowTable& packs_;
   const RayScene& rays_;
   const Shadows mode_;
   const std::vector<PackLight>& lights_;
@@ -79,8 +135,9 @@ class ShadowPass {
   struct Box {
     Vec3d low, high;
   };
-  std::vector<Box> cut_outs_;  // of meshes whose material has holes
-  std::vector<Flat> flats_;    // one a light; without frames where it is not flat
+  std::vector<Box> cut_outs_;                                    // of meshes whose material has holes
+  std::shared_ptr<const std::vector<shadow::Segment>> ellipse_;  // outline of the polygons that stand for ellipsoids
+  std::vector<Flat> flats_;                                      // one a light; without frames where it is not flat
 };
 
 }  // namespace steradian

@@ -11,7 +11,7 @@ __attribute__((flatten)) void radiance(const PackLight& light, const Points& poi
   integrals::Charlie<Pack> integral;
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
-    const SeenLight seen(light, p);
+    const SeenLight seen(light, p, i);
     if (!any_lane(seen.lit && dot(n, v) > PackReal(0.0))) {
       store(result + i, PackReal(0.0));
       continue;

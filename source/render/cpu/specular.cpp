@@ -68,8 +68,13 @@ std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
 }
 
 // The light as the point sees it: round ones as a polygon about the lobe. No vertices: it does not shine there.
-PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const Material& material, Quality quality) {
+PreparedPolygon polygon_at(const PackLight& light, std::size_t slot, const ShadingPoint& at, const Material& material, Quality quality) {
   if (light.is_polygon()) return light.polygon;
+  if (const auto* pieces = std::get_if<packed::Pieces>(&light.shape)) {
+    PreparedPolygon seen = pieces->light_of(slot, at.position, at.normal);
+    seen.radiance = static_cast<Vec3d>(light.radiance);
+    return seen;
+  }
   const int corners = quality == Quality::high ? 16 : 12;
   PolygonLight seen;
   if (const auto* capsule = std::get_if<Capsule>(&light.area->shape)) {
@@ -86,16 +91,17 @@ PreparedPolygon polygon_at(const PackLight& light, const ShadingPoint& at, const
 double width(double alpha_x, double alpha_y) { return std::sqrt(alpha_x * alpha_y); }
 
 // One lobe of one point under an area light of its mean radiance, by the library's float functions.
-Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at,
+Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
                              const Material& material) {
-  const PreparedPolygon polygon = polygon_at(light, at, material, quality);
+  const PreparedPolygon polygon = polygon_at(light, slot, at, material, quality);
   if (polygon.vertices.empty()) return {};
   return row.polygon(polygon, at, material, {row.method, quality, Precision::float_}).radiance;
 }
 
 // The same, textured as GGX sees it; other lobes take the mean (lobes_under_means).
-Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at, const Material& material) {
-  const Vec3d r = point_radiance_of_mean(row, quality, light, at, material);
+Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
+                     const Material& material) {
+  const Vec3d r = point_radiance_of_mean(row, quality, light, slot, at, material);
   if (light.textured == nullptr || material.brdf != Brdf::ggx || r == Vec3d{}) return r;
   const auto seen = static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
   const Vec3d mean = light.polygon.radiance;
@@ -121,32 +127,9 @@ SpecularPass::SpecularPass(const DirectMethod& method)
               : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
                                                   : LtcPackTables{}) {}
 
-Vec3d SpecularPass::at_point(const Surface& surface, const ShadingPoint& at, const PreparedPolygon& light) const {
-  Vec3d sum{};
-  for (const SurfaceLobe& lobe : lobes_of(surface)) {
-    if (lobe.material.brdf == Brdf::lambert) {
-      const Frame frame = Frame::from_normal(at.normal);
-      const auto view = integrals::to_kernel<float>(frame.to_local(at.view));
-      const int seen_from = light.side_of(at.position), side = seen_from < 0 && !light.two_sided ? 0 : seen_from;
-      integrals::Irradiance<float> integral;
-      const auto e =
-          integrate(integrals::contours_in<float>(light, frame, at.position), integrals::shading_from<float>(side, view), integral);
-      const float below = Kernels<float>().lambert_irradiance_below(e, view, lobe.material.fresnel_loss).v;
-      sum += lobe.material.albedo * light.radiance * (static_cast<double>(below) * std::numbers::inv_pi);
-      continue;
-    }
-    // The light's part lies above the surface's horizon; a coat is seen about the surface's normal, too.
-    Material m = lobe.material;
-    if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(surface.tangent);
-    const methods::Row& row = method_.row_for(m);
-    if (!light.vertices.empty()) sum += row.polygon(light, at, m, {row.method, method_.quality, Precision::float_}).radiance;
-  }
-  return sum;
-}
-
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;
-  return ltc && tile.any_specular && tile.any_diffuse && light.is_polygon() && light.textured == nullptr;
+  return ltc && tile.any_specular && tile.any_diffuse && (light.is_polygon() || light.is_pieces()) && light.textured == nullptr;
 }
 
 // False where the method does not run on packs.
@@ -202,7 +185,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
       m.f0 = static_cast<Vec3d>(f0);
       m.f90 = static_cast<Vec3d>(f90);
-      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, shading_point(tile, lobe.normal, i), m)));
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, i, shading_point(tile, lobe.normal, i), m)));
     }
   }
 }
@@ -233,7 +216,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
       if (material.brdf == Brdf::lambert) continue;
       const methods::Row& row = method_.row_for(material);
       for (const PackLight* light : lights) {
-        if (material.brdf == Brdf::phong && !material.foreshortening && light->is_polygon()) {
+        if (material.brdf == Brdf::phong && !material.foreshortening && (light->is_polygon() || light->is_pieces())) {
           alignas(64) TilePlane result;
           phong_table_for(active_simd()).radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
           const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
@@ -246,7 +229,8 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
           const ShadingPoint at = shading_point(tile, i);
           Material m = material;
           if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
-          const Vec3d r = light->is_area() ? point_radiance(row, method_.quality, *light, at, m) : point_radiance_punctual(*light, at, m);
+          const Vec3d r =
+              light->is_area() ? point_radiance(row, method_.quality, *light, i, at, m) : point_radiance_punctual(*light, at, m);
           add_to(tile.radiance, i, static_cast<Vec3f>(r));
         }
       }

@@ -24,9 +24,6 @@ class SpecularPass {
   // Adds the specular light of the lights to tile.radiance, and the diffuse light that it brings.
   void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
 
-  // All lobes of one surface, diffuse too, under a flat light of its mean radiance, by the library's float functions.
-  Vec3d at_point(const Surface& surface, const ShadingPoint& at, const PreparedPolygon& light) const;
-
  private:
   struct Lobe;
   void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;

@@ -1,6 +1,6 @@
 #include "render/indirect/cull.h"
 
-#include "core/pack.h"
+#include "core/pack_bits.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
@@ -11,19 +11,6 @@ using indirect::kEggPlanes;
 using indirect::kSpheroidPlanes;
 using indirect::Passed;
 using PackMask = PackKernels::mask;
-
-// The lanes of a mask as the lowest bits of a number.
-STERADIAN_INLINE unsigned bits_of(const PackMask& m) {
-#if defined(__AVX512F__)
-  return static_cast<unsigned>(static_cast<__mmask16>(m.m.data));
-#else
-  alignas(64) float lanes[kLanes];
-  store(lanes, select(m, PackReal(1.0), PackReal(0.0)));
-  unsigned bits = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) bits |= lanes[i] > 0 ? 1u << i : 0u;
-  return bits;
-#endif
-}
 
 // Writes the chosen lanes side by side; room for a whole pack.
 STERADIAN_INLINE void store_chosen(float* to, const float* from, unsigned bits) {

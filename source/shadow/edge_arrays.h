@@ -1,0 +1,92 @@
+// EdgeArrays: the edges that a tile or a group of points needs, as packs read them, and what a point sees of them. Positions in
+// float; from cells on the same whole numbers as in segments.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shadow/gather.h"
+#include "shadow/packs.h"
+#include "shadow/segments.h"
+
+namespace steradian::shadow {
+
+class EdgeArrays {
+ public:
+  // Edges and crossing triangles with these numbers, ascending, in the coordinates of a frame.
+  void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
+              const std::vector<std::uint32_t>& crossing_triangles);
+  // Of a tile's, what a shaft needs. The shaft is in the tile's frame's world.
+  void assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame, const Shaft& shaft);
+
+  bool empty() const { return edge_.empty() && crossing_.empty(); }
+  std::size_t edge_count() const { return edge_.size(); }
+
+  // All segments that the point sees, in the frame of assign (`base`), or in another one. Nothing at all where no occluder is among
+  // them: see add_surroundings.
+  //
+  //   outline  of the frame (outline_segments)
+  void see(const ShadowTable& packs, const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline,
+           SegmentSet& result);
+  void see_turned(const ShadowTable& packs, const LightFrame& base, const LightFrame& frame, const Viewpoint& from,
+                  const std::vector<Segment>& outline, SegmentSet& result);
+
+ private:
+  struct Vectors {
+    std::vector<float> x, y, z;
+    void resize(std::size_t n);
+    void push_back(const Vec3f& v);
+    std::size_t size() const { return x.size(); }
+    void pad();
+    VectorView view() const { return {x.data(), y.data(), z.data()}; }
+    VectorSpan span() { return {x.data(), y.data(), z.data()}; }
+    Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  };
+  struct Triangle {
+    std::uint32_t number, plane, corners[3], edges[3];
+  };
+  struct Incidence {
+    std::uint32_t plane;
+    std::int32_t walks;
+  };
+
+  void clear();
+  void pad();
+  EdgeView view() const;
+  void collect(const ShadowTable& packs, const LightFrame& frame, const Vectors& vertices, const Vec3d& plane_point, const Viewpoint& from,
+               const std::vector<Segment>& outline, SegmentSet& result);
+
+  std::size_t vertex_count_ = 0, plane_count_ = 0;
+  Vectors vertices_;
+  std::vector<std::uint32_t> vertex_;            // numbers in the mesh
+  std::vector<std::int32_t> shift_x_, shift_y_;  // displacements
+  Vectors normals_;
+  std::vector<float> offsets_;
+  std::vector<std::uint32_t> plane_;  // triangles in the mesh
+  std::vector<std::uint32_t> edge_;   // numbers in the mesh
+  std::vector<std::int32_t> v0_, v1_, plane0_, plane1_;
+  std::vector<float> walks0_, walks1_;
+  std::vector<std::uint8_t> has_more_;  // than two triangles: then all of them are in `more_`
+  struct More {
+    std::uint32_t edge, first, count;
+  };
+  std::vector<More> more_;
+  std::vector<Incidence> incidences_;
+  std::vector<Triangle> crossing_;
+
+  // Of a point.
+  Vectors turned_, homogeneous_;
+  std::vector<float> cell_x_, cell_y_, outside_, facing_;
+  std::vector<std::uint32_t> found_;
+  std::vector<std::int32_t> weights_;
+};
+
+// What bounds the light beside its occluders: its outline and the point's horizons. After occluders, in which `see` left them out since
+// there were none.
+void add_surroundings(const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline, SegmentSet& result);
+
+// The outline of a light as segments.
+std::vector<Segment> outline_segments(const LightFrame& frame);
+
+}  // namespace steradian::shadow

@@ -1,0 +1,100 @@
+// Pieces: for each point of a tile, edges of its own: what bounds the visible part of a light behind occluders.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "shapes/outline.h"
+#include "steradian/polygon_light.h"
+
+namespace steradian::packed {
+
+// Vectors are relative to the point, in the world's frame. Points come in blocks of 16; shorter lists are filled by edges of no
+// length. Every point sees a front.
+class Pieces {
+ public:
+  static constexpr std::size_t kBlock = 16;
+  static constexpr std::size_t kEdgePlanes = 6, kElementPlanes = 13;
+
+  void clear() {
+    edges_.clear();
+    elements_.clear();
+    blocks_.clear();
+  }
+  // The next 16 points: room for so many edges each.
+  void add_block(std::size_t edge_count) {
+    blocks_.push_back({edges_.size(), edge_count});
+    edges_.resize(edges_.size() + edge_count * kEdgePlanes * kBlock, 0.0f);
+    elements_.resize(elements_.size() + kElementPlanes * kBlock, 0.0f);
+    float* e = &elements_[elements_.size() - kElementPlanes * kBlock];
+    std::fill_n(e, kBlock, 1.0f);                                         // somewhere
+    std::fill_n(e + (kElementPlanes - 1) * kBlock, kBlock, kNoElements);  // but never used
+  }
+  void set_edge(std::size_t point, std::size_t edge, Vec3f a, Vec3f b) {
+    float* e = &edges_[blocks_[point / kBlock].first + edge * kEdgePlanes * kBlock + point % kBlock];
+    for (const float x : {a.x, a.y, a.z, b.x, b.y, b.z}) {
+      *e = x;
+      e += kBlock;
+    }
+  }
+  // The elements of its part of the light: then small parts keep their digits.
+  //
+  //   q     relative to the point
+  //   area  along the normal to the point's side
+  void set_elements(std::size_t point, const LightQuarters& q, Vec3d area) {
+    float* e = &elements_[point / kBlock * kElementPlanes * kBlock + point % kBlock];
+    for (const Vec3d v : {q.center, q.reach_a, q.reach_b, area})
+      for (const double x : {v.x, v.y, v.z}) {
+        *e = static_cast<float>(x);
+        e += kBlock;
+      }
+    *e = static_cast<float>((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / 2);
+  }
+
+  // Points beyond see nothing.
+  STERADIAN_INLINE std::size_t point_count() const { return static_cast<std::size_t>(blocks_.end() - blocks_.begin()) * kBlock; }
+  STERADIAN_INLINE std::size_t edge_count(std::size_t point) const { return blocks_.data()[point / kBlock].count; }
+  // Where the planes of an edge begin for a point: kEdgePlanes of them, kBlock apart.
+  STERADIAN_INLINE const float* edge(std::size_t point, std::size_t number) const {
+    return edges_.data() + blocks_.data()[point / kBlock].first + number * kEdgePlanes * kBlock + point % kBlock;
+  }
+  STERADIAN_INLINE const float* elements(std::size_t point) const {
+    return elements_.data() + point / kBlock * kElementPlanes * kBlock + point % kBlock;
+  }
+
+  // One point's, as a light whose contours are edges; `at` is where the point stands.
+  PreparedPolygon light_of(std::size_t point, Vec3d at, Vec3d up) const {
+    PreparedPolygon light;
+    light.normal = up;
+    light.centroid = at - up;  // the point sees its front
+    light.contours.push_back(0);
+    for (std::size_t k = 0; k < edge_count(point); ++k) {
+      const float* e = edge(point, k);
+      const auto corner = [&](std::size_t c) {
+        return Vec3d{static_cast<double>(e[c * kBlock]), static_cast<double>(e[(c + 1) * kBlock]),
+                     static_cast<double>(e[(c + 2) * kBlock])};
+      };
+      if (corner(0) == corner(3)) continue;
+      light.vertices.push_back(at + corner(0));
+      light.vertices.push_back(at + corner(3));
+      light.contours.push_back(light.vertices.size());
+    }
+    return light;
+  }
+
+  template <class Use>
+  bool any_bound(Use) const {
+    return true;
+  }
+
+ private:
+  static constexpr float kNoElements = 1e30f;  // a deviation that no distance exceeds
+  struct Block {
+    std::size_t first, count;
+  };
+  std::vector<Block> blocks_;
+  std::vector<float> edges_, elements_;
+};
+
+}  // namespace steradian::packed
