@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "steradian/compare.h"
 #include "steradian/picture.h"
 
 namespace steradian {
@@ -28,6 +29,8 @@ TEST_F(Program, RenderWritesAPictureWithItsSettingsAndItsStatistics) {
     EXPECT_TRUE(s.contains(key)) << key;
   EXPECT_EQ(s["lights"], 1);
   EXPECT_NE(s["command"].get<std::string>().find("render"), std::string::npos);
+  EXPECT_EQ(s["passes"][0]["name"], "load");
+  EXPECT_EQ(s["passes"][1]["name"], "textures");
   double sum = 0;
   for (const json& pass : s["passes"]) sum += pass["ms"].get<double>();
   EXPECT_GT(sum, 0);
@@ -58,6 +61,9 @@ TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
       {"render", floor_scene(), "-o", exr, "--vpls", "4096"},
       {"render", floor_scene(), "-o", exr, "--moments"},
       {"render", floor_scene(), "-o", exr, "--exposure", "bright"},
+      {"render", floor_scene(), "-o", exr, "--background", "off"},
+      {"render", floor_scene(), "-o", exr, "--light-units", "lumen"},
+      {"render", svg, "-o", png, "--environment", "white"},
       {"render", floor_scene(), "-o", exr, "--light", "moon"},
       {"render", svg, "-o", png, "--moments"},
       {"render", svg, "-o", png, "--indirect", "ltc"},
@@ -71,6 +77,58 @@ TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
   const Outcome verb = run({"rendr"});
   EXPECT_EQ(verb.status, 2);
   EXPECT_NE(verb.err.find("did you mean 'render'?"), std::string::npos) << verb.err;
+}
+
+TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
+  const std::string exr = folder / "a.exr", stats = folder / "s.json", map = folder / "map.exr";
+  Picture white(16, 8);
+  for (Vec3f& p : white.pixels) p = {1, 1, 1};
+  write_picture(white, map);
+  const auto picture = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", floor_scene(), "-o", exr, "--size", "32x18", "--stats", stats};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(r.err.find("environment:") != std::string::npos, !more.empty()) << r.err;
+    return read_picture(exr);
+  };
+  const Picture plain = picture({}), from_file = picture({"--environment", map}), by_name = picture({"--environment", "white"});
+  EXPECT_LT(difference(from_file, by_name).relative_l2, 1e-3);
+  EXPECT_TRUE(json::parse(contents(stats)).contains("diffuse_residual"));
+  const Picture dark = picture({"--environment", map, "--background", "off"});
+  const Vec3f above = plain.at(0, 0);  // the sky
+  EXPECT_EQ(dark.at(0, 0), above);
+  EXPECT_EQ(by_name.at(0, 0), (Vec3f{1, 1, 1}));
+  EXPECT_GT(dark.at(16, 16).x, plain.at(16, 16).x);
+  EXPECT_EQ(run({"render", floor_scene(), "-o", exr, "--environment", "no_such.hdr"}).status, 1);
+}
+
+TEST_F(Program, InfoTellsWhatASceneHolds) {
+  const Outcome r = run({"info", test::kSourceDir + "/scenes/gallery.glb", "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const json facts = json::parse(r.out);
+  for (const char* key :
+       {"cameras", "lights", "materials", "extensions_used", "extensions_required", "not_supported", "method", "warnings"})
+    EXPECT_TRUE(facts.contains(key)) << key;
+  EXPECT_EQ(facts["lights"].size(), 4u);
+  for (const json& light : facts["lights"]) {
+    EXPECT_GT(light["power"].get<double>(), 0) << light;
+    EXPECT_TRUE(light.contains("radiance") && light.contains("type")) << light;
+  }
+  EXPECT_EQ(facts["method"], "closed-form");
+  const Outcome text = run({"info", test::kSourceDir + "/scenes/gallery.glb"});
+  EXPECT_NE(text.out.find("EXT_lights_area"), std::string::npos) << text.out;
+  EXPECT_EQ(run({"info", "no_such.glb"}).status, 1);
+}
+
+TEST_F(Program, DiffNamesWhatItDoesNotCompare) {
+  Picture a(4, 2);
+  a.layers["variance"].resize(8);
+  const std::string path = folder / "a.exr";
+  write_picture(a, path);
+  const Outcome r = run({"diff", path, path});
+  EXPECT_EQ(r.status, 0);
+  EXPECT_NE(r.err.find("not compared: layer variance"), std::string::npos) << r.err;
 }
 
 TEST_F(Program, ExposesPngToMiddleGreyUnlessTold) {

@@ -250,7 +250,7 @@ void print(const Report& report, const std::string& folder) {
 
 std::shared_ptr<const Scene> scene_of(const Options& options) {
   LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, {}});
-  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "steradian: {}\n", warning);
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return std::make_shared<const Scene>(std::move(loaded.scene));
 }
 

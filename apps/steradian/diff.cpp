@@ -52,11 +52,21 @@ double white_of(const Picture& picture) {
   return static_cast<double>(*at);
 }
 
+// The pictures alone are compared, not what else their files hold.
+void say_what_is_left_out(const std::string& path, const Picture& picture) {
+  std::vector<std::string> names = picture.unread;
+  for (const auto& [layer, pixels] : picture.layers) names.push_back("layer " + layer);
+  if (!names.empty()) fmt::print(stderr, "warning: {}: not compared: {}\n", path, fmt::join(names, ", "));
+}
+
 void run(const Options& options, Exit& exit) {
   std::vector<Limit> limits;
   for (const std::string& text : options.fail_above) limits.push_back(parse_limit(text));
   const Picture reference = read_picture(options.b, options.limits);
-  const Difference d = difference(read_picture(options.a, options.limits), reference);
+  const Picture picture = read_picture(options.a, options.limits);
+  say_what_is_left_out(options.a, picture);
+  say_what_is_left_out(options.b, reference);
+  const Difference d = difference(picture, reference);
   const double white = white_of(reference);
   if (options.json) {
     nlohmann::ordered_json j = {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -196,7 +197,9 @@ void run(const CLI::App& verb, Options& options) {
                                                       : LightUnits::from_generator;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
   load.lights = added_lights(options.lights);
+  const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded = load_scene(options.scene, load);
+  const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   refuse_without_effect(verb, {{"--background", loaded.scene.environment != nullptr, "--environment, or a file with one"}});
@@ -229,6 +232,8 @@ void run(const CLI::App& verb, Options& options) {
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)}};
   write_picture(picture, options.output, exposure);
+  stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
+  stats.total_ms += load_ms;
   if (!options.stats.empty()) write_text(options.stats, stats_json(options, stats).dump(2) + "\n");
 }
 

@@ -37,6 +37,7 @@ struct FileFacts {
 struct LoadedScene {
   Scene scene;
   FileFacts file;
+  double texture_ms = 0;              // of the reading: its pictures
   std::vector<std::string> warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
 };
 

@@ -120,7 +120,7 @@ Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budge
   return header;
 }
 
-Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window) {
+Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window, const std::string& place) {
   Imf::InputFile file(stream, 0);
   Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
   Imf::FrameBuffer frame;
@@ -132,12 +132,23 @@ Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window) {
   const Imf::ChannelList& channels = file.header().channels();
   for (auto c = channels.begin(); c != channels.end(); ++c) {
     const auto [layer, suffix] = layer_and_suffix(c.name());
-    if (suffix == 3) continue;
+    if (suffix == 3) {
+      if (std::string(c.name()) != "Y") picture.unread.push_back(c.name());
+      continue;
+    }
     std::vector<Vec3f>& pixels = layer.empty() ? picture.pixels : picture.layers[layer];
     pixels.resize(picture.pixels.size());
     frame.insert(c.name(), shifted(pixels, suffix));
   }
-  const bool grey = channels.findChannel("R") == nullptr;
+  const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+  if (!has("R") && !has("G") && !has("B") && !has("Y")) {
+    std::string names;
+    for (auto c = channels.begin(); c != channels.end() && names.size() < 400; ++c)
+      names += (names.empty() ? "" : ", ") + std::string(c.name());
+    throw Error(place, "the EXR picture has none of the channels R, G, B and Y; it has " + (names.empty() ? "none" : names),
+                "save one layer of it without a layer's name");
+  }
+  const bool grey = !has("R") && !has("G") && !has("B");
   if (grey && channels.findChannel("Y") != nullptr) frame.insert("Y", shifted(picture.pixels, 0));
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
@@ -173,7 +184,7 @@ Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place
     check_attributes(bytes, place);
     const Imf::Header header = checked_header(stream, place, budget);
     stream.seekg(0);
-    return read_pixels(stream, header.dataWindow());
+    return read_pixels(stream, header.dataWindow(), place);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

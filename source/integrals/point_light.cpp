@@ -4,14 +4,26 @@
 
 namespace steradian::methods {
 
+namespace {
+
+// The lobe times the cosine.
+Vec3d lobe_towards(Vec3d direction, const ShadingPoint& at, const Material& material) {
+  const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
+  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
+  return lobe.radiance(lobe.evaluate(frame.to_local(direction)));
+}
+
+}  // namespace
+
 Vec3d point_light_radiance(const PointLight& light, const ShadingPoint& at, const Material& material) {
   const Vec3d to_light = light.position - at.position;
   const double distance = length(to_light);
   if (!(distance > 0)) return {};
-  const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
-  const Vec3d f = lobe.radiance(lobe.evaluate(frame.to_local(normalized(to_light))));
-  return f * light.intensity / distance / distance;
+  return lobe_towards(normalized(to_light), at, material) * light.intensity / distance / distance;
+}
+
+Vec3d directional_light_radiance(const DirectionalLight& light, const ShadingPoint& at, const Material& material) {
+  return lobe_towards(-light.direction, at, material) * light.illuminance;
 }
 
 }  // namespace steradian::methods

@@ -1,4 +1,4 @@
-// Light of a point without size: the lobe in one direction, over the square of the distance.
+// Lights without an extent as seen from a point: the lobe in one direction.
 #pragma once
 
 #include "shapes/shape.h"
@@ -9,5 +9,8 @@ namespace steradian::methods {
 
 // f cos intensity / d^2. 0 below the surface, for a view below it and at no distance.
 Vec3d point_light_radiance(const PointLight& light, const ShadingPoint& at, const Material& material);
+
+// f cos illuminance. 0 below the surface and for a view below it.
+Vec3d directional_light_radiance(const DirectionalLight& light, const ShadingPoint& at, const Material& material);
 
 }  // namespace steradian::methods

@@ -1,5 +1,6 @@
 #include "scene/gltf_textures.h"
 
+#include <chrono>
 #include <cmath>
 
 #include "image/decode_image.h"
@@ -76,7 +77,9 @@ int GltfTextures::load_image(int gltf_image) {
   }
   if (!type.empty() && type != (image::format_of(bytes) == image::ImageFormat::png ? "image/png" : "image/jpeg"))
     warnings_.count("a picture's mimeType is not what its bytes are", place);
+  const auto start = std::chrono::steady_clock::now();
   Image decoded = image::decode_image(bytes, place, std::min(texels_left_, kMaxImageTexels), document_.budget());
+  decoding_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   texels_left_ -= decoded.rgba.size() / 4;
   decoded.name = image.text("name", image.text("uri", "").starts_with("data:") ? "" : image.text("uri", ""));
   images_.push_back(std::move(decoded));

@@ -21,6 +21,8 @@ class GltfTextures {
   int image(const JsonCursor& index) { return scene_image(index.as_index(document_.count("images"), "image")); }
   const std::vector<Image>& images() const { return images_; }
 
+  double decoding_ms() const { return decoding_ms_; }
+
  private:
   int scene_image(int gltf_image);
   int load_image(int gltf_image);
@@ -32,6 +34,7 @@ class GltfTextures {
   Warnings& warnings_;
   std::vector<int> loaded_;  // by glTF image: into images_, or one of the two states below
   std::size_t texels_left_;
+  double decoding_ms_ = 0;
 };
 
 }  // namespace steradian::scene

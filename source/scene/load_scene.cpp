@@ -136,7 +136,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
     warnings.say("the scene has no camera: a default one frames it from the front");
   }
   facts.not_supported = warnings.features();
-  return {std::move(scene), std::move(facts), warnings.sentences()};
+  return {std::move(scene), std::move(facts), textures.decoding_ms(), warnings.sentences()};
 }
 
 LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {

@@ -17,4 +17,10 @@ struct PointLight {
   Vec3d intensity{1, 1, 1};  // W/sr or candela, linear RGB
 };
 
+// Parallel light.
+struct DirectionalLight {
+  Vec3d direction;             // unit, along which it shines
+  Vec3d illuminance{1, 1, 1};  // W/m2 or lux across it, linear RGB
+};
+
 }  // namespace steradian

@@ -10,6 +10,13 @@
 
 namespace steradian::eval {
 
+// Of the radiance, a number a channel, by what the light and the lobe are given by. None where the query has it not.
+struct ParameterDerivatives {
+  std::optional<Vec3d> radiance;   // of the light, in the same channel
+  std::optional<Vec3d> f0;         // of one GGX lobe, in the same channel
+  std::optional<Vec3d> roughness;  // perceptual, of one isotropic microfacet lobe
+};
+
 struct Answer {
   Vec3d radiance;      // finite
   std::string method;  // the resolved one; "exact+reference" where materials of a list resolve differently
@@ -17,14 +24,16 @@ struct Answer {
   std::optional<double> standard_error;
   Precision precision = Precision::double_;
   std::optional<RadianceDerivatives> derivatives;  // where the query asks
+  ParameterDerivatives parameters;                 // likewise
 };
 
 // Throws Error (key and hint) for what the query's method cannot do and for results that are not finite.
 Answer evaluate(const Query& query);
 
 // Appends one line. Numbers are the shortest decimals that read back the same; -0 is written as 0.
-void write_answer(std::string& out, const Answer& answer);
-void write_error(std::string& out, std::string_view message);
+// id: JSON that becomes the first key; empty for none.
+void write_answer(std::string& out, const Answer& answer, std::string_view id = {});
+void write_error(std::string& out, std::string_view message, std::string_view id = {});
 
 // A whole step of the stream: reads, evaluates, appends the answer or the error. False for an error.
 bool answer_line(QueryReader& reader, std::string_view line, std::string& out);

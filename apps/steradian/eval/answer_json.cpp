@@ -53,10 +53,31 @@ void append_derivatives(std::string& out, const RadianceDerivatives& d, Precisio
   append_channels(out, ",\"d_normal\":", d.normal, precision);
 }
 
+void append_parameters(std::string& out, const ParameterDerivatives& d, Precision precision) {
+  const auto append = [&](const char* key, const std::optional<Vec3d>& value) {
+    if (!value) return;
+    out += key;
+    append_vector(out, *value, precision);
+  };
+  append(",\"d_radiance\":", d.radiance);
+  append(",\"d_f0\":", d.f0);
+  append(",\"d_roughness\":", d.roughness);
+}
+
+// The opening brace, and the id where there is one.
+void begin(std::string& out, std::string_view id) {
+  out += '{';
+  if (id.empty()) return;
+  out += "\"id\":";
+  out += id;
+  out += ',';
+}
+
 }  // namespace
 
-void write_answer(std::string& out, const Answer& answer) {
-  out += "{\"radiance\":";
+void write_answer(std::string& out, const Answer& answer, std::string_view id) {
+  begin(out, id);
+  out += "\"radiance\":";
   append_vector(out, answer.radiance, answer.precision);
   out += ",\"method\":\"";
   out += answer.method;  // names of our own: nothing to escape
@@ -70,11 +91,13 @@ void write_answer(std::string& out, const Answer& answer) {
     append_number(out, *answer.standard_error, Precision::double_);
   }
   if (answer.derivatives) append_derivatives(out, *answer.derivatives, answer.precision);
+  append_parameters(out, answer.parameters, answer.precision);
   out += "}\n";
 }
 
-void write_error(std::string& out, std::string_view message) {
-  out += "{\"error\":\"";
+void write_error(std::string& out, std::string_view message, std::string_view id) {
+  begin(out, id);
+  out += "\"error\":\"";
   for (const char c : message) {
     if (c == '"' || c == '\\') {
       out += '\\';

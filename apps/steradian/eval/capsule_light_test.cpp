@@ -33,7 +33,7 @@ Material ggx(double alpha) {
 
 Query query_of(const Light& light, const ShadingPoint& at, const Material& m, Method method, Quality quality) {
   Query q;
-  q.light = light;
+  q.lights = {light};
   q.position = at.position;
   q.normal = at.normal;
   q.view = at.view;

@@ -21,6 +21,7 @@ struct LightKeys {
   double radius = 0;
   Capsule shape;  // without its radius
   PointLight point_light;
+  DirectionalLight directional_light;
 };
 
 using LightField = Field<LightKeys>;
@@ -67,6 +68,12 @@ constexpr LightField kPointFields[] = {
     {"intensity", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
 };
 
+constexpr LightField kDirectionalFields[] = {
+    {"direction", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.directional_light.direction = read_direction(p, at, v); },
+     true},
+    {"illuminance", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.directional_light.illuminance = read_colour(p, at, v); }},
+};
+
 Light solid(Shape shape, const LightKeys& k) {
   AreaLight light;
   light.shape = std::move(shape);
@@ -88,6 +95,7 @@ Light ellipsoid_of(LightKeys&& k) { return solid(Ellipsoid{k.center, k.x, k.y, k
 Light sphere_of(LightKeys&& k) { return solid(Ellipsoid{k.center, {k.radius, 0, 0}, {0, k.radius, 0}, {0, 0, k.radius}}, k); }
 Light capsule_of(LightKeys&& k) { return solid(capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k); }
 Light point_of(LightKeys&& k) { return k.point_light; }
+Light directional_of(LightKeys&& k) { return k.directional_light; }
 
 struct LightRow {
   std::string_view name;
@@ -102,6 +110,7 @@ constexpr LightRow kLights[] = {
     {"ellipsoid", kEllipsoidFields, ellipsoid_of},
     {"capsule", kCapsuleFields, capsule_of},
     {"point", kPointFields, point_of},
+    {"directional", kDirectionalFields, directional_of},
 };
 
 void read_light(Problems& problems, const Place& place, Json value, Query& query) {
@@ -109,7 +118,15 @@ void read_light(Problems& problems, const Place& place, Json value, Query& query
   if (row == nullptr) return;
   LightKeys keys;
   read_fields(problems, place, value, "type", row->fields, keys);
-  query.light = row->finish(std::move(keys));
+  query.lights.push_back(row->finish(std::move(keys)));
+}
+
+void read_lights(Problems& problems, const Place& place, Json value, Query& query) {
+  simdjson::dom::array list;
+  if (value.get(list) != simdjson::SUCCESS) return wrong_type(problems, place, "a list of lights", value);
+  std::size_t i = 0;
+  for (const Json light : list) read_light(problems, place.at(i++), light, query);
+  if (i == 0) problems.add(place, "the list is empty", "give at least one light");
 }
 
 // ---- Materials -------------------------------------------------------------------------------------------------
@@ -256,7 +273,12 @@ void read_occluders(Problems& problems, const Place& place, Json value, Query& q
 }
 
 constexpr Field<Query> kQueryFields[] = {
-    {"light", read_light, true},
+    {"id",
+     [](Problems& p, const Place& at, Json v, Query&) {
+       if (!v.is_string() && !v.is_number()) wrong_type(p, at, "a string or a number", v);
+     }},
+    {"light", read_light},
+    {"lights", read_lights},
     {"position", [](Problems& p, const Place& at, Json v, Query& q) { q.position = read_vector(p, at, v); }, true},
     {"normal", [](Problems& p, const Place& at, Json v, Query& q) { q.normal = read_direction(p, at, v); }, true},
     {"view", [](Problems& p, const Place& at, Json v, Query& q) { q.view = read_direction(p, at, v); }},
@@ -284,6 +306,7 @@ QueryReader::~QueryReader() = default;
 
 Query QueryReader::read(std::string_view line) {
   static_assert(kQueryPadding >= simdjson::SIMDJSON_PADDING);
+  id_.clear();
   Json root;
   const auto error = parser_->json.parse(line.data(), line.size(), false).get(root);
   if (error == simdjson::CAPACITY || error == simdjson::MEMALLOC) throw Error("", "the line is too long to be read");
@@ -298,7 +321,13 @@ Query QueryReader::read(std::string_view line) {
   Problems problems;
   const Place top;
   if (!root.is_object()) throw Error("", std::string("expected an object, found ") + type_name(root));
+  Json id, one, several;
+  if (root.at_key("id").get(id) == simdjson::SUCCESS && (id.is_string() || id.is_number())) id_ = simdjson::minify(id);
   read_fields(problems, top, root, {}, std::span<const Field<Query>>(kQueryFields), query);
+  const bool has_one = root.at_key("light").get(one) == simdjson::SUCCESS,
+             has_list = root.at_key("lights").get(several) == simdjson::SUCCESS;
+  if (!has_one && !has_list) problems.add(top.in("light"), "missing", "or \"lights\", a list");
+  if (has_one && has_list) problems.add(top.in("lights"), "given beside \"light\"", "put all of them into the list");
   if (!problems.any() && !query.view)
     for (const Material& m : query.materials)
       if (m.brdf != Brdf::lambert) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -16,10 +17,10 @@
 
 namespace steradian::eval {
 
-using Light = std::variant<AreaLight, PointLight>;
+using Light = std::variant<AreaLight, PointLight, DirectionalLight>;
 
 struct Query {
-  Light light;
+  std::vector<Light> lights;  // at least one; their light adds
   Vec3d position;
   Vec3d normal;               // unit
   std::optional<Vec3d> view;  // unit; absent only where every material is lambert
@@ -29,7 +30,7 @@ struct Query {
   Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
-  bool derivatives = false;                            // of the radiance by the light's vertices
+  bool derivatives = false;                            // of the radiance by the light's vertices, its radiance and the lobe's parameters
   std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing blocks
   std::optional<Vec3d> geometric_normal;               // unit, of the triangle that the position is on; none: the normal
 };
@@ -53,10 +54,14 @@ class QueryReader {
   // Throws Error that names every wrong key by its path (light.vertices[2]) and says what is expected there.
   Query read(std::string_view line);
 
+  // The key `id` of the line last read, as its JSON stands there; empty where it has none.
+  const std::string& id() const { return id_; }
+
  private:
   struct Parser;
   std::unique_ptr<Parser> parser_;
   QueryDefaults defaults_;
+  std::string id_;
 };
 
 }  // namespace steradian::eval

@@ -33,7 +33,7 @@ Material ggx(double alpha) {
 Answer ask(const AreaLight& light, const ShadingPoint& at, const Material& m, Method method = Method::automatic,
            Quality quality = Quality::normal) {
   Query q;
-  q.light = light;
+  q.lights = {light};
   q.position = at.position;
   q.normal = at.normal;
   q.view = at.view;

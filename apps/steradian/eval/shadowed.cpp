@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
 constexpr int kRoundReference = 512;
+constexpr double kFar = 1e9;  // of the distance to parallel light
 
 // The polygon that stands for a light of any shape.
 PreparedPolygon polygon_of(const AreaLight& light, Vec3d from, int corners) {
@@ -43,8 +44,9 @@ RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoin
 
 }  // namespace
 
-RadianceResult shadowed_answer(const Query& query, const ShadingPoint& surface, const Material& m, const methods::Row& entry,
-                               const RadianceOptions& options, const std::function<RadianceResult()>& unoccluded) {
+RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& surface, const Material& m,
+                               const methods::Row& entry, const RadianceOptions& options,
+                               const std::function<RadianceResult()>& unoccluded) {
   const Vec3d geometric = query.geometric_normal.value_or(surface.normal);
   shadow::Viewpoint from;
   from.position = surface.position + geometric * shadow::offset_from_surface(surface.position);
@@ -52,12 +54,17 @@ RadianceResult shadowed_answer(const Query& query, const ShadingPoint& surface, 
   if (query.geometric_normal && !(geometric == surface.normal)) from.geometric_normal = geometric;
   const ShadingPoint at = {from.position, surface.normal, surface.view};
 
-  if (const auto* light = std::get_if<PointLight>(&query.light)) {
+  if (const auto* light = std::get_if<DirectionalLight>(&source)) {
+    const Vec3d far = from.position - light->direction * (kFar * (1 + length(from.position)));
+    const bool blocked = !(dot(light->direction, geometric) < 0) || query.occluders->rays.between(from.position, far);
+    return blocked ? methods::nothing(entry.method) : unoccluded();
+  }
+  if (const auto* light = std::get_if<PointLight>(&source)) {
     const Vec3d to = light->position - from.position;
     const bool blocked = !(dot(to, geometric) > 0) || query.occluders->rays.between(from.position, light->position);
     return blocked ? methods::nothing(entry.method) : unoccluded();
   }
-  const auto& light = std::get<AreaLight>(query.light);
+  const auto& light = std::get<AreaLight>(source);
   if (std::holds_alternative<Polygon>(light.shape)) {
     const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
     if (polygon.vertices.empty()) return methods::nothing(entry.method);

@@ -79,7 +79,7 @@ class Renderer {
         method_(choose_method(scene, options)),
         camera_(find_camera(scene, options.camera), options.width, options.height),
         rays_(scene),
-        environment_(scene.environment ? std::make_unique<environment::EnvironmentLight>(scene) : nullptr),
+        environment_(prepare_environment(scene)),
         lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
         direct_(direct_table_for(active_simd())),
         specular_(method_),
@@ -114,6 +114,8 @@ class Renderer {
                     specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
     if (environment_) {
+      stats.passes.front().ms -= environment_build_ms_;
+      stats.passes.push_back({"environment: maps", environment_build_ms_});
       stats.passes.push_back(environment_clock_.time(threads_));
       stats.environment_spots = environment_->share_of_spots();
       stats.diffuse_residual = environment_->diffuse_residual();
@@ -140,6 +142,14 @@ class Renderer {
   }
 
  private:
+  std::unique_ptr<const environment::EnvironmentLight> prepare_environment(const Scene& scene) {
+    if (!scene.environment) return nullptr;
+    const auto start = Clock::now();
+    auto light = std::make_unique<const environment::EnvironmentLight>(scene);
+    environment_build_ms_ = ms_since(start);
+    return light;
+  }
+
   int tile_count() const { return tiles_x_ * tiles_y_; }
 
   TileArea area(int index) const {
@@ -411,6 +421,7 @@ class Renderer {
   const DirectMethod method_;
   const CameraRays camera_;
   const RayScene rays_;
+  double environment_build_ms_ = 0;
   const std::unique_ptr<const environment::EnvironmentLight> environment_;  // null without one
   const std::vector<PackLight> lights_;
   const DirectTable& direct_;

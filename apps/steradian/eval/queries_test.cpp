@@ -1,0 +1,124 @@
+// Keys that scripts ask with: ids, lists of lights, parallel light, derivatives by the light's and the lobe's parameters.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "eval/answer.h"
+
+namespace steradian::eval {
+namespace {
+
+using nlohmann::json;
+
+const char* const kRect = R"({"type":"rect","center":[0.3,2,0],"x":[1,0,0],"y":[0,0,1],"radiance":[3,2,1]})";
+const char* const kPoint = R"({"type":"point","position":[1,2,0.5],"intensity":[4,5,6]})";
+const char* const kSun = R"({"type":"directional","direction":[-0.3,-1,0.2],"illuminance":[2,3,4]})";
+
+std::string answer_text(std::string line) {
+  static QueryReader reader;
+  const std::size_t size = line.size();
+  line.append(kQueryPadding, ' ');
+  std::string out;
+  answer_line(reader, {line.data(), size}, out);
+  return out;
+}
+
+std::string query(const std::string& light_key, const std::string& material, const std::string& rest = "") {
+  return "{" + light_key + R"(,"position":[0.1,0,0.2],"normal":[0,1,0],"view":[0.4,1,0.3],"material":)" + material + rest + "}";
+}
+std::string light(const std::string& text) { return "\"light\":" + text; }
+
+Vec3d radiance(const std::string& line) {
+  const json a = json::parse(answer_text(line));
+  if (!a.contains("radiance")) {
+    ADD_FAILURE() << line << "\n" << a;
+    return {};
+  }
+  return {a["radiance"][0].get<double>(), a["radiance"][1].get<double>(), a["radiance"][2].get<double>()};
+}
+
+void expect_near(const json& a, Vec3d b, double relative) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double expected = i == 0 ? b.x : i == 1 ? b.y : b.z;
+    EXPECT_NEAR(a[i].get<double>(), expected, relative * std::fabs(expected)) << a << " channel " << i;
+  }
+}
+
+const char* const kLambert = R"({"brdf":"lambert","albedo":0.5})";
+
+}  // namespace
+
+TEST(EvalQueries, EchoTheirId) {
+  EXPECT_EQ(answer_text(query(R"("id":"a \"b\"",)" + light(kRect), kLambert)).rfind(R"({"id":"a \"b\"","radiance":)", 0), 0u);
+  EXPECT_EQ(answer_text(query(R"("id":17,)" + light(kRect), kLambert)).rfind(R"({"id":17,"radiance":)", 0), 0u);
+  const std::string wrong = answer_text(query(R"("id":"x",)" + light("{}"), kLambert));
+  EXPECT_EQ(wrong.rfind(R"({"id":"x","error":)", 0), 0u) << wrong;
+  EXPECT_EQ(answer_text(query(light(kRect), kLambert)).rfind("{\"radiance\"", 0), 0u) << "the last line's id is forgotten";
+  EXPECT_NE(answer_text(query(R"("id":[1],)" + light(kRect), kLambert)).find("id: expected a string or a number"), std::string::npos);
+}
+
+TEST(EvalQueries, AListOfLightsAdds) {
+  for (const char* material : {kLambert, R"([{"brdf":"lambert"},{"brdf":"ggx","roughness":0.4}])"}) {
+    const Vec3d sum =
+        radiance(query(light(kRect), material)) + radiance(query(light(kPoint), material)) + radiance(query(light(kSun), material));
+    const Vec3d together = radiance(query(std::string("\"lights\":[") + kRect + "," + kPoint + "," + kSun + "]", material));
+    EXPECT_NEAR(length(together - sum), 0, 1e-14 * length(sum));
+  }
+  EXPECT_NE(answer_text(query(light(kRect) + ",\"lights\":[" + kSun + "]", kLambert)).find("given beside"), std::string::npos);
+  EXPECT_NE(answer_text(query("\"lights\":[]", kLambert)).find("lights: the list is empty"), std::string::npos);
+  EXPECT_NE(answer_text(query("\"lights\":{}", kLambert)).find("expected a list of lights"), std::string::npos);
+  EXPECT_NE(answer_text(query(std::string("\"lights\":[") + kRect + ",{}]", kLambert)).find("lights[1].type: missing"), std::string::npos);
+}
+
+// The samples of two lights are independent: the standard error is the root of the squares.
+TEST(EvalQueries, AListOfLightsAddsVariances) {
+  const std::string sampled = R"(,"method":"sampled","spp":4000)";
+  const auto of = [&](const std::string& lights) {
+    return json::parse(answer_text(query(lights, kLambert, sampled)))["standard_error"].get<double>();
+  };
+  const double one = of(light(kRect)), two = of(std::string("\"lights\":[") + kRect + "," + kRect + "]");
+  EXPECT_NEAR(two, one * std::sqrt(2.0), 0.1 * one);
+}
+
+TEST(EvalQueries, ParallelLightIsAPointLightFarAway) {
+  const double cosine = 1 / std::sqrt(0.09 + 1 + 0.04);
+  const Vec3d lambert = radiance(query(light(kSun), kLambert));
+  EXPECT_NEAR(lambert.x, 2 * cosine * 0.5 / std::numbers::pi, 1e-15);
+  EXPECT_NEAR(lambert.z, 4 * cosine * 0.5 / std::numbers::pi, 1e-15);
+  // 1e7 away along the direction: the angle differs by 1e-8.
+  const double d = 1e7, u = d * cosine;
+  const std::string far = R"({"type":"point","position":[)" + std::to_string(0.1 + 0.3 * u) + "," + std::to_string(u) + "," +
+                          std::to_string(0.2 - 0.2 * u) + R"(],"intensity":[2e14,3e14,4e14]})";
+  const char* glossy = R"({"brdf":"ggx","roughness":0.5,"f0":0.04})";
+  const Vec3d a = radiance(query(light(kSun), glossy)), b = radiance(query(light(far), glossy));
+  EXPECT_NEAR(length(a - b), 0, 1e-6 * length(a));
+  EXPECT_EQ(radiance(query(light(R"({"type":"directional","direction":[0,1,0]})"), kLambert)), Vec3d{}) << "from below";
+}
+
+TEST(EvalQueries, ParallelLightIsBlockedByWhatStandsInItsWay) {
+  const std::string roof = R"(,"occluders":[[[-9,5,-9],[9,5,-9],[0,5,9]]])", aside = R"(,"occluders":[[[20,5,-9],[29,5,-9],[20,5,9]]])";
+  EXPECT_EQ(radiance(query(light(kSun), kLambert, roof)), Vec3d{});
+  EXPECT_EQ(radiance(query(light(kSun), kLambert, aside)), radiance(query(light(kSun), kLambert)));
+}
+
+TEST(EvalQueries, DerivativesByParametersAreThoseOfDifferences) {
+  const auto ggx = [](double roughness, double f0) {
+    return R"({"brdf":"ggx","roughness":)" + std::to_string(roughness) + R"(,"f0":)" + std::to_string(f0) + "}";
+  };
+  const json a = json::parse(answer_text(query(light(kRect), ggx(0.4, 0.2), R"(,"derivatives":true)")));
+  ASSERT_TRUE(a.contains("d_radiance") && a.contains("d_f0") && a.contains("d_roughness")) << a;
+  const Vec3d at = radiance(query(light(kRect), ggx(0.4, 0.2)));
+  expect_near(a["d_radiance"], {at.x / 3, at.y / 2, at.z}, 1e-12);
+  // Linear in F0, so any step will do.
+  expect_near(a["d_f0"], (radiance(query(light(kRect), ggx(0.4, 0.7))) - at) / 0.5, 1e-11);
+  // Another step, 2e-3 of the roughness: off by 4e-6 of the third derivative.
+  const double h = 1e-3;
+  expect_near(a["d_roughness"],
+              (radiance(query(light(kRect), ggx(0.4 + h, 0.2))) - radiance(query(light(kRect), ggx(0.4 - h, 0.2)))) / (2 * h), 1e-4);
+  const json lambert = json::parse(answer_text(query(light(kRect), kLambert, R"(,"derivatives":true)")));
+  EXPECT_TRUE(lambert.contains("d_radiance") && !lambert.contains("d_f0") && !lambert.contains("d_roughness")) << lambert;
+}
+
+}  // namespace steradian::eval
