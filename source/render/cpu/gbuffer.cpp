@@ -105,7 +105,7 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
         any |= valid[i] = traced ? -1 : 0;
         packet.ray.tnear[i] = behind != nullptr ? (*behind)[slot] : 0;
       }
-      if (any == 0) {
+      if (any == 0 && behind != nullptr) {  // of a first layer every direction is wanted, the background's too
         std::fill_n(&hits.geometry[first], 16, RTC_INVALID_GEOMETRY_ID);
         continue;
       }

@@ -315,6 +315,18 @@ TEST(EnvironmentRender, SpecularAgreesWithTheReference) {
     }
 }
 
+// Tiles that stick out of the picture by whole blocks of pixels, past what lights of the map throw shadows.
+TEST(EnvironmentRender, PicturesOfAnySizeWithShadowsAreFinite) {
+  const Scene scene = ball_in(room_map(), metal(0.3f));
+  RenderOptions options;
+  options.shadows = Shadows::on;
+  for (const int height : {4, 13, 36, 45}) {
+    options.width = 70;
+    options.height = height;
+    for (const Vec3f& p : render(scene, options).pixels) ASSERT_TRUE(is_finite(p) && p.x + p.y + p.z > 0) << height;
+  }
+}
+
 TEST(EnvironmentRender, TheBackgroundIsTheMap) {
   const Scene scene = ball_in(smooth_map(128), white_diffuse());
   RenderOptions options;
