@@ -1,4 +1,4 @@
-// Blockers by where they are: a grid of 33 x 33 bins.
+// Blockers by where they are: a grid of 33 x 33 bins. Chains stand for their edges.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,15 @@ class BlockerBins {
   BlockerBins() = default;
   explicit BlockerBins(const std::vector<Blocker>& blockers) {
     Box box;
-    for (const Blocker& b : blockers) box.add(b.center), largest_ = std::max(largest_, b.bound);
+    for (const Blocker& b : blockers)
+      if (!b.in_chain) box.add(b.center), largest_ = std::max(largest_, b.bound);
     if (blockers.empty()) box.add({0, 0});
     low_ = box.low;
     high_ = box.high;
     cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
     bins_.resize(33 * 33);
-    for (std::size_t i = 0; i < blockers.size(); ++i) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < blockers.size(); ++i)
+      if (!blockers[i].in_chain) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
   }
 
   Vec2d low() const { return low_; }

@@ -216,6 +216,33 @@ TEST(PlaneFrame, EqualsTheQueryBehindOutlinesOfManyEdges) {
   expect_query(scene, 160, 120, 7, "outlines of many edges");
 }
 
+// Curves that shine, and that others reach into: chains of edges, seen from outside their hulls and from within.
+TEST(PlaneFrame, EqualsTheQueryAmongShiningCurves) {
+  SceneRandom random(9);
+  PlaneScene scene;
+  scene.width = 160;
+  scene.height = 120;
+  for (int i = 0; i < 6; ++i) {
+    std::vector<Vec2d> outline;
+    const Vec2d c{30.0 + 50 * (i % 3), 35.0 + 50 * (i / 3)};
+    for (int k = 0; k < 90; ++k) {
+      const double t = 2 * M_PI * k / 90, r = 18 * (1 + 0.35 * std::sin((2 + i) * t));
+      outline.push_back(c + Vec2d{r * std::cos(t), r * std::sin(t)});
+    }
+    scene.bodies.push_back(plane_polygon(outline));
+    if (i % 2 == 0) scene.bodies.back().light.emplace();
+  }
+  for (int i = 0; i < 10; ++i) {
+    const Vec2d c{random.uniform(5, 155), random.uniform(5, 115)};
+    scene.bodies.push_back(plane_polygon({c, c + Vec2d{4, random.uniform(-3, 3)}, c + Vec2d{random.uniform(-3, 3), 5}}));
+  }
+  // A bowl: one chain whose hull holds pixels that are lit.
+  std::vector<Vec2d> bowl{{150, 60}, {150, 118}, {108, 118}};
+  for (double t : {0.3, 0.5, 0.7, 0.9, 1.1, 1.3}) bowl.push_back(Vec2d{108, 60} + Vec2d{std::sin(t), std::cos(t)} * 40.0);
+  scene.bodies.push_back(plane_polygon(bowl));
+  expect_query(scene, 160, 120, 7, "shining curves");
+}
+
 TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   const PlaneWorld world(make_plane_family(8, 2));
   PlaneFrameOptions options;

@@ -5,6 +5,40 @@
 #include <numbers>
 
 namespace steradian::plane {
+namespace {
+
+struct Disk {
+  Vec2d center;
+  double radius;
+};
+
+Disk around(const Curve& c) {
+  if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
+  return {c.ellipse.center, std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y))};
+}
+
+}  // namespace
+
+std::vector<const Curve*> curves_that_matter_within(const std::vector<const Curve*>& curves, std::size_t own, Vec2d center, double radius) {
+  std::vector<const Curve*> result;
+  std::vector<Disk> others;
+  for (std::size_t i = own; i < curves.size(); ++i) others.push_back(around(*curves[i]));
+  for (std::size_t i = 0; i < own; ++i) {
+    // Within the wider of the two radii of the line between the point and what it may hide.
+    const Disk mine = around(*curves[i]);
+    const Vec2d at = mine.center - center;
+    const bool matters = std::any_of(others.begin(), others.end(), [&](const Disk& other) {
+      const Vec2d to = other.center - center;
+      const double l2 = dot(to, to), t = l2 > 0 ? std::clamp(dot(at, to) / l2, 0.0, 1.0) : 0;
+      const double limit = std::max(radius, other.radius) + mine.radius;
+      const Vec2d away = at - to * t;
+      return dot(away, away) <= limit * limit;
+    });
+    if (matters) result.push_back(curves[i]);
+  }
+  result.insert(result.end(), curves.begin() + static_cast<std::ptrdiff_t>(own), curves.end());
+  return result;
+}
 
 std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circle) {
   const Vec2d d = segment.b - segment.a, c = segment.a - circle.center;

@@ -165,6 +165,10 @@ void LeafBuilder::add_convex(int blocker) {
   Side side = side_of_circle(b.center - tile_.center, b.bound);
   if (side == Side::behind) return;
   const int slot = silhouette(blocker);
+  if (b.edges != 0 && (slot < 0 || !pool_[static_cast<std::size_t>(slot)].outside)) {
+    for (int edge = 0; edge < b.edges; ++edge) add_convex(b.first_edge + edge);
+    return;
+  }
   if (slot < 0) return;
   const Silhouette& s = pool_[static_cast<std::size_t>(slot)];
   const VertexMarks marks = table_.mark(s, seen_);

@@ -114,7 +114,7 @@ Meeting meet(const Emitter& e, const Ellipse& blocker) {
   return result;
 }
 
-bool overlaps(const Emitter& e, const Vec2d* v, std::size_t count) {
+bool comes_within(double gap, const Emitter& e, const Vec2d* v, std::size_t count) {
   if (e.kind != Emitter::Kind::edge) {
     const Ellipse space = ellipse_of(e);
     double nearest = 1e300;
@@ -124,7 +124,7 @@ bool overlaps(const Emitter& e, const Vec2d* v, std::size_t count) {
       nearest = std::min(nearest, length(nearest_on(p, q, {0, 0})));
       inside = inside && cross(q - p, -p) > 0;
     }
-    return inside || nearest < 1 - kTouching / e.radius;
+    return inside || nearest < 1 + gap / e.radius;
   }
   // Separating axes: the edges of both.
   const auto separates = [&](Vec2d p, Vec2d q) {
@@ -132,7 +132,7 @@ bool overlaps(const Emitter& e, const Vec2d* v, std::size_t count) {
     double low = 1e300, high = -1e300;
     for (std::size_t k = 0; k < count; ++k) low = std::min(low, dot(v[k] - p, n)), high = std::max(high, dot(v[k] - p, n));
     const double s = dot(e.a - p, n), t = dot(e.b - p, n);
-    return std::min(s, t) >= high - kTouching || std::max(s, t) <= low + kTouching;
+    return std::min(s, t) >= high + gap || std::max(s, t) <= low - gap;
   };
   if (separates(e.a, e.b)) return false;
   for (std::size_t k = 0; k < count; ++k)

@@ -12,8 +12,9 @@ namespace steradian::plane {
 
 inline constexpr double kTouching = 1e-9;  // overlaps of less are none
 
-// Does a convex polygon, or a segment, overlap the emitter?
-bool overlaps(const Emitter& e, const Vec2d* vertices, std::size_t count);
+// Does a convex polygon, or a segment, come nearer to the emitter than a gap? A negative gap is an overlap.
+bool comes_within(double gap, const Emitter& e, const Vec2d* vertices, std::size_t count);
+inline bool overlaps(const Emitter& e, const Vec2d* vertices, std::size_t count) { return comes_within(-kTouching, e, vertices, count); }
 
 struct Meeting {
   enum class Kind {

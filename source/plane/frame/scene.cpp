@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "plane/frame/blocker_bins.h"
+#include "plane/frame/chains.h"
 #include "plane/frame/emitters.h"
 #include "plane/frame/overlap.h"
 
@@ -29,7 +30,7 @@ class Preparation {
   FrameScene run() {
     const std::size_t bodies = world_.scene.bodies.size();
     const std::string& name = world_.scene.name;
-    budget_.take_memory(name, "what may block its lights", (world_.curves.size() + 3 * bodies) * kBlockerBytes);
+    budget_.take_memory(name, "what may block its lights", (world_.curves.size() * 3 / 2 + 3 * bodies) * kBlockerBytes);
     for (std::size_t i = 0; i < bodies; ++i) {
       first_blocker_.push_back(frame_.blockers.size());
       add_blockers(i);
@@ -171,12 +172,21 @@ class Preparation {
       return;
     }
     bool ellipse_done = false;
-    for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c) {
+    const std::size_t first_curve = world_.first_curve[i], curves = world_.first_curve[i + 1] - first_curve;
+    const std::size_t first = frame_.blockers.size();
+    for (std::size_t c = first_curve; c < first_curve + curves; ++c) {
       const Curve& curve = world_.curves[c];
       if (curve.kind == Curve::Kind::segment)
         add_convex({curve.a, curve.b}, owner, frame_.blockers);
       else if (!ellipse_done)
         add_ellipse(curve.ellipse, owner), ellipse_done = true;  // gradients cut an ellipse into several arcs
+    }
+    if (ellipse_done) return;
+    for (const Chain& chain : convex_chains(&world_.curves[first_curve], curves)) {
+      for (std::size_t k = 0; k < chain.count; ++k) frame_.blockers[first + chain.first + k].in_chain = true;
+      add_convex(chain.hull, owner, frame_.blockers);
+      frame_.blockers.back().first_edge = static_cast<int>(first + chain.first);
+      frame_.blockers.back().edges = static_cast<int>(chain.count);
     }
   }
 
@@ -209,8 +219,14 @@ class Preparation {
       for (std::size_t o : others) reaching += world_.first_curve[o + 1] - world_.first_curve[o];
       spend(20 * reaching);
       budget_.take_memory(world_.scene.name, "what reaches into its lights", reaching * (sizeof(Curve*) + sizeof(Curve)));
+      const auto add = [&](std::size_t o) {
+        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c)
+          if (o == i || may_reach_into(i, world_.curves[c])) inside.curves.push_back(&world_.curves[c]);
+      };
+      add(i);
+      inside.own = inside.curves.size();
       for (std::size_t o : others)
-        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c) inside.curves.push_back(&world_.curves[c]);
+        if (o != i) add(o);
       const Curve& own = world_.curves[world_.first_curve[i]];
       inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
                            return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
@@ -248,6 +264,17 @@ class Preparation {
     return overlaps(disk, &frame_.vertices[b.first], b.count);
   }
 
+  bool may_reach_into(std::size_t light, const Curve& c) {
+    if (body(light).shape != PlaneBody::Shape::polygon || c.kind != Curve::Kind::segment) return true;
+    Blocker edge;
+    edge.first = frame_.vertices.size();
+    edge.count = 2;
+    frame_.vertices.insert(frame_.vertices.end(), {c.a, c.b});
+    const bool reaches = reaches_into(light, edge);
+    frame_.vertices.resize(edge.first);
+    return reaches;
+  }
+
   bool reaches_into(std::size_t polygon, const Blocker& b) {
     for (std::size_t k = 0; k < b.count; ++k) {
       const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
@@ -265,11 +292,29 @@ class Preparation {
     return false;
   }
 
+  // How an emitter takes a chain: its hull is a blocker only where it does not touch the emitter.
+  enum class ChainView { behind, whole, edge_by_edge };
+  ChainView view_of_chain(const Emitter& e, const Blocker& chain) const {
+    const Vec2d* v = &frame_.vertices[chain.first];
+    if (e.kind == Emitter::Kind::edge) {
+      double low = 1e300, high = -1e300;
+      for (std::size_t k = 0; k < chain.count; ++k) {
+        const double h = dot(v[k] - e.a, e.normal);
+        low = std::min(low, h);
+        high = std::max(high, h);
+      }
+      if (high <= kTouching) return ChainView::behind;
+      if (chain.body == e.body && low < 0) return ChainView::edge_by_edge;
+    }
+    const bool near = length(e.center - chain.center) < e.bound + chain.bound + kApart;
+    return near && comes_within(kApart, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;
+  }
+  static constexpr double kApart = 1e-6;
+
   void find_nearby(std::size_t index) {
     Emitter& e = frame_.emitters[index];
     std::vector<int> list, overlapping;
-    // What is further from the light than its range stands behind the last lit point.
-    bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
+    const auto consider = [&](int k) {
       const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       if (b.body == e.body) {
         // The rest of a concave light blocks its own edges; a convex one lies behind them.
@@ -281,6 +326,17 @@ class Preparation {
         overlapping.push_back(k);
       else
         list.push_back(k);
+    };
+    // What is further from the light than its range stands behind the last lit point.
+    bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
+      const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
+      switch (b.edges == 0 ? ChainView::edge_by_edge : view_of_chain(e, b)) {
+        case ChainView::behind: return;
+        case ChainView::whole: return list.push_back(k);
+        case ChainView::edge_by_edge: break;
+      }
+      if (b.edges == 0) return consider(k);
+      for (int edge = 0; edge < b.edges; ++edge) consider(b.first_edge + edge);
     });
     for (int k : overlapping) stand_in(e, k, list);
     for (int k : list) {

@@ -58,10 +58,12 @@ struct Blocker {
   std::size_t first = 0;  // convex: vertices, counter-clockwise; two for a segment
   std::size_t count = 0;
   int outline = -1;
-  Vec2d x_axis, y_axis;  // ellipse, lens: half axes, cross(x, y) > 0
-  bool round = false;    // ellipse: of equal half axes
-  int lens = -1;         // in FrameScene::lenses
-  int line = -1;         // ellipse: in FrameScene::lines, where its bounding circle overlaps the emitter's
+  int first_edge = -1, edges = 0;  // of a chain: its edges, blockers too; they stand for it where its hull is no blocker
+  bool in_chain = false;           // such an edge
+  Vec2d x_axis, y_axis;            // ellipse, lens: half axes, cross(x, y) > 0
+  bool round = false;              // ellipse: of equal half axes
+  int lens = -1;                   // in FrameScene::lenses
+  int line = -1;                   // ellipse: in FrameScene::lines, where its bounding circle overlaps the emitter's
 };
 
 struct FrameScene {

@@ -31,6 +31,7 @@ struct Silhouette {
   std::uint8_t count;
   std::uint8_t begins, ends;  // those that some pixel may see it begin and end in, counter-clockwise
   Kind kind;
+  bool outside;  // all of the tile
   Vec2d at(int k) const { return {x[k], y[k]}; }
 };
 

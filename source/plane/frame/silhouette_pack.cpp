@@ -45,6 +45,7 @@ void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
   const unsigned all = (1u << s.count) - 1, last = static_cast<unsigned>(s.count) - 1;
   seen &= all;
   unseen &= all;
+  s.outside = seen != 0;
   if (s.count == 2) {
     // Exactly the two faces of one edge.
     seen = (seen & 1) | (unseen & 1) << 1;

@@ -163,6 +163,8 @@ class Worker {
 
   bool hides(int blocker, const Emitter& e, const TileArea& tile) const {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+    // Within a chain's hull, its edges are seen, or not.
+    if (b.edges != 0 && length(b.center - tile.center) < b.bound + tile.radius) return false;
     return plane::hides(&frame_.vertices[b.first], b.count, e, tile);
   }
 
@@ -207,6 +209,8 @@ class Worker {
 
   void leaf(const Level& level, int x0, int y0) {
     const TileArea tile = area(x0, y0, kTileSide);
+    tile_ = tile;
+    interior_body_ = -1;
     std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
@@ -249,12 +253,19 @@ class Worker {
     }
   }
 
-  Vec3d interior(std::size_t body, Vec2d p) const {
+  Vec3d interior(std::size_t body, Vec2d p) {
     const LightInterior& inside = frame_.interior[body];
     if (inside.curves.empty()) return radiance_at(*world_.scene.bodies[body].light, p);
     if (inside.by_chords) return radiance_at(*world_.scene.bodies[body].light, p) * open_share(inside.chords, p);
     if (inside.by_parts) return light_between(world_, inside.parts, p, static_cast<int>(body));
-    return envelope_light(world_, inside.curves, p, static_cast<int>(body), EmissionParts::radiance).radiance;
+    if (static_cast<int>(body) != interior_body_) {
+      interior_body_ = static_cast<int>(body);
+      interior_curves_ = curves_that_matter_within(inside.curves, inside.own, tile_.center, tile_.radius);
+    }
+    const std::size_t own = interior_curves_.size() - (inside.curves.size() - inside.own);
+    return envelope_light(world_, curves_that_matter_within(interior_curves_, own, p, 0), p, static_cast<int>(body),
+                          EmissionParts::radiance)
+        .radiance;
   }
 
   // Which body fills each pixel: in double and by the same test as a query.
@@ -343,6 +354,9 @@ class Worker {
   int inside_[kTilePixels];  // what fills each pixel, row by row
   std::vector<int> marked_;  // those that something fills
   std::vector<const Curve*> general_curves_;
+  TileArea tile_;
+  int interior_body_ = -1;  // whose curves these are, of those that matter to the tile
+  std::vector<const Curve*> interior_curves_;
 };
 
 }  // namespace
