@@ -243,6 +243,26 @@ TEST(PlaneFrame, EqualsTheQueryAmongShiningCurves) {
   expect_query(scene, 160, 120, 7, "shining curves");
 }
 
+// The square's far corner is in front of the light's edge, and past the tile from the light: beside the light it is not.
+TEST(PlaneFrame, EqualsTheQueryAboveACornerThatLooksAwayFromALight) {
+  PlaneScene scene;
+  scene.width = scene.height = 320;
+  scene.bodies = {plane_polygon({{44.3, 116}, {63.5, 17.6}, {90, 110}}), plane_polygon({{16, 216}, {116, 216}, {116, 316}, {16, 316}})};
+  scene.bodies[0].light.emplace();
+  expect_query(scene, 320, 320, 3, "above a corner");
+}
+
+// Of a scene much larger than the picture: far lights, and edges seen at a grazing angle.
+TEST(PlaneFrame, EqualsTheQueryInASmallWindow) {
+  PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/logo.svg").scene;
+  scene.fit = PlaneFit::stretch;
+  for (const Vec2d corner : {Vec2d{301, 155}, Vec2d{60, 340}, Vec2d{500, 100}}) {
+    scene.origin = corner;
+    scene.width = scene.height = 2;
+    expect_query(scene, 40, 40, 7, "a small window");
+  }
+}
+
 TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   const PlaneWorld world(make_plane_family(8, 2));
   PlaneFrameOptions options;

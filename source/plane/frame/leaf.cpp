@@ -50,6 +50,7 @@ SeenLight LeafBuilder::see(const Emitter& e) const {
     h.forward = forward;
     h.offset = std::max(std::max(at_a, at_b) + light_.radius, extent(normal)) + 1e-9 * d;
     h.limit = dot(forward, at_a > at_b ? light_.a : light_.b);
+    if (seen.edge) h.least = extent(forward);
     if (extent(forward) > h.limit) h.limit = -1e300;  // the tile is not before the light: nothing is known
   };
   side(seen.high, left * cosine + along * sine, along * cosine - left * sine);
@@ -229,7 +230,10 @@ void LeafBuilder::add_round(int blocker) {
   if (side == Side::behind) return;
   if (side == Side::front && b.round && ahead(center, b.bound)) {
     // A point of it beside the light is enough.
-    const auto beside = [&](const HullSide& h) { return dot(h.normal, center) - h.offset > -b.bound && dot(h.forward, center) < h.limit; };
+    const auto beside = [&](const HullSide& h) {
+      const double along = dot(h.forward, center);
+      return dot(h.normal, center) - h.offset > -b.bound && along < h.limit && along > h.least;
+    };
     shadows_.take_front(silhouette(blocker), 3, beside(seen_.low), beside(seen_.high));
     return;
   }

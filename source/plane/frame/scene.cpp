@@ -336,7 +336,8 @@ class Preparation {
         case ChainView::edge_by_edge: break;
       }
       if (b.edges == 0) return consider(k);
-      for (int edge = 0; edge < b.edges; ++edge) consider(b.first_edge + edge);
+      // By value: parts of edges become blockers too, and move them all.
+      for (int edge = b.first_edge, end = edge + b.edges; edge < end; ++edge) consider(edge);
     });
     for (int k : overlapping) stand_in(e, k, list);
     for (int k : list) {

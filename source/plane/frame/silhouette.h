@@ -35,11 +35,12 @@ struct Silhouette {
   Vec2d at(int k) const { return {x[k], y[k]}; }
 };
 
-// A line past a light and its tile, and on it the place beside the light: what is beyond the line and before the place
-// is seen, from all of the tile, beside the light.
+// A line past a light and its tile, and on it the places beside the tile and beside the light: what is beyond the line and
+// between the two is seen, from all of the tile, beside the light.
 struct HullSide {
   Vec2d normal, forward;
   double offset = 0, limit = 0;
+  double least = -1e300;  // edges: what is ahead of them may lie behind the tile. Of a disk it cannot
 };
 
 struct SeenLight {

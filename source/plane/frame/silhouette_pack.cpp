@@ -65,7 +65,8 @@ VertexMarks mark(const Silhouette& s, const SeenLight& light) {
   };
   const auto before = [&](const HullSide& side) {
     return bits_where(s, [&](Doubles x, Doubles y, std::size_t) {
-      return x * Doubles(side.forward.x) + y * Doubles(side.forward.y) < Doubles(side.limit);
+      const Doubles along = x * Doubles(side.forward.x) + y * Doubles(side.forward.y);
+      return along < Doubles(side.limit) && along > Doubles(side.least);
     });
   };
   unsigned ahead;

@@ -150,8 +150,9 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
   const PackReal inverse_d = PackReal(1.0) / max(d, PackReal(1e-6));
   Cut cut;
   cut.kept = light.scratch;
-  cut.low = (broadcast(light.begin) - foot) * inverse_d;
-  cut.high = (broadcast(light.end) - foot) * inverse_d;
+  // Fourth powers of slopes stay within float's range.
+  cut.low = clamp((broadcast(light.begin) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
+  cut.high = clamp((broadcast(light.end) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
   const PackReal q = d * d * broadcast(light.inverse_range * light.inverse_range);
   if (light.inverse_range > 0.0f) {
     const PackReal reach = sqrt(max(PackReal(1.0) / max(q, PackReal(1e-30)) - PackReal(1.0), PackReal(0.0)));
