@@ -31,8 +31,8 @@ set(STERADIAN_fit_libraries OpenEXR::OpenEXR NLopt::nlopt TBB::tbb)
 
 set(STERADIAN_plane_sources "^plane/")
 set(STERADIAN_plane_needs integrals)
-set(STERADIAN_plane_packages pugixml TBB fmt)
-set(STERADIAN_plane_libraries pugixml::pugixml TBB::tbb fmt::fmt)
+set(STERADIAN_plane_packages pugixml TBB fmt Freetype Fontconfig)
+set(STERADIAN_plane_libraries pugixml::pugixml TBB::tbb fmt::fmt Freetype::Freetype Fontconfig::Fontconfig)
 
 set(STERADIAN_render_sources "^render/")
 set(STERADIAN_render_needs integrals shadow scene reference image)

@@ -125,6 +125,14 @@ TEST_F(PlaneHostile, ManyStopsOnManyShapes) {
 }
 TEST_F(PlaneHostile, UsesOfAPolygonOfManyCorners) { expect_bounded(svg("<defs>" + blob(4000) + "</defs>" + uses(100))); }
 TEST_F(PlaneHostile, UsesOfAShiningPolygonOfManyCorners) { expect_bounded(svg("<defs>" + blob(4000) + "</defs>" + uses(100, kLight))); }
+TEST_F(PlaneHostile, ClipsOfCurvesByCurves) {
+  expect_bounded(svg("<defs><clipPath id='c'>" + path_of_curves(200, "") + "</clipPath>" + path_of_curves(200, "id='shape'") + "</defs>" +
+                     uses(100, "clip-path='url(#c)'")));
+}
+TEST_F(PlaneHostile, LongTexts) {
+  expect_bounded(svg("<text font-size='3'>" + repeated("many letters ", 20000) + "</text>"));
+  expect_bounded(svg(repeated("<text font-size='3' y='9' " + kLight + ">a</text>", 20000)));
+}
 TEST_F(PlaneHostile, NestedRectangles) {
   for (const std::string& more : {std::string(), kLight}) {
     std::string text;

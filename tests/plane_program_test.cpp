@@ -16,7 +16,7 @@ const std::string kScene =
     "<circle class='light' cx='20' cy='30' r='6' fill='#ffd080' data-intensity='2' data-range='80'/>"
     "<rect class='light' x='70' y='50' width='8' height='3' fill='#4080ff'/>"
     "<rect x='40' y='20' width='10' height='24' transform='rotate(20 45 32)'/>"
-    "<text x='1' y='1'>a note</text><text x='1' y='9'>another</text></svg>";
+    "<image/><image/></svg>";
 
 std::size_t occurrences(const std::string& text, const std::string& of) {
   std::size_t n = 0;
@@ -31,7 +31,7 @@ TEST_F(Program, RenderOfAPlaneEqualsItsQueries) {
   std::ofstream(svg) << kScene;
   const Outcome r = run({"render", svg, "-o", exr, "--stats", stats});
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(occurrences(r.err, "text"), 1u) << "unknown elements are named once: " << r.err;
+  EXPECT_EQ(occurrences(r.err, "image"), 1u) << "unknown elements are named once: " << r.err;
   const Picture picture = read_picture(exr);
   ASSERT_EQ(picture.width, 96);
   ASSERT_EQ(picture.height, 64);
@@ -65,6 +65,16 @@ TEST_F(Program, RenderOfAPlaneEqualsItsQueries) {
     }
   }
   EXPECT_GT(brightest, 0.1);
+}
+
+TEST_F(Program, RenderOfAPlaneLeavesOccludersClear) {
+  const std::string svg = folder / "scene.svg", png = folder / "a.png";
+  std::ofstream(svg) << kScene;
+  const Outcome r = run({"render", svg, "-o", png, "--occluders", "clear"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(contents(png).at(25), 6) << "PNG's colour type: red, green, blue and alpha";
+  const Outcome in_space = run({"render", "no.gltf", "-o", png, "--occluders", "clear"});
+  EXPECT_EQ(in_space.status, 2) << in_space.err;
 }
 
 TEST_F(Program, RenderOfAPlaneTakesEveryMethod) {

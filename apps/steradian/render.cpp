@@ -30,7 +30,7 @@ constexpr const char* kDefaultSize = "1280x720";
 struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off",
                              indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto", environment,
-                             background = "on", light_units = "auto";
+                             background = "on", light_units = "auto", occluders = "black";
   std::vector<std::string> lights;
   int max_lights = 256;
   Limits limits;
@@ -125,7 +125,8 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--indirect-clamp", points, bounce},
                                {"--indirect-shadows", points, bounce},
                                {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
-                               {"--moments", false, "a plane scene (.svg)"}});
+                               {"--moments", false, "a plane scene (.svg)"},
+                               {"--occluders", false, "a plane scene (.svg)"}});
 }
 
 // Of the plane: the options of three dimensions have none.
@@ -169,6 +170,8 @@ void run_plane(Options& options) {
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
   job.frame.moments = options.moments;
+  if (options.occluders == "fill") job.frame.occluders = PlaneOccluders::fill;
+  if (options.occluders == "clear") job.frame.occluders = PlaneOccluders::clear;
   job.frame.sampling = {options.spp_given ? options.render.spp : 64, options.render.seed};
   render_plane_scene(job);
 }
@@ -309,6 +312,9 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")->group("Machine");
   add_limits(*verb, options->limits);
   verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")->group("Picture");
+  verb->add_option("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
+      ->check(CLI::IsMember({"black", "fill", "clear"}))
+      ->group("Picture");
   verb->callback([options, spp, verb] {
     options->spp_given = spp->count() > 0;
     run(*verb, *options);

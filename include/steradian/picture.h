@@ -14,8 +14,9 @@ struct Picture {
   int height = 0;
   std::vector<Vec3f> pixels;                         // radiance, linear RGB, unclamped; row 0 on top
   std::map<std::string, std::vector<Vec3f>> layers;  // e.g. "variance": stored as variance.R, .G, .B
-  std::map<std::string, std::string> metadata;       // settings; EXR attributes, PNG text
-  std::vector<std::string> unread;                   // channels of the file that was read that are no R, G, B or Y
+  // The layer "alpha" is coverage, by which the pixels are already multiplied: stored as A, in .png as its alpha channel.
+  std::map<std::string, std::string> metadata;  // settings; EXR attributes, PNG text
+  std::vector<std::string> unread;              // channels of the file that was read that are no R, G, B or Y
 
   Picture() = default;
   Picture(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}

@@ -64,6 +64,7 @@ struct PlaneBody {
   Vec2d center, x_axis, y_axis;
   double radius = 0;
   std::optional<PlaneEmission> light;  // an occluder has none
+  Vec3d color;                         // linear RGB, to draw an occluder with; of no effect on light
   std::string name;                    // the SVG id, for messages
 };
 
@@ -129,10 +130,18 @@ class PlaneWorld {
   std::unique_ptr<Impl> impl_;
 };
 
+// What a picture shows where occluders are. Inside of them it is dark.
+enum class PlaneOccluders {
+  black,
+  fill,   // their colour, the last in the scene on top
+  clear,  // nothing: layer "alpha" is 0 in them and 1 elsewhere
+};
+
 struct PlaneFrameOptions {
   int width = 0, height = 0;  // pixels; 0: the scene's own size, one unit a pixel
   PlaneMethod method = PlaneMethod::exact;
   PlaneSampling sampling;
+  PlaneOccluders occluders = PlaneOccluders::black;
   bool moments = false;  // layers "moment_x" and "moment_y"; in double, pixel by pixel
   int aa = 1;            // point values a pixel, on a square grid (rounded up to a square number)
   int threads = 0;       // 0: all

@@ -167,7 +167,12 @@ std::string encode_exr(const Picture& picture) {
   for (const auto& [key, value] : picture.metadata) header.insert(key, Imf::StringAttribute(value));
   Imf::FrameBuffer frame;
   add_layer(frame, "", picture.pixels, picture.width);
-  for (const auto& [layer, pixels] : picture.layers) add_layer(frame, layer, pixels, picture.width);
+  for (const auto& [layer, pixels] : picture.layers) {
+    if (layer == "alpha")
+      frame.insert("A", slice(pixels, 0, picture.width));
+    else
+      add_layer(frame, layer, pixels, picture.width);
+  }
   for (auto s = frame.begin(); s != frame.end(); ++s) header.channels().insert(s.name(), Imf::Channel(Imf::FLOAT));
   Imf::StdOSStream stream;
   {

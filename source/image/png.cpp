@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
@@ -96,15 +97,19 @@ bool read_pixels(Codec& codec, std::uint8_t* rgba, std::size_t width, std::size_
 
 using Metadata = std::map<std::string, std::string>;
 
-bool write_rows(Codec& codec, int width, int height, const Metadata& metadata, const RowOfBytes& fill, std::uint8_t* row) {
+enum class Channels { rgb = 3, rgba = 4 };
+
+bool write_rows(Codec& codec, int width, int height, Channels channels, const Metadata& metadata, const RowOfBytes& fill,
+                std::uint8_t* row) {
   codec.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &codec, fail, ignore);
   if (codec.png == nullptr) return false;
   if (setjmp(codec.failed)) return false;
   codec.info = png_create_info_struct(codec.png);
   if (codec.info == nullptr) return false;
   png_set_write_fn(codec.png, &codec, give_bytes, nullptr);
-  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
+               channels == Channels::rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
   for (const auto& [key, value] : metadata) {
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;
@@ -122,12 +127,12 @@ bool write_rows(Codec& codec, int width, int height, const Metadata& metadata, c
   return true;
 }
 
-std::string encode(int width, int height, const Metadata& metadata, const RowOfBytes& fill) {
+std::string encode(int width, int height, Channels channels, const Metadata& metadata, const RowOfBytes& fill) {
   std::string file;
-  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(width));
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(channels) * static_cast<std::size_t>(width));
   OpenWriter open;
   open.codec.file = &file;
-  if (!write_rows(open.codec, width, height, metadata, fill, row.data()))
+  if (!write_rows(open.codec, width, height, channels, metadata, fill, row.data()))
     throw Error("", "cannot make a PNG of " + std::to_string(width) + " x " + std::to_string(height) + " pixels: " + open.codec.message);
   return file;
 }
@@ -135,15 +140,23 @@ std::string encode(int width, int height, const Metadata& metadata, const RowOfB
 }  // namespace
 
 std::string encode_png(const Picture& picture, float exposure_stops) {
-  return encode(picture.width, picture.height, picture.metadata, [&](int y, std::uint8_t* byte) {
+  const auto layer = picture.layers.find("alpha");
+  const Vec3f* alpha = layer == picture.layers.end() ? nullptr : layer->second.data();
+  const Channels channels = alpha == nullptr ? Channels::rgb : Channels::rgba;
+  return encode(picture.width, picture.height, channels, picture.metadata, [&](int y, std::uint8_t* byte) {
     for (int x = 0; x < picture.width; ++x) {
-      const Vec3f c = tone_map(picture.at(x, y), exposure_stops);
+      // PNG's colours are not multiplied by their coverage.
+      const float cover =
+          alpha == nullptr ? 1.0f
+                           : alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)].x;
+      const Vec3f c = tone_map(picture.at(x, y) / std::max(cover, 1e-6f), exposure_stops);
       for (const float channel : {c.x, c.y, c.z}) *byte++ = static_cast<std::uint8_t>(std::lround(channel * 255.0f));
+      if (alpha != nullptr) *byte++ = static_cast<std::uint8_t>(std::lround(std::clamp(cover, 0.0f, 1.0f) * 255.0f));
     }
   });
 }
 
-std::string encode_png_bytes(int width, int height, const RowOfBytes& fill) { return encode(width, height, {}, fill); }
+std::string encode_png_bytes(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgb, {}, fill); }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
   OpenReader open;

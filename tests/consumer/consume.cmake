@@ -33,7 +33,7 @@ file(REMOVE_RECURSE ${build})
 set(configure ${CMAKE_COMMAND} -G Ninja -B ${build} -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
     -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=${SCRATCH}/installed)
 set(hidden "")
-foreach(package OpenEXR fmt simdjson ZLIB TBB embree NLopt pugixml GTest nlohmann_json CLI11 Python3)
+foreach(package OpenEXR fmt simdjson ZLIB TBB embree NLopt pugixml Freetype Fontconfig GTest nlohmann_json CLI11 Python3)
   list(APPEND hidden -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 if(how STREQUAL "everything")

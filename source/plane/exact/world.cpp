@@ -38,6 +38,15 @@ PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
   return result;
 }
 
+int PlaneWorld::Impl::occluder_at(Vec2d p) const {
+  int result = -1;
+  for (int i : grid.bodies_near(p)) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    if (i > result && !scene.bodies[k].light && boxes[k].holds(p) && contains(k, p)) result = i;
+  }
+  return result;
+}
+
 }  // namespace steradian
 
 namespace steradian::plane {

@@ -39,6 +39,8 @@ struct PlaneWorld::Impl {
     bool dark = false;
   };
   Inside inside(Vec2d p) const;
+  // The last occluder that holds the point, or -1.
+  int occluder_at(Vec2d p) const;
 };
 
 }  // namespace steradian

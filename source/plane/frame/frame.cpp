@@ -66,6 +66,24 @@ void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const P
   });
 }
 
+void draw_occluders(const PlaneWorld::Impl& world, PlaneOccluders occluders, const PixelGrid& grid, Picture& picture) {
+  if (occluders == PlaneOccluders::black) return;
+  const bool clear = occluders == PlaneOccluders::clear;
+  std::vector<Vec3f>* alpha = nullptr;
+  if (clear) alpha = &picture.layers["alpha"], alpha->assign(picture.pixels.size(), Vec3f{1, 1, 1});
+  tbb::parallel_for(0, grid.height, [&](int y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const int body = world.occluder_at(grid.at(x, y));
+      if (body < 0) continue;
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+      if (clear)
+        (*alpha)[i] = {};
+      else
+        picture.pixels[i] = static_cast<Vec3f>(world.scene.bodies[static_cast<std::size_t>(body)].color);
+    }
+  });
+}
+
 }  // namespace
 
 }  // namespace steradian::plane
@@ -91,8 +109,9 @@ void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFram
     throw Error("size", "the picture would have more than 65536 pixels a side", "set a smaller size");
   Budget budget(options.limits);
   const auto pixels = static_cast<std::uint64_t>(width * n) * static_cast<std::uint64_t>(height * n);
-  budget.take_memory(scene.name, fmt::format("a picture of {} x {} pixels (--size makes it smaller)", width * n, height * n),
-                     pixels * sizeof(Vec3f) * (options.moments ? 3 : 1) * (n > 1 ? 2 : 1));
+  budget.take_memory(
+      scene.name, fmt::format("a picture of {} x {} pixels (--size makes it smaller)", width * n, height * n),
+      pixels * sizeof(Vec3f) * ((options.moments ? 3 : 1) + (options.occluders == PlaneOccluders::clear ? 1 : 0)) * (n > 1 ? 2 : 1));
   Picture fine;
   Picture& picture = n > 1 ? fine : result;
   picture.layers.clear();
@@ -109,20 +128,22 @@ void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFram
   for (const PlaneBody& body : scene.bodies) ++(body.light ? own.lights : own.occluders);
   arena.execute([&] {
     const auto start = Clock::now();
+    const plane::PixelGrid grid = plane::grid_of(inner.scene, picture.width, picture.height);
     if (options.method != PlaneMethod::exact || options.moments) {
       plane::by_query(world, options, plane::grid_of(scene, picture.width, picture.height), picture);
       own.frame_ms = ms_since(start);
-      return;
+    } else {
+      try {
+        const plane::FrameScene frame = plane::prepare_frame(inner, budget);
+        own.prepare_ms = ms_since(start);
+        const auto tiles = Clock::now();
+        plane::render_tiles(frame, options, grid, picture, own);
+        own.frame_ms = ms_since(tiles);
+      } catch (const std::bad_alloc&) {
+        throw budget.out_of_memory();
+      }
     }
-    try {
-      const plane::FrameScene frame = plane::prepare_frame(inner, budget);
-      own.prepare_ms = ms_since(start);
-      const auto tiles = Clock::now();
-      plane::render_tiles(frame, options, plane::grid_of(inner.scene, picture.width, picture.height), picture, own);
-      own.frame_ms = ms_since(tiles);
-    } catch (const std::bad_alloc&) {
-      throw budget.out_of_memory();
-    }
+    plane::draw_occluders(inner, options.occluders, grid, picture);
   });
   if (stats != nullptr) *stats = own;
   if (n > 1) result = plane::averaged(picture, n);

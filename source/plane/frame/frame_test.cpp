@@ -301,6 +301,32 @@ TEST(PlaneFrame, KeepsTheAspectOfSvg) {
   EXPECT_EQ(lit(scene("xMidYMid slice")), (std::array<int, 4>{24, 55, 4, 35})) << "a pixel is 1.25 units";
 }
 
+TEST(PlaneFrame, DrawsOccludersInTheirColourOrLeavesThemClear) {
+  PlaneScene scene;
+  scene.width = scene.height = 32;
+  scene.bodies = {plane_circle({4, 4}, 3), plane_polygon({{10, 10}, {20.5, 10}, {20.5, 30}, {10, 30}}),
+                  plane_polygon({{15, 10}, {25, 10}, {25, 20}, {15, 20}})};
+  scene.bodies[0].light.emplace();
+  scene.bodies[1].color = {1, 0, 0};
+  scene.bodies[2].color = {0, 1, 0};
+  const PlaneWorld world(scene);
+  PlaneFrameOptions options;
+  const Picture black = render_plane(world, options);
+  options.aa = 4;
+  options.occluders = PlaneOccluders::fill;
+  const Picture fill = render_plane(world, options);
+  options.occluders = PlaneOccluders::clear;
+  const Picture clear = render_plane(world, options);
+  EXPECT_EQ(black.at(12, 25), (Vec3f{}));
+  EXPECT_EQ(fill.at(12, 25), (Vec3f{1, 0, 0}));
+  EXPECT_EQ(fill.at(17, 15), (Vec3f{0, 1, 0})) << "the last is on top";
+  const auto alpha = [&](int x, int y) { return clear.layers.at("alpha")[static_cast<std::size_t>(32 * y + x)].x; };
+  EXPECT_EQ(alpha(12, 25), 0);
+  EXPECT_EQ(alpha(20, 25), 0.5f) << "a pixel half covered";
+  EXPECT_EQ(alpha(28, 4), 1);
+  EXPECT_GT(clear.at(28, 4).x, 0);
+}
+
 TEST(PlaneFrame, MomentsPointTowardsTheLight) {
   PlaneScene scene;
   scene.width = scene.height = 40;

@@ -30,7 +30,12 @@ class Preparation {
   FrameScene run() {
     const std::size_t bodies = world_.scene.bodies.size();
     const std::string& name = world_.scene.name;
-    budget_.take_memory(name, "what may block its lights", (world_.curves.size() * 3 / 2 + 3 * bodies) * kBlockerBytes);
+    check_bodies();
+    std::uint64_t shining = 0;
+    for (std::size_t i = 0; i < bodies; ++i)
+      if (body(i).light) shining += world_.first_curve[i + 1] - world_.first_curve[i];
+    const std::size_t blockers = world_.curves.size() * 3 / 2 + 3 * bodies;
+    budget_.take_memory(name, "its lights and what may block them", blockers * kBlockerBytes + shining * sizeof(Emitter));
     for (std::size_t i = 0; i < bodies; ++i) {
       first_blocker_.push_back(frame_.blockers.size());
       add_blockers(i);
@@ -63,6 +68,20 @@ class Preparation {
   static constexpr std::size_t kBlockerBytes = sizeof(Blocker) + sizeof(PaddedOutline) + 2 * sizeof(Vec2d) + sizeof(Silhouette);
   // What it takes to hold a pair of a light's piece and a blocker in its range through the levels of a frame, and to look at it.
   static constexpr std::size_t kPairBytes = 60, kPairSteps = 600;
+
+  // A first look, before anything is made: a light without a range meets every body at least once for each of its pieces.
+  void check_bodies() {
+    std::uint64_t bodies = 0, pieces = 0;
+    for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
+      const std::uint64_t curves = world_.first_curve[i + 1] - world_.first_curve[i];
+      bodies += curves > 0 ? 1 : 0;
+      if (body(i).light && !(body(i).light->range < 1e8)) pieces += curves;
+    }
+    Budget look = budget_;
+    const std::string what =
+        fmt::format("the {} pieces of its lights without a range and the {} bodies that may block them", pieces, bodies);
+    look.take_work(world_.scene.name, what, pieces * bodies * kPairSteps);
+  }
 
   void check_pairs() {
     const BinCounts counts(bins_);

@@ -132,6 +132,24 @@ class Paint {
 
 }  // namespace
 
+Vec3d color_of(const Document& document, const Style& style, bool filled) {
+  std::string_view paint = filled ? style.fill : style.stroke;
+  if (paint == "currentColor") paint = style.color;
+  if (!paint.starts_with("url(")) return parse_color(paint).value_or(Vec3d{});
+  // The mean of a gradient's stops.
+  const std::size_t hash = paint.find('#'), close = paint.find_first_of(")\"'", hash);
+  if (hash == std::string_view::npos) return {};
+  Vec3d sum;
+  int count = 0;
+  pugi::xml_node node = document.by_id(std::string(paint.substr(hash + 1, close - hash - 1)));
+  for (int i = 0; node && count == 0 && i < 16; node = document.referred(node), ++i)
+    for (pugi::xml_node stop : node.children("stop")) {
+      sum += parse_color(document.property(stop, "stop-color").value_or("black")).value_or(Vec3d{});
+      ++count;
+    }
+  return sum / std::max(count, 1);
+}
+
 PlaneEmission emission_of(Document& document, pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled, Vec2d size) {
   return Paint(document, size).emission(n, body, style, filled);
 }

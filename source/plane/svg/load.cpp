@@ -13,9 +13,12 @@
 #include <unordered_set>
 
 #include "core/budget.h"
+#include "plane/svg/lettering.h"
 #include "plane/svg/light.h"
 #include "plane/svg/path.h"
 #include "plane/svg/stroke.h"
+#include "plane/svg/style.h"
+#include "plane/svg/viewport.h"
 #include "steradian/error.h"
 #include "steradian/plane.h"
 
@@ -29,28 +32,6 @@ constexpr int kDeepest = 64;  // nested groups and uses: deeper is a cycle or an
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
 
-// Levenshtein's distance: letters to change, add or leave out.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t corner = row[0]++;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const std::size_t changed = corner + (a[i] == b[k] ? 0 : 1);
-      corner = row[k + 1];
-      row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-std::vector<std::string> words(std::string_view text) {
-  std::vector<std::string> result;
-  std::istringstream in{std::string(text)};
-  for (std::string w; in >> w;) result.push_back(w);
-  return result;
-}
-
 class Reader {
  public:
   Reader(std::string text, std::string name, const Limits& limits) : document_(std::move(text), name), budget_(limits) {
@@ -61,7 +42,8 @@ class Reader {
   PlaneSvg read() try {
     const pugi::xml_node root = document_.root();
     read_frame(root);
-    children(root, inherit(root, {}), 0);
+    styles_.emplace(document_, diagonal());
+    children(root, styles_->inherit(root, {}), 0);
     result_.ignored.assign(document_.ignored.begin(), document_.ignored.end());
     return std::move(result_);
   } catch (const std::bad_alloc&) {
@@ -71,180 +53,15 @@ class Reader {
  private:
   void read_frame(pugi::xml_node root) {
     PlaneScene& scene = result_.scene;
-    if (root.attribute("viewBox")) {
-      Scanner scan(root.attribute("viewBox").value());
-      double v[4];
-      for (double& x : v) {
-        const auto number = scan.number();
-        if (!number) document_.fail(root, "viewBox needs four numbers", "write viewBox=\"0 0 WIDTH HEIGHT\"");
-        x = *number;
-        scan.skip_separators();
-      }
-      scene.origin = {v[0], v[1]};
-      scene.width = v[2];
-      scene.height = v[3];
-    } else {
-      scene.width = document_.length_attribute(root, "width", 512, 512);
-      scene.height = document_.length_attribute(root, "height", 512, 512);
-    }
-    read_aspect(root, scene);
+    const Viewport view = viewport_of(document_, root);
+    const bool boxed = view.box.has_value();
+    scene.origin = boxed ? view.box->origin : Vec2d{};
+    scene.width = boxed ? view.box->size.x : document_.length_attribute(root, "width", 512, 512);
+    scene.height = boxed ? view.box->size.y : document_.length_attribute(root, "height", 512, 512);
+    scene.fit = view.fit;
+    scene.align = view.align;
     if (!(scene.width > 0 && scene.height > 0 && scene.width < 1e6 && scene.height < 1e6))
       document_.fail(root, "the picture's width and height must be positive and below a million", "set the viewBox");
-  }
-
-  void read_aspect(pugi::xml_node root, PlaneScene& scene) const {
-    scene.fit = PlaneFit::meet;
-    const std::vector<std::string> given = words(root.attribute("preserveAspectRatio").value());
-    if (given.empty()) return;
-    const std::string& align = given.front();
-    if (align == "none") {
-      scene.fit = PlaneFit::stretch;
-      return;
-    }
-    const auto place = [&](std::size_t at) {
-      const std::string_view word = std::string_view(align).substr(std::min(at, align.size()), 3);
-      return word == "Min" ? 0.0 : word == "Mid" ? 0.5 : word == "Max" ? 1.0 : -1.0;
-    };
-    scene.align = {place(1), place(5)};
-    if (align.size() != 8 || scene.align.x < 0 || scene.align.y < 0)
-      document_.fail(root, "preserveAspectRatio=\"" + align + "\" is unknown", "write none, or xMidYMid and the like, then meet or slice");
-    if (given.size() > 1 && given[1] == "slice") scene.fit = PlaneFit::slice;
-  }
-
-  // What one element says of itself, read once however many <use> show it.
-  struct Declared {
-    std::optional<std::string> fill, stroke, color, cap, rule;
-    std::optional<double> stroke_width, intensity, range, fill_opacity, stroke_opacity;
-    double opacity = 1;          // of the whole element
-    Role role = Role::by_shape;  // by_shape: says nothing
-    std::optional<PlaneProfile> profile;
-    std::optional<std::pair<Vec2d, double>> spot;
-    std::optional<Transform> transform;
-  };
-
-  const Declared& declared(pugi::xml_node n) {
-    const auto [found, is_new] = declared_.try_emplace(n.internal_object());
-    if (is_new) read_declared(n, found->second);
-    return found->second;
-  }
-
-  void read_declared(pugi::xml_node n, Declared& d) {
-    const std::pair<const char*, std::optional<std::string>*> texts[] = {
-        {"fill", &d.fill}, {"stroke", &d.stroke}, {"color", &d.color}, {"stroke-linecap", &d.cap}, {"fill-rule", &d.rule}};
-    for (const auto& [key, value] : texts) {
-      auto p = document_.property(n, key);
-      if (p && *p != "inherit") *value = std::move(p);
-    }
-    if (const auto width = document_.property(n, "stroke-width")) {
-      d.stroke_width = document_.length_of(*width, diagonal());
-      if (!d.stroke_width || *d.stroke_width < 0) document_.fail(n, "stroke-width=\"" + *width + "\" is not a length", "write a number");
-    }
-    if (n.attribute("data-intensity")) d.intensity = document_.number_attribute(n, "data-intensity", 0, "give a number of at least 0");
-    if (n.attribute("data-range")) {
-      d.range = document_.number_attribute(n, "data-range", 0, "give a positive distance in user units");
-      if (*d.range == 0) document_.fail(n, "data-range must be positive", "leave it out for light without a limit");
-    }
-    if (const auto display = document_.property(n, "display"); display && *display == "none") d.role = Role::ignore;
-    d.opacity = share(n, "opacity").value_or(1);
-    d.fill_opacity = share(n, "fill-opacity");
-    d.stroke_opacity = share(n, "stroke-opacity");
-    refuse_misspelt(n);
-    read_role(n, d);
-    read_profile(n, d);
-    if (n.attribute("transform")) {
-      d.transform = parse_transform(n.attribute("transform").value());
-      if (!d.transform)
-        document_.fail(n, std::string("cannot read transform=\"") + n.attribute("transform").value() + "\"",
-                       "use matrix, translate, scale, rotate, skewX and skewY");
-    }
-    if (d.role == Role::ignore) return;
-    for (const char* unsupported : {"clip-path", "mask", "filter"})
-      if (const auto p = document_.property(n, unsupported); p && *p != "none") document_.ignored.insert(unsupported);
-  }
-
-  Style inherit(pugi::xml_node n, Style style) {
-    const Declared& d = declared(n);
-    const std::pair<const std::optional<std::string>*, std::string*> texts[] = {
-        {&d.fill, &style.fill}, {&d.stroke, &style.stroke}, {&d.color, &style.color}, {&d.cap, &style.cap}, {&d.rule, &style.rule}};
-    for (const auto& [own, value] : texts)
-      if (*own) *value = **own;
-    style.stroke_width = d.stroke_width.value_or(style.stroke_width);
-    style.intensity = d.intensity.value_or(style.intensity);
-    style.range = d.range.value_or(style.range);
-    style.profile = d.profile.value_or(style.profile);
-    style.opacity *= d.opacity;
-    style.fill_opacity = d.fill_opacity.value_or(style.fill_opacity);
-    style.stroke_opacity = d.stroke_opacity.value_or(style.stroke_opacity);
-    if (d.role != Role::by_shape && style.role != Role::ignore) style.role = d.role;
-    if (d.spot) std::tie(style.spot_axis, style.spot_half_angle) = *d.spot;
-    if (d.transform) style.transform = style.transform * *d.transform;
-    return style;
-  }
-
-  // A share of 1, or a percentage.
-  std::optional<double> share(pugi::xml_node n, const char* key) const {
-    const auto text = document_.property(n, key);
-    if (!text || *text == "inherit") return {};
-    const auto v = document_.length_of(*text, 1);
-    if (!v) document_.fail(n, std::string(key) + "=\"" + *text + "\" is not a number", "write a number from 0 to 1");
-    return std::clamp(*v, 0.0, 1.0);
-  }
-
-  // Other programs write data- attributes of their own; one that is nearly ours is a slip.
-  void refuse_misspelt(pugi::xml_node n) const {
-    static constexpr const char* kOurs[] = {"data-steradian", "data-intensity", "data-range", "data-profile", "data-spot"};
-    for (pugi::xml_attribute a : n.attributes()) {
-      const std::string_view name = a.name();
-      if (!name.starts_with("data-") || std::find(std::begin(kOurs), std::end(kOurs), name) != std::end(kOurs)) continue;
-      for (const char* ours : kOurs)
-        if (edits_between(name, ours) <= 2) document_.fail(n, std::string(name) + " is unknown", std::string("write ") + ours);
-    }
-  }
-
-  void read_role(pugi::xml_node n, Declared& d) const {
-    if (d.role == Role::ignore) return;
-    static constexpr std::pair<const char*, Role> kRoles[] = {
-        {"light", Role::light}, {"occluder", Role::occluder}, {"ignore", Role::ignore}};
-    for (const std::string& word : words(n.attribute("class").value()))
-      for (const auto& [key, role] : kRoles)
-        if (word == key) d.role = role;
-    // Names of layers, as Inkscape writes them: "Lights", "light 2".
-    for (std::string word : words(n.attribute("inkscape:label").value())) {
-      for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      for (const auto& [key, role] : kRoles)
-        if (word == key || word == std::string(key) + "s") d.role = role;
-    }
-    if (!n.attribute("data-steradian")) return;
-    for (const auto& [key, role] : kRoles)
-      if (trimmed(n.attribute("data-steradian").value()) == key) {
-        d.role = role;
-        return;
-      }
-    document_.fail(n, std::string("data-steradian=\"") + n.attribute("data-steradian").value() + "\" is unknown",
-                   "use light, occluder or ignore");
-  }
-
-  void read_profile(pugi::xml_node n, Declared& d) const {
-    if (n.attribute("data-profile")) {
-      const std::string_view v = trimmed(n.attribute("data-profile").value());
-      if (v == "uniform")
-        d.profile = PlaneProfile::uniform;
-      else if (v == "lambert")
-        d.profile = PlaneProfile::lambert;
-      else if (v == "inverse")
-        d.profile = PlaneProfile::inverse;
-      else
-        document_.fail(n, "data-profile=\"" + std::string(v) + "\" is unknown", "use uniform, lambert or inverse");
-    }
-    if (!n.attribute("data-spot")) return;
-    Scanner scan(n.attribute("data-spot").value());
-    const auto axis = scan.number();
-    scan.skip_separators();
-    const auto half = scan.number();
-    if (!axis || !half || !(*half >= 0 && *half <= 180))
-      document_.fail(n, "data-spot needs two angles in degrees", "write data-spot=\"DIRECTION HALF-ANGLE\", the half angle up to 180");
-    const double degree = std::numbers::pi / 180;
-    d.spot = {{std::cos(*axis * degree), std::sin(*axis * degree)}, *half * degree};
   }
 
   // Which elements show anything, themselves or by what is in them: groups of nothing are not gone through again and again.
@@ -293,19 +110,23 @@ class Reader {
   void element(pugi::xml_node n, const Style& outer, int depth) {
     spend(n, kElementSteps, 0);
     const std::string_view name = n.name();
-    static const std::set<std::string_view> kSilent = {"title",          "desc",           "metadata", "defs",
-                                                       "linearGradient", "radialGradient", "symbol",   "style"};
+    static const std::set<std::string_view> kSilent = {"title",          "desc",   "metadata", "defs",     "linearGradient",
+                                                       "radialGradient", "symbol", "style",    "clipPath", "mask",
+                                                       "filter",         "marker", "pattern",  "script"};
     if (kSilent.count(name) != 0 || name.find(':') != std::string_view::npos) return;
-    static const std::set<std::string_view> kKnown = {"g",       "a",    "svg",     "use",      "rect", "circle",
-                                                      "ellipse", "line", "polygon", "polyline", "path"};
+    static const std::set<std::string_view> kKnown = {"g",       "a",    "svg",     "use",      "rect", "circle", "switch",
+                                                      "ellipse", "line", "polygon", "polyline", "path", "text"};
     if (kKnown.count(name) == 0) {
       document_.ignored.insert("<" + std::string(name) + ">");
       return;
     }
-    const Style style = inherit(n, outer);
+    Style style = styles_->inherit(n, outer);
     if (style.role == Role::ignore) return;
-    if (name == "g" || name == "a" || name == "svg") return children(n, style, depth + 1);
+    if (!style.clip.empty()) clip(n, style, depth);
+    if (name == "g" || name == "a" || name == "switch") return children(n, style, depth + 1);
+    if (name == "svg") return box(n, n, style, depth);
     if (name == "use") return use(n, style, depth);
+    if (name == "text") return text(n, style);
     shape(n, name, style);
   }
 
@@ -319,14 +140,77 @@ class Reader {
     move.f = document_.length_attribute(n, "y", result_.scene.height);
     style.transform = style.transform * move;
     if (++uses_ > kMostUses) document_.fail(n, "the file expands to more than 100000 uses", "look for nested <use>");
-    if (std::string_view(target.name()) == "symbol") return children(target, inherit(target, style), depth + 1);
+    if (std::string_view(target.name()) == "symbol") return box(target, n, styles_->inherit(target, style), depth);
     element(target, style, depth + 1);
+  }
+
+  // Adds what the element's clip-path shows of it.
+  void clip(pugi::xml_node n, Style& style, int depth) {
+    const std::size_t hash = style.clip.find('#'), close = style.clip.find_first_of(")\"'", hash);
+    const pugi::xml_node node =
+        hash == std::string::npos ? pugi::xml_node() : document_.by_id(style.clip.substr(hash + 1, close - hash - 1));
+    if (std::string_view(node.name()) != "clipPath" || std::string_view(node.attribute("clipPathUnits").value()) == "objectBoundingBox") {
+      document_.ignored.insert("clip-path of a box, a shape or another file");
+      return;
+    }
+    if (depth > kDeepest)
+      document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a clipPath that clips itself");
+    // Its shapes, drawn as if they stood here, for their outlines alone.
+    Style plain;
+    plain.transform = style.transform;
+    plain.role = Role::occluder;
+    plain.for_outline = true;
+    std::vector<PlaneBody> outside = std::exchange(result_.scene.bodies, {});
+    plain = styles_->inherit(node, plain);
+    if (!plain.clip.empty()) clip(node, plain, depth + 1);
+    children(node, plain, depth + 1);
+    auto region = std::make_shared<ClipRegion>();
+    for (const PlaneBody& body : std::exchange(result_.scene.bodies, std::move(outside)))
+      if (body.shape != PlaneBody::Shape::polyline) region->push_back(flattened(body, flatness()));
+    style.clips.push_back(std::move(region));
+  }
+
+  // A nested <svg>, or a <symbol>, in the room that its own or the <use>'s width and height give.
+  void box(pugi::xml_node n, pugi::xml_node user, Style style, int depth) {
+    const PlaneScene& scene = result_.scene;
+    const auto length = [&](const char* key, double whole) {
+      return document_.length_attribute(user, key, whole, document_.length_attribute(n, key, whole, whole));
+    };
+    const Viewport view = viewport_of(document_, n);
+    const Vec2d room{length("width", scene.width), length("height", scene.height)};
+    if (view.box && !(view.box->size.x > 0 && view.box->size.y > 0)) return;
+    // A <use> has moved by its x and y already.
+    const bool nested = n == user;
+    const Vec2d corner{nested ? document_.length_attribute(n, "x", scene.width) : 0,
+                       nested ? document_.length_attribute(n, "y", scene.height) : 0};
+    style.transform = style.transform * view.into(corner, room);
+    children(n, style, depth + 1);
+  }
+
+  void text(pugi::xml_node n, const Style& style) {
+    if (!fonts_) fonts_.emplace();
+    const Vec2d whole{result_.scene.width, result_.scene.height};
+    for (const TextRun& run : lay_out_text(document_, *styles_, *fonts_, n, style, whole, [&] { spend(n, 2000, 100); })) {
+      const bool filled = run.style.fill != "none" && run.style.fill_opacity > 0;
+      if (run.style.opacity * run.style.fill_opacity == 0 || (!filled && run.style.role == Role::by_shape)) continue;
+      PlaneBody body;
+      for (const TextRun::Letter& letter : run.letters) {
+        // FreeType calls the pen, and must not be thrown through: what a letter takes is counted afterwards.
+        Pen pen(run.style.transform, flatness(), {});
+        letter.face->draw(letter.glyph, letter.at, run.style.font_size, pen);
+        for (auto& contour : pen.finish().points) {
+          spend(run.node, 400 * contour.size(), 40 * contour.size());
+          if (contour.size() > 2) body.contours.push_back(std::move(contour));
+        }
+      }
+      if (!body.contours.empty()) add(run.node, std::move(body), run.style, true);
+    }
   }
 
   void shape(pugi::xml_node n, std::string_view name, const Style& style) {
     const double w = result_.scene.width, h = result_.scene.height;
-    const bool filled = style.fill != "none" && style.fill_opacity > 0 && name != "line";
-    const double opacity = style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
+    const bool filled = (style.for_outline || (style.fill != "none" && style.fill_opacity > 0)) && name != "line";
+    const double opacity = style.for_outline ? 1 : style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
     if (opacity == 0) return;
     if (opacity < 1 && style.role != Role::light) document_.ignored.insert("opacity (what is not a light blocks wholly)");
     PlaneBody body;
@@ -357,7 +241,7 @@ class Reader {
     if (filled) {
       for (auto& c : contours.points)
         if (c.size() > 2) body.contours.push_back(std::move(c));
-      body.even_odd = style.rule == "evenodd";
+      body.even_odd = (style.for_outline ? style.clip_rule : style.rule) == "evenodd";
       if (body.contours.empty()) return;
       return add(n, std::move(body), style, true);
     }
@@ -428,9 +312,14 @@ class Reader {
     spend(n, 500, sizeof(PlaneBody) + 40);
     body.name = n.attribute("id").value();
     if (style.role == Role::light) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    if (!body.light) body.color = color_of(document_, style, filled);
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
     if (body.light && body.light->gradient)
       spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
+    for (const auto& region : style.clips) {
+      body = clipped(body, *region, flatness(), [&](std::uint64_t pairs) { spend(n, 20 * pairs, 0); });
+      if (body.contours.empty() && body.shape != PlaneBody::Shape::ellipse) return;
+    }
     result_.scene.bodies.push_back(std::move(body));
   }
 
@@ -442,9 +331,10 @@ class Reader {
   }
 
   Document document_;
+  std::optional<Styles> styles_;
+  std::optional<Fonts> fonts_;
   Budget budget_;
   std::uint64_t steps_ = 0, bytes_ = 0;
-  std::unordered_map<const void*, Declared> declared_;
   std::unordered_set<const void*> drawing_;
   std::size_t uses_ = 0;
   PlaneSvg result_;

@@ -235,9 +235,100 @@ TEST(LoadSvg, GradientsFollowTheirBoxAndTransform) {
 }
 
 TEST(LoadSvg, NamesEachUnknownElementOnce) {
+  const PlaneSvg svg = load(R"~(<image/><image/><foreignObject/><g filter="url(#f)"><rect width="1" height="1"/></g><title>t</title>)~");
+  EXPECT_EQ(svg.ignored, (std::vector<std::string>{"<foreignObject>", "<image>", "filter"}));
+}
+
+TEST(LoadSvg, SymbolsAndNestedPicturesFillTheirRoom) {
+  const std::string symbol =
+      R"~(<symbol id="s" viewBox="10 10 20 40" preserveAspectRatio="xMinYMax"><circle cx="20" cy="30" r="4"/></symbol>)~";
+  const PlaneSvg svg = load(symbol + R"~(<use href="#s" x="100" y="50" width="80" height="80"/>
+      <svg x="10" y="20" width="30" height="60" viewBox="0 0 3 3" preserveAspectRatio="none"><ellipse cx="1" cy="1" rx="1" ry="1"/></svg>)~");
+  ASSERT_EQ(svg.scene.bodies.size(), 2u);
+  const PlaneBody &used = svg.scene.bodies[0], &nested = svg.scene.bodies[1];
+  EXPECT_EQ(used.center, (Vec2d{100 + 2 * 10, 50 + 2 * 20})) << "80 units show 40, from the left";
+  EXPECT_EQ(used.x_axis, (Vec2d{8, 0}));
+  EXPECT_EQ(nested.center, (Vec2d{10 + 10, 20 + 20}));
+  EXPECT_EQ(nested.y_axis, (Vec2d{0, 20}));
+}
+
+TEST(LoadSvg, ClipPathsCutOutlines) {
+  const std::string clips = R"~(<clipPath id="c"><rect x="10" y="10" width="40" height="40"/></clipPath>
+      <clipPath id="two"><circle cx="20" cy="20" r="10" fill="none"/><rect x="60" y="0" width="10" height="100"/></clipPath>
+      <clipPath id="ring" clip-path="url(#c)"><path clip-rule="evenodd" d="M0 0H100V100H0Z M20 20H40V40H20Z"/></clipPath>)~";
+  const auto bodies = [&](const std::string& shape) { return load(clips + shape).scene.bodies; };
+  // Halves, corners, holes, and what lies all within, which stays as it is.
+  EXPECT_NEAR(area_of(bodies(R"~(<rect width="30" height="100" clip-path="url(#c)"/>)~").at(0)), 20 * 40, 1e-6);
+  EXPECT_EQ(bodies(R"~(<circle cx="30" cy="30" r="5" clip-path="url(#c)"/>)~").at(0).shape, PlaneBody::Shape::ellipse);
+  EXPECT_TRUE(bodies(R"~(<circle cx="90" cy="30" r="5" clip-path="url(#c)"/>)~").empty());
+  EXPECT_NEAR(area_of(bodies(R"~(<circle cx="50" cy="30" r="5" clip-path="url(#c)"/>)~").at(0)), 0.5 * M_PI * 25, 0.02);
+  const PlaneBody both = bodies(R"~(<rect width="100" height="30" clip-path="url(#two)"/>)~").at(0);
+  EXPECT_NEAR(area_of(both), M_PI * 100 + 10 * 30, 0.1) << "a clip's paint does not matter";
+  const PlaneBody ring = bodies(R"~(<rect width="30" height="30" clip-path="url(#ring)"/>)~").at(0);
+  EXPECT_NEAR(area_of(ring), 400 - 100, 1e-6) << "the clip is clipped, too";
+  EXPECT_FALSE(plane::contains(ring, {25, 25}));
+  // A comb leaves several parts without bridges between them, and groups clip all that is in them, twice over.
+  const PlaneBody comb = bodies(R"~(<g clip-path="url(#c)"><path d="M0 0H100V60H90V5H80V60H70V5H30V60H25V5H15V60H0Z"/></g>)~").at(0);
+  EXPECT_EQ(comb.contours.size(), 2u);
+  EXPECT_NEAR(area_of(comb), 5 * 40 + 5 * 40, 1e-6);
+  EXPECT_NEAR(
+      area_of(
+          bodies(
+              R"~(<g clip-path="url(#c)"><g transform="translate(30 0)" clip-path="url(#c)"><rect x="-50" width="200" height="99"/></g></g>)~")
+              .at(0)),
+      10 * 40, 1e-6);
+  const PlaneBody line = bodies(R"~(<line x1="0" y1="20" x2="100" y2="20" stroke="#000" clip-path="url(#c)"/>)~").at(0);
+  ASSERT_EQ(line.contours.size(), 1u);
+  EXPECT_NEAR(line.contours[0].front().x, 10, 1e-9);
+  EXPECT_NEAR(line.contours[0].back().x, 50, 1e-9);
+}
+
+TEST(LoadSvg, OccludersKeepTheirColour) {
   const PlaneSvg svg =
-      load(R"~(<text>a</text><text>b</text><image/><g filter="url(#f)"><rect width="1" height="1"/></g><title>t</title>)~");
-  EXPECT_EQ(svg.ignored, (std::vector<std::string>{"<image>", "<text>", "filter"}));
+      load(R"~(<defs><linearGradient id="g"><stop stop-color="#000"/><stop offset="1" stop-color="#fff"/></linearGradient></defs>
+      <g color="#f00"><rect width="1" height="1" fill="currentColor"/></g><rect width="1" height="1" fill="url(#g)"/><rect width="1" height="1"/>)~");
+  ASSERT_EQ(svg.scene.bodies.size(), 3u);
+  EXPECT_EQ(svg.scene.bodies[0].color, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(svg.scene.bodies[1].color, (Vec3d{0.5, 0.5, 0.5}));
+  EXPECT_EQ(svg.scene.bodies[2].color, (Vec3d{}));
+}
+
+namespace {
+
+Vec2d middle_of(const PlaneBody& body) {
+  Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
+  for (const auto& contour : body.contours)
+    for (Vec2d p : contour) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  return (low + high) * 0.5;
+}
+
+}  // namespace
+
+// With whatever font the machine has: an O has a hole and is as high as a capital, and lines are anchored.
+TEST(LoadSvg, TextIsOutlines) {
+  const PlaneSvg svg = load(R"~(<text x="100" y="80" font-size="50" class="light" fill="#fff">O</text>
+      <text x="300" y="80" font-size="50" text-anchor="middle"> HH </text>
+      <text y="200"><tspan x="50">I</tspan><tspan x="250" fill="#f00">I</tspan></text>)~");
+  if (!svg.ignored.empty() && svg.ignored[0].starts_with("<text>")) GTEST_SKIP() << svg.ignored[0];
+  ASSERT_EQ(svg.scene.bodies.size(), 4u);
+  const PlaneBody& o = svg.scene.bodies[0];
+  EXPECT_TRUE(o.light);
+  EXPECT_EQ(o.contours.size(), 2u);
+  EXPECT_FALSE(plane::contains(o, middle_of(o))) << "the hole";
+  EXPECT_GT(middle_of(o).x, 100);
+  EXPECT_NEAR(middle_of(o).y, 80 - 0.36 * 50, 0.1 * 50) << "half a capital above the baseline";
+  EXPECT_NEAR(middle_of(svg.scene.bodies[1]).x, 300, 1) << "as much to the left as to the right, but for side bearings";
+  EXPECT_NEAR(middle_of(svg.scene.bodies[3]).x - middle_of(svg.scene.bodies[2]).x, 200, 1e-9);
+}
+
+TEST(LoadSvg, NamesTheFontThatStandsInForAnother) {
+  const PlaneSvg svg = load(R"~(<text font-family="'No Such Font'">a</text>)~");
+  ASSERT_EQ(svg.ignored.size(), 1u);
+  if (svg.ignored[0].starts_with("<text>")) GTEST_SKIP() << svg.ignored[0];
+  EXPECT_TRUE(svg.ignored[0].starts_with("the font 'No Such Font' (")) << svg.ignored[0];
 }
 
 TEST(LoadSvg, RefusesBrokenFilesWithLineAndHint) {
@@ -281,9 +372,13 @@ TEST(LoadSvg, WrittenScenesReadBackAsTheSame) {
       if (body.light) {
         body.light->radiance = {3, 0.25, 0.01};
         body.light->range = 0.5;
+      } else {
+        body.color = {0.5, 0.25, 1};
       }
     const PlaneSvg read = load_plane_scene_from_text(plane_scene_to_svg(scene), "written.svg");
     ASSERT_EQ(read.scene.bodies.size(), scene.bodies.size());
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (!scene.bodies[i].light) EXPECT_NEAR(read.scene.bodies[i].color.y, 0.25, 1e-12);
     const PlaneWorld before(scene), after(read.scene);
     for (Vec2d p : points_outside(before, 20, 4)) {
       EXPECT_NEAR(before.query(p).radiance.x, after.query(p).radiance.x, 1e-12);
@@ -293,6 +388,13 @@ TEST(LoadSvg, WrittenScenesReadBackAsTheSame) {
 }
 
 // Whatever the bytes: a scene, or an Error; and no scene makes the exact method return what is not a number.
+TEST(LoadSvg, RefusesClipsOfThemselves) {
+  expect_refusal(
+      "<clipPath id='c'><use href='#s' clip-path='url(#c)'/></clipPath><rect id='s' width='9' height='9'/><use href='#s' "
+      "clip-path='url(#c)'/>",
+      "2", "nest deeper");
+}
+
 TEST(LoadSvg, SurvivesMutations) {
   const std::string seed =
       R"~(<svg viewBox="0 0 64 64"><defs><linearGradient id="g" x1="0" y1="0" x2="1" y2="1" gradientTransform="rotate(10)">

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 namespace steradian::plane::svg {
 namespace {
@@ -15,6 +16,13 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
   return text;
+}
+
+std::vector<std::string> words(std::string_view text) {
+  std::vector<std::string> result;
+  std::istringstream in{std::string(text)};
+  for (std::string w; in >> w;) result.push_back(w);
+  return result;
 }
 
 bool Scanner::accept(char c) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "steradian/vector.h"
 #include "steradian/vector2.h"
@@ -11,6 +12,7 @@
 namespace steradian::plane::svg {
 
 std::string_view trimmed(std::string_view text);
+std::vector<std::string> words(std::string_view text);  // between white space
 
 // Walks a list of numbers. Independent of the locale.
 class Scanner {

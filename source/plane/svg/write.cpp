@@ -102,7 +102,8 @@ std::string plane_scene_to_svg(const PlaneScene& scene) {
     const PlaneBody& body = scene.bodies[i];
     if (body.light && body.light->gradient) out += gradient(*body.light, i);
     const bool stroked = body.shape == PlaneBody::Shape::polyline || body.shape == PlaneBody::Shape::capsule;
-    std::string rest = body.light ? emission(*body.light, i, stroked ? "stroke" : "fill") : stroked ? " stroke=\"gray\"" : " fill=\"gray\"";
+    const char* paint = stroked ? "stroke" : "fill";
+    std::string rest = body.light ? emission(*body.light, i, paint) : std::string(" ") + paint + "=\"" + color(body.color) + "\"";
     if (stroked) rest += " fill=\"none\"";
     if (!body.name.empty()) rest += " id=\"" + escaped(body.name) + "\"";
     switch (body.shape) {

@@ -1,0 +1,72 @@
+// What elements say of themselves, by attributes and style sheets, and what they inherit.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "plane/svg/clip.h"
+#include "plane/svg/document.h"
+#include "plane/svg/text.h"
+#include "steradian/plane.h"
+
+namespace steradian::plane::svg {
+
+enum class Role { by_shape, light, occluder, ignore };
+
+// What elements inherit.
+struct Style {
+  std::string fill = "black", stroke = "none", color = "black", cap = "butt", rule = "nonzero", clip_rule = "nonzero";
+  std::string family = "sans-serif", weight = "normal", slant = "normal", anchor = "start";
+  double font_size = 16;
+  double stroke_width = 1;
+  Role role = Role::by_shape;
+  double intensity = 1;
+  double opacity = 1, fill_opacity = 1, stroke_opacity = 1;
+  double range = std::numeric_limits<double>::infinity();
+  PlaneProfile profile = PlaneProfile::uniform;
+  Vec2d spot_axis;
+  double spot_half_angle = 0;
+  Transform transform;
+  bool for_outline = false;                              // within a clipPath: only outlines count, by clip-rule, whatever their paint
+  std::string clip;                                      // of the element itself; empty: none
+  std::vector<std::shared_ptr<const ClipRegion>> clips;  // of the element and those around it, in the scene's coordinates
+};
+
+class Styles {
+ public:
+  // `diagonal`: what percentages that belong to neither width nor height are of.
+  Styles(Document& document, double diagonal) : document_(document), diagonal_(diagonal) {}
+
+  // The style of an element within one of the given style. An element is read once however many <use> show it.
+  Style inherit(pugi::xml_node n, Style style);
+
+ private:
+  // What one element says of itself.
+  struct Declared {
+    std::optional<std::string> fill, stroke, color, cap, rule, clip_rule, family, font_size, weight, slant, anchor, clip;
+    std::optional<double> stroke_width, intensity, range, fill_opacity, stroke_opacity;
+    double opacity = 1;          // of the whole element
+    Role role = Role::by_shape;  // by_shape: says nothing
+    std::optional<PlaneProfile> profile;
+    std::optional<std::pair<Vec2d, double>> spot;
+    std::optional<Transform> transform;
+  };
+
+  const Declared& declared(pugi::xml_node n);
+  void read_declared(pugi::xml_node n, Declared& d);
+  std::optional<double> share(pugi::xml_node n, const char* key) const;
+  void refuse_misspelt(pugi::xml_node n) const;
+  void read_role(pugi::xml_node n, Declared& d) const;
+  void read_profile(pugi::xml_node n, Declared& d) const;
+
+  Document& document_;
+  double diagonal_;
+  std::unordered_map<const void*, Declared> declared_;
+};
+
+}  // namespace steradian::plane::svg

@@ -1,0 +1,28 @@
+// The box that an <svg> or a <symbol> shows, and how it is fitted into the room it is given.
+#pragma once
+
+#include <optional>
+
+#include "plane/svg/document.h"
+#include "plane/svg/text.h"
+#include "steradian/plane.h"
+
+namespace steradian::plane::svg {
+
+struct ViewBox {
+  Vec2d origin, size;
+};
+
+struct Viewport {
+  std::optional<ViewBox> box;
+  PlaneFit fit = PlaneFit::meet;
+  Vec2d align{0.5, 0.5};
+
+  // From the box to the room at a corner. A box without an area shows nothing.
+  Transform into(Vec2d corner, Vec2d room) const;
+};
+
+// By its viewBox and preserveAspectRatio.
+Viewport viewport_of(const Document& document, pugi::xml_node n);
+
+}  // namespace steradian::plane::svg
