@@ -9,6 +9,7 @@
 #include "steradian/config.h"
 #include "steradian/dual.h"
 #include "steradian/ellipse_light.h"
+#include "steradian/environment.h"
 #include "steradian/error.h"
 #include "steradian/half_vector.h"
 #include "steradian/indirect.h"
