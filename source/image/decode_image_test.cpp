@@ -267,4 +267,18 @@ TEST(DecodeExr, SurvivesDamageAndRefusesSizes) {
   EXPECT_NE(read(huge, 1'000'000'000).find("of memory for the picture's pixels"), std::string::npos) << read(huge, 1'000'000'000);
 }
 
+// A list of texts claims 1.9 GB inside an attribute of four bytes; OpenEXR would make room for it. Nobody asked for the list.
+TEST(DecodeExr, LooksIntoNoAttributeThatAPictureDoesNotNeed) {
+  const std::string whole = encode_exr(Picture(9, 7)), attribute = std::string("odd\0stringvector\0\4\0\0\0", 21) + "\xFF\xFF\xFF\x6F";
+  // The last attribute: name, type "float", size, value, and the zero that ends the header. Then the place of the one block of lines.
+  const std::size_t place = whole.find("screenWindowWidth") + 18 + 6 + 4 + 4 + 1;
+  std::string file = whole;
+  const std::size_t moved = static_cast<unsigned char>(file[place]) + 256u * static_cast<unsigned char>(file[place + 1]) + attribute.size();
+  file[place] = static_cast<char>(moved & 255);
+  file[place + 1] = static_cast<char>(moved >> 8);
+  file.insert(8, attribute);
+  Budget budget({.memory = 50'000'000});
+  EXPECT_EQ(decode_exr(bytes_of(file), "picture", budget).width, 9);
+}
+
 }  // namespace steradian

@@ -11,8 +11,12 @@
 #include <ImfVersion.h>
 #include <ImfXdr.h>
 
+#include <algorithm>
 #include <cstring>
 #include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "steradian/error.h"
 
@@ -34,15 +38,18 @@ void add_layer(Imf::FrameBuffer& frame, const std::string& layer, const std::vec
   for (int c = 0; c < 3; ++c) frame.insert(channel_name(layer, c), slice(pixels, c, width));
 }
 
-// Bytes as OpenEXR reads them.
+// Bytes as OpenEXR reads them: the header's from a copy.
 class MemoryStream : public Imf::IStream {
  public:
-  MemoryStream(std::span<const std::uint8_t> bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
+  MemoryStream(std::span<const std::uint8_t> header, std::span<const std::uint8_t> bytes, const std::string& name)
+      : IStream(name.c_str()), header_(header), bytes_(bytes) {}
 
   bool read(char to[], int n) override {
     if (n < 0 || static_cast<std::size_t>(n) > bytes_.size() - at_) throw std::runtime_error("the file is cut off");
-    std::memcpy(to, bytes_.data() + at_, static_cast<std::size_t>(n));
-    at_ += static_cast<std::size_t>(n);
+    const auto end = at_ + static_cast<std::size_t>(n), of_header = std::clamp(header_.size(), at_, end);
+    std::memcpy(to, header_.data() + at_, of_header - at_);
+    std::memcpy(to + (of_header - at_), bytes_.data() + of_header, end - of_header);
+    at_ = end;
     return at_ < bytes_.size();
   }
   std::uint64_t tellg() override { return at_; }
@@ -52,7 +59,7 @@ class MemoryStream : public Imf::IStream {
   }
 
  private:
-  std::span<const std::uint8_t> bytes_;
+  std::span<const std::uint8_t> header_, bytes_;  // the first bytes of the one stand for those of the other
   std::size_t at_ = 0;
 };
 
@@ -67,9 +74,17 @@ std::pair<std::string, int> layer_and_suffix(const std::string& name) {
   return {dot == std::string::npos ? "" : name.substr(0, dot), c};
 }
 
-// Every attribute's claimed size is covered by the bytes that follow: OpenEXR makes room for it before it reads them.
+// Types of attributes whose readers make no more room than the attribute's own size: all that a picture needs.
+bool is_plain_type(std::string_view type) {
+  constexpr std::string_view kPlain[] = {"box2i", "chlist", "compression", "double", "float", "int", "lineOrder", "string", "tiledesc", "v2f"};
+  return std::find(std::begin(kPlain), std::end(kPlain), type) != std::end(kPlain);
+}
+
+// The header's bytes, as OpenEXR may read them. Every attribute's claimed size is covered by the bytes that follow, since OpenEXR makes
+// room for it before it reads them; and an attribute of another type, in whose value more sizes may stand (lists of texts claim up to 2 GB
+// each), gets a type that OpenEXR does not know: it then keeps the value's bytes and looks no further.
 // Attributes: name and type, each ended by 0, four bytes of size, the value; an empty name ends them.
-void check_attributes(std::span<const std::uint8_t> bytes, const std::string& place) {
+std::vector<std::uint8_t> checked_attributes(std::span<const std::uint8_t> bytes, const std::string& place) {
   if (bytes.size() < 8 || std::memcmp(bytes.data(), "\x76\x2F\x31\x01", 4) != 0)
     throw Error(place, "not an EXR picture: its first bytes are another format's", "name the file by its format");
   std::size_t at = 8;  // magic number and version
@@ -79,8 +94,11 @@ void check_attributes(std::span<const std::uint8_t> bytes, const std::string& pl
     return at++ - begin;
   };
   const auto damaged = [&] { throw Error(place, "the EXR picture's header is cut off or damaged", "save it again"); };
+  std::vector<std::pair<std::size_t, std::size_t>> unread;  // where types begin, and their lengths
   while (skip_text() > 0) {
-    skip_text();
+    const std::size_t type = at, length = skip_text();
+    if (type + length < bytes.size() && !is_plain_type({reinterpret_cast<const char*>(bytes.data()) + type, length}))
+      unread.emplace_back(type, length);
     if (at + 4 > bytes.size()) damaged();
     const std::uint64_t size =
         bytes[at] | std::uint64_t{bytes[at + 1]} << 8 | std::uint64_t{bytes[at + 2]} << 16 | std::uint64_t{bytes[at + 3]} << 24;
@@ -89,6 +107,9 @@ void check_attributes(std::span<const std::uint8_t> bytes, const std::string& pl
     at += static_cast<std::size_t>(size);
   }
   if (at > bytes.size()) damaged();
+  std::vector<std::uint8_t> header(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  for (const auto& [type, length] : unread) std::fill_n(header.begin() + static_cast<std::ptrdiff_t>(type), length, std::uint8_t{'?'});
+  return header;
 }
 
 // The header alone, before OpenEXR makes room for what it claims.
@@ -185,8 +206,8 @@ std::string encode_exr(const Picture& picture) {
 
 Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget) {
   try {
-    MemoryStream stream(bytes, place);
-    check_attributes(bytes, place);
+    const std::vector<std::uint8_t> checked = checked_attributes(bytes, place);
+    MemoryStream stream(checked, bytes, place);
     const Imf::Header header = checked_header(stream, place, budget);
     stream.seekg(0);
     return read_pixels(stream, header.dataWindow(), place);

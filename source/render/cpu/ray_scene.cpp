@@ -22,7 +22,29 @@ void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std
   std::memcpy(target, data, item * count);
 }
 
+const char* text_of(RTCError error) {
+  switch (error) {
+    case RTC_ERROR_INVALID_ARGUMENT: return "an argument that it does not take";
+    case RTC_ERROR_INVALID_OPERATION: return "an operation that it does not take";
+    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
+    case RTC_ERROR_UNSUPPORTED_CPU: return "it does not run on this processor";
+    case RTC_ERROR_CANCELLED: return "cancelled";
+    default: return "an unknown error";
+  }
+}
+
+// What Embree has noted since it was last asked, on this thread; of no device, why there is none.
+void throw_noted_error(RTCDevice device, const char* doing) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE && device != nullptr) return;
+  throw Error("", std::string(doing) + ", Embree reports: " + text_of(error),
+              error == RTC_ERROR_OUT_OF_MEMORY ? "give it more memory, or fewer triangles" : "");
+}
+
 }  // namespace
+
+void RayScene::Release::operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+void RayScene::Release::operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 
 // Cut-out materials: a hit where alpha is below the cutoff is none.
 struct RayScene::AlphaTest {
@@ -41,14 +63,17 @@ struct RayScene::AlphaTest {
   }
 };
 
-RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")), rtc_(nullptr) {
-  if (device_ == nullptr) throw Error("", "Embree finds no device");
-  rtc_ = rtcNewScene(device_);
-  rtcSetSceneBuildQuality(rtc_, RTC_BUILD_QUALITY_MEDIUM);
+RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")) {
+  throw_noted_error(device_.get(), "starting");
+  rtc_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneBuildQuality(rtc_.get(), RTC_BUILD_QUALITY_MEDIUM);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
     if (mesh.indices.empty()) continue;
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owned(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
+                                                                             &rtcReleaseGeometry);
+    throw_noted_error(device_.get(), "making a mesh");
+    RTCGeometry geometry = owned.get();
     copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(), mesh.positions.size());
     copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(), mesh.triangle_count());
     const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
@@ -62,22 +87,19 @@ RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")), rtc_(nullptr
       rtcSetGeometryOccludedFilterFunction(geometry, AlphaTest::filter);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(rtc_, geometry, static_cast<unsigned>(i));
-    rtcReleaseGeometry(geometry);
+    rtcAttachGeometryByID(rtc_.get(), geometry, static_cast<unsigned>(i));
   }
-  rtcCommitScene(rtc_);
+  rtcCommitScene(rtc_.get());
+  throw_noted_error(device_.get(), "ordering the triangles");
 }
 
-RayScene::~RayScene() {
-  rtcReleaseScene(rtc_);
-  rtcReleaseDevice(device_);
-}
+RayScene::~RayScene() = default;
 
 void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, rtc_, &context, &rays);
+  rtcIntersect16(valid, rtc_.get(), &context, &rays);
 }
 
 bool RayScene::intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const {
@@ -87,7 +109,7 @@ bool RayScene::intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const {
              kSeenByCamera, 0,        0};
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(rtc_, &context, &hit);
+  rtcIntersect1(rtc_.get(), &context, &hit);
   return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -111,18 +133,18 @@ bool RayScene::occluded(Vec3f from, Vec3f to) const {
   const float distance = length(d);
   const float near = offset_of(from) + 1e-4f * std::min(distance, 1.0f), far = distance * (1.0f - 1e-4f) - offset_of(to);
   if (!(far > near)) return false;
-  return blocked(rtc_, from, d / distance, near, far);
+  return blocked(rtc_.get(), from, d / distance, near, far);
 }
 
 bool RayScene::between(Vec3d from, Vec3d to, Casters casters) const {
-  return blocked(rtc_, static_cast<Vec3f>(from), static_cast<Vec3f>(to - from), 0, 1,
+  return blocked(rtc_.get(), static_cast<Vec3f>(from), static_cast<Vec3f>(to - from), 0, 1,
                  casters == Casters::all          ? kCastsShadow
                  : casters == Casters::with_edges ? kHasEdges
                                                   : kCutOut);
 }
 
 bool RayScene::blocked_towards(Vec3d from, Vec3d direction) const {
-  return blocked(rtc_, static_cast<Vec3f>(from), static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity());
+  return blocked(rtc_.get(), static_cast<Vec3f>(from), static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity());
 }
 
 }  // namespace steradian

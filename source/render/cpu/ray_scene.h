@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "steradian/scene.h"
@@ -17,7 +18,7 @@ enum class Casters { all, with_edges, cut_outs };
 // The camera sees every mesh. Shadow rays pass the shapes that only stand for rect, disk and sphere lights.
 class RayScene {
  public:
-  explicit RayScene(const Scene& scene);
+  explicit RayScene(const Scene& scene);  // throws Error with what Embree reports
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -39,8 +40,12 @@ class RayScene {
 
  private:
   struct AlphaTest;
-  RTCDevice device_;
-  RTCScene rtc_;
+  struct Release {
+    void operator()(RTCDevice device) const;
+    void operator()(RTCScene scene) const;
+  };
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> rtc_;
   std::vector<std::unique_ptr<AlphaTest>> alpha_tests_;
 };
 
