@@ -38,6 +38,14 @@ class Charlie {
     return {K().charlie_cubature_finish(c), Real<S>(0.0)};
   }
 
+  // The roundings are fewer than along arcs: about its dark middle the lobe may have a bend.
+  STERADIAN_INLINE double least_distance2() const { return kTransformed.least_distance2; }
+  SmallLight<S> small_light(const vec3&) const {
+    const Real<S> deviation = sqrt(alpha);  // of a power 1 / alpha of a sine
+    return {K().light_elements_half_vector_sharpness(deviation, lobe_.view.z), kTransformed.roundings};
+  }
+  Part<S> at(const vec3& u) const { return {K().charlie_lobe(lobe_, u), Real<S>(0.0)}; }
+
  private:
   struct Edge {
     vec3 a, b;

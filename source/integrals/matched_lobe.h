@@ -4,6 +4,8 @@
 // cosine series, is the integral (kernels/lobe/lobe_product.glsl).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "integrals/phong.h"
@@ -22,13 +24,19 @@ class MatchedLobe {
 
   // axis: of the second lobe, unit, in the shading frame.
   MatchedLobe(double exponent, double axis_exponent, const vec3& axis, Quality quality)
-      : n1_(exponent), n2_(axis_exponent), axis_(axis), peaked_(exponent + axis_exponent > 0), quality_(quality) {}
+      : n1_(exponent),
+        n2_(axis_exponent),
+        exponents_(exponent + axis_exponent),
+        bends_(exponent < 2 || axis_exponent < 2),
+        axis_(axis),
+        peaked_(exponent + axis_exponent > 0),
+        quality_(quality) {}
 
   Mask<S> begin(const Shading<S>& shading) {
     K k;
-    const vec3 mirror = k.phong_mirror(shading.view);
-    auto product = k.lobe_product_begin(peaked_ ? k.lobe_product_peak_of_two(mirror, n1_, axis_, n2_) : mirror);
-    product = k.lobe_product_add(k.lobe_product_add(product, mirror, n1_), axis_, n2_);
+    mirror_ = k.phong_mirror(shading.view);
+    auto product = k.lobe_product_begin(peaked_ ? k.lobe_product_peak_of_two(mirror_, n1_, axis_, n2_) : mirror_);
+    product = k.lobe_product_add(k.lobe_product_add(product, mirror_, n1_), axis_, n2_);
     lobe_ = k.lobe_product_anisotropic(product);
     round_.emplace(static_cast<double>(lobe_.exponent.v));
     sum_ = 0.0;
@@ -46,14 +54,28 @@ class MatchedLobe {
     return {scale * K().moment_phong_radiance(sum_, reversed), Real<S>(0.0)};
   }
 
+  // The product itself, where the light is small: without the bias of one lobe in its place.
+  double least_distance2() const { return std::min(kAlongArcs.least_distance2, 4 * sharpness() * sharpness()); }
+  SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness()), kAlongArcs.roundings, bends_ ? kUnbiased : kSeriesBias}; }
+  Part<S> at(const vec3& u) const {
+    K k;
+    const Real<S> zero(0.0), c1 = dot(u, mirror_), c2 = dot(u, axis_);
+    const Real<S> product = k.phong_power(max(c1, zero), n1_) * k.phong_power(max(c2, zero), n2_);
+    return {select(c1 > zero && c2 > zero, (n1_ + n2_ + 1.0) * k.inverse_two_pi() * product, zero), zero};
+  }
+
  private:
+  // As light_elements_sharpness has it, of the deviation 1 / sqrt(n1 + n2).
+  double sharpness() const { return 2.5 + std::sqrt(exponents_); }
   vec3 stretched(const vec3& u) const {
     K k;
     return k.polygon_direction(k.lobe_product_stretch(lobe_, u));
   }
 
   Real<S> n1_, n2_;
-  vec3 axis_;
+  double exponents_;
+  bool bends_;  // where a factor ends
+  vec3 axis_, mirror_;
   bool peaked_;
   Quality quality_;
   typename K::StretchedLobe lobe_;

@@ -54,8 +54,19 @@ TEST(SmallLight, EveryMethodAtEverySize) {
   const ShadingPoint at = {{}, {0, 1, 0}, normalized(Vec3d{0.6, 0.8, 0.2})};
   Material unshadowed = material(Brdf::ggx, 0.25);
   unshadowed.shadowing = false;
-  const Material materials[] = {material(Brdf::lambert, 1),      material(Brdf::phong, 20),      material(Brdf::ggx, 0.25),
-                                material(Brdf::blinn_phong, 50), material(Brdf::beckmann, 0.25), unshadowed};
+  Material product = material(Brdf::lobe_product, 30), foreshortened = material(Brdf::phong, 20);
+  product.axis_exponent = 8;
+  product.axis = {0.2, 1, 0.1};
+  foreshortened.foreshortening = true;
+  const Material materials[] = {material(Brdf::lambert, 1),
+                                material(Brdf::phong, 20),
+                                material(Brdf::ggx, 0.25),
+                                material(Brdf::blinn_phong, 50),
+                                material(Brdf::beckmann, 0.25),
+                                unshadowed,
+                                material(Brdf::charlie, 0.5),
+                                product,
+                                foreshortened};
   int tested = 0;
   for (const Material& m : materials)
     for (const double distance : {1e-6, 4.0, 1e6})
@@ -63,7 +74,7 @@ TEST(SmallLight, EveryMethodAtEverySize) {
         const PreparedPolygon light = prepare_polygon(small_light(size, distance));
         // The lobe in the light's direction times its solid angle: off by a share of the size squared.
         const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
-        const lobes::Lobe lobe(m, frame.to_local(at.view));
+        const lobes::Lobe lobe(lobes::in_frame(m, frame), frame.to_local(at.view));
         const Vec3d to = light.quarters.center - at.position, direction = normalized(to);
         const double solid_angle = -dot(light.normal, direction) * light.area / dot(to, to);
         const double truth = lobe.radiance(lobe.evaluate(frame.to_local(direction))).x * solid_angle;
