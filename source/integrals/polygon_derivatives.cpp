@@ -1,6 +1,7 @@
 #include "steradian/polygon_derivatives.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "integrals/ggx.h"
@@ -226,10 +227,16 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   }
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
+    // The series' bias is a smooth function of the outline, and over a light that is small against the lobe its derivative is a multiple of
+    // the light's: there by quadrature, as long as elements (shapes/small_light.h) would take the light's value over.
+    const LightQuarters& q = light.quarters;
+    const double sharpness = 2.5 + std::sqrt(m.exponent), distance2 = dot(q.center - at.position, q.center - at.position);
+    const bool small = sharpness * sharpness * (dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) < 2 * distance2;
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
       const integrals::PhongLobe<S> lobe(m.exponent);
-      // Of the series alone: the other methods in dual numbers would take the compiler's budget for inlining.
+      // Of two methods alone: all of them in dual numbers would take the compiler's budget for inlining.
       const auto share = [&](const auto& a, const auto& b, const auto& axis) {
+        if (small) return lobe.template share<Method::exact, Quality::normal>(a, b, axis);
         return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
                                         : lobe.template share<Method::series, Quality::normal>(a, b, axis);
       };

@@ -9,6 +9,7 @@
 
 #include "steradian/error.h"
 #include "steradian/phong.h"
+#include "steradian/radiance.h"
 #include "steradian/vector.h"
 
 namespace steradian {
@@ -234,6 +235,43 @@ TEST(PolygonDerivatives, AreZeroBehindAndForDroppedVertices) {
 }
 
 // Prints what derivatives cost. 18 derivatives of a quad by central differences take 36 evaluations: ours must be cheaper.
+// Of small lights, in the light's plane: no noise, and no bias that is large against a light that is small against the lobe. As shares of
+// the value over the size; the values are off themselves by a share of (size / lobe)^3.
+TEST(PolygonDerivatives, OfSmallLightsAreThoseOfTheirValues) {
+  std::mt19937_64 random(23);
+  for (const Brdf brdf : {Brdf::lambert, Brdf::phong, Brdf::ggx})
+    for (const double size : {0.1, 1e-2, 1e-3, 1e-4, 1e-6}) {
+      double worst = 0;
+      for (int k = 0; k < 4; ++k) {
+        const double view = uniform(random, 0.2, 1);
+        const ShadingPoint at = {{}, {0, 0, 1}, {std::sin(view), 0, std::cos(view)}};
+        Material m;
+        m.brdf = brdf;
+        m.exponent = 30;
+        m.alpha_x = m.alpha_y = 0.2;
+        const Vec3d to = normalized(Vec3d{0.05 - at.view.x, 0, at.view.z});
+        const Frame plane = Frame::from_normal(normalized(vector(random) * 0.3 - to));
+        PolygonLight light;
+        for (const double x : {-1.0, 1.0}) light.vertices.push_back(to + (plane.x * x - plane.y) * size);
+        for (const double x : {1.0, -1.0}) light.vertices.push_back(to + (plane.x * x + plane.y) * size);
+        const auto value = [&](std::size_t i, Vec3d by) {
+          PolygonLight moved = light;
+          moved.vertices[i] += by;
+          return radiance(moved, at, m).radiance.x;
+        };
+        const RadianceDerivatives d = radiance_derivatives(light, at, m, Quality::normal);
+        for (std::size_t i = 0; i < 4; ++i)
+          for (const Vec3d along : {plane.x, plane.y}) {
+            const Vec3d by = along * (1e-3 * size);
+            const double difference = (value(i, by) - value(i, -by)) / (2e-3 * size);
+            worst = std::max(worst, std::fabs(dot(d.vertices[i][0], along) - difference) * size / value(i, {}));
+          }
+      }
+      EXPECT_LT(worst, 2e-2 * size + 1e-13 / size + 1e-6) << name_of(brdf) << " size " << size;
+      std::printf("%s, size %g: largest difference %.1e of the value over the size\n", name_of(brdf), size, worst);
+    }
+}
+
 TEST(PolygonDerivatives, CostLessThanCentralDifferences) {
   PolygonLight light;
   light.vertices = {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}};
