@@ -66,6 +66,53 @@ TEST_F(Faults, KilledAtAnyMomentItLeavesTheWholePictureOrNothing) {
   std::cout << "[ measured ] " << finished << " of 50 had finished before they were killed\n";
 }
 
+TEST_F(Faults, AnInterruptedReferenceGoesOnToTheSameBytes) {
+  const fs::path whole = results / "whole.exr", output = results / "picture.exr", partial = results / "picture.exr.partial.exr";
+  const auto reference_to = [&](const fs::path& path) {
+    std::vector<std::string> arguments = render_to(path, "128x96");
+    arguments.insert(arguments.end(), {"--method", "reference", "--target-error", "0.03"});
+    return arguments;
+  };
+  const auto resume = [&] {
+    std::vector<std::string> arguments = reference_to(output);
+    arguments.push_back("--resume");
+    return arguments;
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(finish(start(reference_to(whole), kNoLimit)).status, 0);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  int stopped = 0;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    fs::remove(output);
+    std::vector<std::string> arguments = reference_to(output);
+    for (const double share : {0.6, 0.3}) {  // the second time it was already under way
+      const Child child = start(arguments, kNoLimit);
+      std::this_thread::sleep_for(time * share);
+      kill(child.pid, signal);
+      const Outcome o = finish(child);
+      if (o.status == 0) break;
+      ++stopped;
+      EXPECT_EQ(o.status, 128 + signal) << o.err;
+      EXPECT_NE(o.err.find("--resume goes on"), std::string::npos) << o.err;
+      EXPECT_EQ(left(), (std::set<std::string>{"whole.exr", "picture.exr.partial.exr"}));
+      arguments = resume();
+    }
+    if (fs::exists(partial)) {
+      std::vector<std::string> other = resume();
+      other.insert(other.end(), {"--seed", "2"});
+      const Outcome refused = run(other);
+      EXPECT_EQ(refused.status, 1);
+      EXPECT_NE(refused.err.find("was begun with another scene or other options"), std::string::npos) << refused.err;
+    }
+    const Outcome o = run(resume());
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_TRUE(contents(output) == contents(whole)) << "not the same bytes";
+    EXPECT_EQ(left(), (std::set<std::string>{"whole.exr", "picture.exr"}));
+  }
+  EXPECT_GT(stopped, 0);
+  std::cout << "[ measured ] " << time.count() << " s in one go, stopped " << stopped << " times\n";
+}
+
 TEST_F(Faults, NoRoomForTheFileIsSaidAndLeavesTheOldOne) {
   const fs::path output = results / "picture.exr";
   std::ofstream(output) << "old";

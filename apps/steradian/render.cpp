@@ -1,8 +1,12 @@
 // steradian render SCENE -o IMAGE
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,6 +19,7 @@
 #include "integrals/methods.h"
 #include "picture_options.h"
 #include "render_plane.h"
+#include "resume.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
@@ -34,7 +39,7 @@ struct Options {
   std::vector<std::string> lights;
   int max_lights = 256;
   Limits limits;
-  bool moments = false, multiple_scattering = false, spp_given = false;
+  bool moments = false, multiple_scattering = false, spp_given = false, resume = false;
   RenderOptions render;
 };
 
@@ -94,10 +99,27 @@ void parse_indirect(Options& options) {
     throw CLI::ValidationError("--indirect-shadows", "the baseline --indirect ggx has none");
 }
 
+// Whether it may take minutes: such a render keeps what it has when it is interrupted.
+bool samples(const Options& options) {
+  return options.render.method == "reference" || options.render.method == "sampled" || options.indirect == "path";
+}
+
+// Everything that the picture depends on.
+std::string identity_of(const Options& options, const Scene& scene) {
+  const RenderOptions& r = options.render;
+  return fmt::format("steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} | scattering {}",
+                     version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights,
+                     fmt::join(options.lights, ","), options.light_units, options.environment, options.background, r.camera, r.method,
+                     options.quality, options.shadows, options.multiple_scattering) +
+         fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", options.indirect, r.indirect.virtual_lights,
+                     options.indirect_shadows, r.indirect.kept_pairs, options.indirect_quads, options.indirect_clamp, options.size, r.aa, r.spp,
+                     r.target_error, r.seed);
+}
+
 // The picture; running out of memory says what was being made, and how large it is.
-Picture rendered(const Scene& scene, const Options& options, RenderStats& stats) {
+Picture rendered(const Scene& scene, const Options& options, RenderStats& stats, RenderState& state) {
   try {
-    return render(scene, options.render, &stats);
+    return render(scene, options.render, &stats, &state);
   } catch (const std::bad_alloc&) {
     const auto pixels = static_cast<std::uint64_t>(options.render.width) * static_cast<std::uint64_t>(options.render.height);
     throw Error("--size " + options.size,
@@ -120,6 +142,7 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
   const char* bounce = "--indirect ltc or ggx";
   refuse_without_effect(verb, {{"--spp", samples, "--method sampled or --indirect path"},
                                {"--target-error", r.method == "reference", "--method reference"},
+                               {"--resume", samples || r.method == "reference", "--method reference or sampled, or --indirect path"},
                                {"--vpls", points, bounce},
                                {"--indirect-pairs", points, bounce},
                                {"--indirect-clamp", points, bounce},
@@ -149,6 +172,7 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
                                {"--light-units", false, third},
                                {"--camera", false, third},
                                {"--target-error", false, third},
+                               {"--resume", false, third},
                                {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
                                {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"}});
 }
@@ -216,8 +240,18 @@ void run(const CLI::App& verb, Options& options) {
     progress->add();
   };
   RenderStats stats;
-  Picture picture = rendered(loaded.scene, options, stats);
+  std::optional<StopSignals> signals;
+  if (samples(options)) render_options.stop = &signals.emplace().asked();
+  const std::string identity = samples(options) ? identity_of(options, loaded.scene) : std::string();
+  RenderState state = options.resume ? read_state(identity, options.output) : RenderState{};
+  Picture picture = rendered(loaded.scene, options, stats, state);
   progress.reset();
+  if (!state.complete) {
+    write_state(state, identity, options.output);
+    fmt::print(stderr, "steradian: interrupted; {} of {} tiles are kept in {}: the same command with --resume goes on\n",
+               std::count(state.done.begin(), state.done.end(), 1), state.done.size(), partial_path(options.output));
+    signals->end_by_it();
+  }
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
@@ -238,6 +272,7 @@ void run(const CLI::App& verb, Options& options) {
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
   if (!options.stats.empty()) write_text(options.stats, stats_json(options, stats).dump(2) + "\n");
+  if (options.resume) std::filesystem::remove(partial_path(options.output));
 }
 
 }  // namespace
@@ -305,6 +340,8 @@ void add_render(CLI::App& app, Exit&) {
           ->group("Sampling");
   verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
       ->check(CLI::Range(1e-6, 1.0))
+      ->group("Sampling");
+  verb->add_flag("--resume", options->resume, "go on with what an interrupted reference, sampled or path-traced render kept beside -o")
       ->group("Sampling");
   verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
   verb->add_option("--backend", options->backend, "where to compute")->check(CLI::IsMember({"cpu"}))->group("Machine");

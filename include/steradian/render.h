@@ -1,6 +1,7 @@
 // render: a scene to a picture on the CPU.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -32,6 +33,14 @@ struct RenderOptions {
   std::uint64_t seed = 1;
   int threads = 0;                                                        // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
+  const std::atomic<bool>* stop = nullptr;                                // once true, render returns soon with what it has
+};
+
+// What a render that was stopped has done, and where another goes on.
+struct RenderState {
+  Picture picture;                 // of the tiles that are done, without the bounce; black elsewhere
+  std::vector<std::uint8_t> done;  // by tile of 32 pixels a side, row by row; empty: nothing is done
+  bool complete = false;           // what render returned is the whole picture
 };
 
 struct PassTime {
@@ -54,6 +63,8 @@ struct RenderStats {
 
 // Throws Error for a camera that is not there and for a method that does not serve a lobe of the scene.
 // The same scene, options and seed give the same bytes at any number of threads.
-Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats = nullptr);
+// state: tiles that are done are taken from it, and what is done when options.stop becomes true is left there; gone on with later, the same
+// scene and options give the same bytes as in one go. Throws Error for a state of another size.
+Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats = nullptr, RenderState* state = nullptr);
 
 }  // namespace steradian

@@ -95,16 +95,25 @@ class Renderer {
     build_ms_ = ms_since(start_);
   }
 
-  Picture render() {
-    Picture picture(options_.width, options_.height);
-    if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
-    std::vector<int> pairs(static_cast<std::size_t>(tile_count()), options_.spp);
+  Picture render(RenderState& state) {
+    begin(state);
+    std::vector<int> pairs(state.done.size(), options_.spp);
     steps_ = static_cast<std::uint64_t>(tile_count());
     if (method_.kind == MethodKind::reference) pairs = plan_pairs();
-    each_tile([&](int tile) { render_tile(tile, pairs[static_cast<std::size_t>(tile)], picture); });
-    if (indirect_) arena_.execute([&] { indirect_->add_to(picture); });
+    each_tile([&](int index) {
+      const auto tile = static_cast<std::size_t>(index);
+      if (state.done[tile] != 0) return take_surfaces(index);
+      render_tile(index, pairs[tile], state.picture);
+      // Asked to stop on its way, it has left out samples: what it has is of no use.
+      stopped() ? clear_tile(index, state.picture) : void(state.done[tile] = 1);
+    });
+    if (!indirect_ || stopped()) return state.picture;
+    Picture picture = state.picture;
+    arena_.execute([&] { indirect_->add_to(picture); });
     return picture;
   }
+
+  bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
 
   void report(RenderStats& stats) const {
     stats.passes = {{"build", build_ms_},
@@ -157,10 +166,44 @@ class Renderer {
     return {x, y, std::min(kTileSide, options_.width - x), std::min(kTileSide, options_.height - y)};
   }
 
+  // A new state, or one to go on with.
+  void begin(RenderState& state) const {
+    const auto tiles = static_cast<std::size_t>(tile_count());
+    Picture& picture = state.picture;
+    if (state.done.empty()) {
+      picture = Picture(options_.width, options_.height);
+      state.done.assign(tiles, 0);
+      if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
+    }
+    if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
+        (picture.layers.count("variance") != 0) != method_.estimates())
+      throw Error("state", "is of another picture", "go on with the options that it was begun with");
+  }
+
+  void clear_tile(int index, Picture& picture) const {
+    const TileArea a = area(index);
+    const auto clear = [&](std::vector<Vec3f>& pixels) {
+      for (int y = a.y; y < a.y + a.height; ++y) {
+        const auto row = static_cast<std::ptrdiff_t>(y) * options_.width + a.x;
+        std::fill_n(pixels.begin() + row, a.width, Vec3f{});
+      }
+    };
+    clear(picture.pixels);
+    for (auto& [name, layer] : picture.layers) clear(layer);
+  }
+
+  // Of a tile whose direct light is done: what the bounce wants of it.
+  void take_surfaces(int index) {
+    if (!indirect_) return;
+    fill(index, 0, *workspace());
+    indirect_->take(*workspace(), area(index));
+  }
+
   template <class Work>
   void each_tile(Work work) {
     arena_.execute([&] {
       tbb::parallel_for(0, tile_count(), [&](int index) {
+        if (stopped()) return;
         const FlushDenormals flush;
         work(index);
         if (options_.progress) options_.progress(++done_, steps_);
@@ -188,7 +231,7 @@ class Renderer {
     for (int y = 0; y < a.height; ++y)
       for (int x = 0; x < a.width; ++x) {
         const std::size_t slot = tile_slot(x, y);
-        if (tile.material[slot] == nullptr) continue;
+        if (tile.material[slot] == nullptr || stopped()) continue;
         reference::Random random = random_of(a, x, y, purpose);
         const Vec3f view{tile.view.x[slot], tile.view.y[slot], tile.view.z[slot]};
         use(x, y, slot, sampler.estimate(surface_in(tile, slot), view, method_.estimated_lobes, pairs, random));
@@ -442,9 +485,12 @@ class Renderer {
 
 }  // namespace
 
-Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats) {
+Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
   Renderer renderer(scene, options);
-  Picture picture = renderer.render();
+  RenderState own;
+  RenderState& kept = state != nullptr ? *state : own;
+  Picture picture = renderer.render(kept);
+  kept.complete = !renderer.stopped();
   if (stats != nullptr) renderer.report(*stats);
   return picture;
 }
