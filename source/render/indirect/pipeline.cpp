@@ -22,19 +22,10 @@ using Clock = std::chrono::steady_clock;
 Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
-Surface surface_of(const FrameSurfaces& s, std::size_t i) {
-  Surface surface;
-  surface.position = s.position[i];
-  surface.normal = s.normal[i];
-  surface.albedo = s.albedo[i];
-  surface.f0 = s.f0[i];
-  surface.f90 = s.f90[i];
-  surface.alpha_x = surface.alpha_y = s.alpha[i];
-  return surface;
-}
-
 // Ground truth looks at a surface as its material describes it.
-bool needs_materials(const RenderOptions& options) { return options.indirect.mode == IndirectMode::path || options.method == "reference"; }
+bool needs_whole_surfaces(const RenderOptions& options) {
+  return options.indirect.mode == IndirectMode::path || options.method == "reference";
+}
 
 // Places spread over the picture, for the culling's threshold.
 VectorArray some_receivers(const FrameSurfaces& s) {
@@ -95,8 +86,7 @@ Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions
       threads_(threads),
       tables_(ltc_compact_pack_tables()),
       surfaces_(Raster{options.width, options.height}),
-      materials_(needs_materials(options) ? surfaces_.raster.size() : 0),
-      fresnel_loss_(materials_.size()) {
+      whole_(needs_whole_surfaces(options) ? surfaces_.raster.size() : 0) {
   blue_noise();  // a table, not a part of the frame
 }
 
@@ -129,12 +119,8 @@ void Pipeline::take(const SurfaceTile& tile, TileArea area) {
       if (tile.alpha_x[slot] != tile.alpha_y[slot]) surfaces_.alpha[i] = std::sqrt(tile.alpha_x[slot] * tile.alpha_y[slot]);
       const bool takes_light =
           tile.material[slot] != nullptr && (weighs(get(tile.albedo, slot)) || weighs(get(tile.f0, slot)) || weighs(get(tile.f90, slot)));
-      if (!takes_light)
-        surfaces_.normal.put(i, {0, 0, 0});
-      else if (!materials_.empty()) {
-        materials_[i] = tile.material[slot];
-        fresnel_loss_[i] = tile.fresnel_loss[slot];
-      }
+      if (!takes_light) surfaces_.normal.put(i, {0, 0, 0});
+      if (!whole_.empty() && tile.material[slot] != nullptr) whole_[i] = surface_in(tile, slot);
     }
 }
 
@@ -148,7 +134,7 @@ auto Pipeline::timed(const char* name, Work work) {
 
 void Pipeline::add_to(Picture& picture) {
   picture.layers["indirect"].resize(picture.pixels.size());
-  materials_.empty() ? add_sum(picture) : add_true(picture);
+  whole_.empty() ? add_sum(picture) : add_true(picture);
 }
 
 void Pipeline::add_sum(Picture& picture) {
@@ -224,10 +210,8 @@ void Pipeline::add_true(Picture& picture) {
     tbb::parallel_for(0, options_.width * options_.height, [&](int k) {
       const int x = k % options_.width, y = k / options_.width;
       const std::size_t i = surfaces_.raster.at(x, y), pixel = static_cast<std::size_t>(k);
-      if (materials_[i] == nullptr) return;
-      Surface surface = surface_of(surfaces_, i);
-      surface.material = materials_[i];
-      surface.fresnel_loss = fresnel_loss_[i];
+      const Surface& surface = whole_[i];
+      if (surface.material == nullptr || (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))) return;
       Vec3d radiance;
       if (path) {
         reference::Random random(options_.seed, pixel * 2 + 1);

@@ -35,8 +35,7 @@ class Pipeline {
   const int threads_;
   const LtcPackTables tables_;
   FrameSurfaces surfaces_;
-  std::vector<const SurfaceMaterial*> materials_;  // ground truth only
-  std::vector<float> fresnel_loss_;                // likewise
+  std::vector<Surface> whole_;  // ground truth only: with coat, sheen and material; none of a place that takes no light
   std::vector<PassTime> passes_;
 };
 

@@ -159,6 +159,29 @@ TEST(IndirectLighting, SumApproachesPathTracing) {
   EXPECT_LT(d.relative_l2, 3 * std::sqrt(noise / light) + 0.05);
 }
 
+// A clear coat over black is a dielectric's lobe of the same roughness; sheen over black is light where else there were none.
+TEST(IndirectLighting, PathsSeeCoatAndSheen) {
+  RenderOptions o = options(IndirectMode::path, 0);
+  o.spp = 16;
+  const auto energy = [&](const SurfaceMaterial& floor) {
+    double sum = 0;
+    for (const Vec3f c : render(corner(floor, plastic(0.7f, 0.5f)), o).layers.at("indirect")) sum += static_cast<double>(c.x + c.y + c.z);
+    return sum;
+  };
+  const SurfaceMaterial dielectric = plastic(0, 0.4f);
+  SurfaceMaterial black = dielectric;
+  black.specular = 0;
+  SurfaceMaterial coated = black, with_sheen = black;
+  coated.clearcoat = 1;
+  coated.clearcoat_roughness = 0.4f;
+  with_sheen.sheen_color = {1, 1, 1};
+  with_sheen.sheen_roughness = 0.5f;
+  const double none = energy(black), lobe = energy(dielectric) - none;
+  EXPECT_GT(lobe, 0);
+  EXPECT_NEAR((energy(coated) - none) / lobe, 1, 1e-3);  // the same directions: one lobe, one seed
+  EXPECT_GT(energy(with_sheen) - none, 0.1 * lobe);
+}
+
 TEST(IndirectLighting, SameBytesAtAnyNumberOfThreads) {
   const Scene scene = mixed_corner();
   RenderOptions o = options(IndirectMode::ltc, 1 << 12);

@@ -118,30 +118,35 @@ Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f vi
 
 Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& sampler, const Surface& receiver, Vec3f view, int paths,
                       reference::Random& random) {
-  const Frame frame = Frame::from_normal_and_tangent(normalized(wide(receiver.normal)), wide(receiver.tangent));
-  const Vec3d v = normalized(frame.to_local(wide(view)));
-  std::vector<lobes::Lobe> lobes;
+  struct LobeInFrame {  // a coat may have a normal of its own
+    Frame frame;
+    lobes::Lobe lobe;
+  };
+  std::vector<LobeInFrame> lobes;
   for (const SurfaceLobe& l : lobes_of(receiver)) {
-    const lobes::Lobe lobe(lobes::in_frame(l.material, frame), v);
-    if (lobe.above_surface()) lobes.push_back(lobe);
+    const Frame frame = Frame::from_normal_and_tangent(normalized(wide(l.normal)), wide(receiver.tangent));
+    const lobes::Lobe lobe(lobes::in_frame(l.material, frame), normalized(frame.to_local(wide(view))));
+    if (lobe.above_surface()) lobes.push_back({frame, lobe});
   }
   Estimate result;
   if (lobes.empty()) return result;
   Vec3d squares{};
   for (int k = 0; k < paths; ++k) {
     Vec3d x{};
-    for (const lobes::Lobe& lobe : lobes) {  // one direction by each: the multiple-sample balance heuristic
+    for (const LobeInFrame& sampled : lobes) {  // one direction by each: the multiple-sample balance heuristic
       const double a = random.uniform(), b = random.uniform();
-      const Vec3d l = lobe.sample(a, b);
+      const Vec3d l = sampled.lobe.sample(a, b), to = sampled.frame.to_world(l);
       if (!(l.z > 0)) continue;
       double pdf = 0;
       Vec3d f{};
-      for (const lobes::Lobe& other : lobes) {
-        pdf += other.pdf(l);
-        f += other.radiance(other.evaluate(l));
+      for (const LobeInFrame& other : lobes) {
+        const Vec3d there = &other == &sampled ? l : other.frame.to_local(to);
+        if (!(there.z > 0)) continue;
+        pdf += other.lobe.pdf(there);
+        f += other.lobe.radiance(other.lobe.evaluate(there));
       }
       if (!(pdf > 0)) continue;
-      const auto direction = static_cast<Vec3f>(frame.to_world(l));
+      const auto direction = static_cast<Vec3f>(to);
       const Vec3f origin = receiver.position + receiver.normal * 1e-4f;
       RTCRayHit hit;
       if (!rays.intersect(origin, direction, hit)) continue;
