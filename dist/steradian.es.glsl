@@ -221,6 +221,16 @@ vec2 steradian_gauss_legendre_node(int n, int j) {
     return r;
 }
 
+// A direction of a fan of the sphere about a centre, on the way from there to the rim: where a radial rule in the cosine has its node.
+//
+//   outward     unit, perpendicular to the centre
+//   rim_cosine  of the rim's distance from the centre
+//   share       of 1 - cosine, in [0, 1]
+vec3 steradian_fan_place(vec3 centre, vec3 outward, float rim_cosine, float share) {
+    float cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
 // ==== inverse_trig ====
 
 // Inverse trigonometry for the kernels, the same in every language.
@@ -1480,15 +1490,19 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
 }
 
 // A polygon about an ellipse: where its corners gather.
-//   ellipse  prepared
-//   turn     (cos, sin) of the t of the corner nearest to the lobe
-//   beta     1: corners at equal steps of t; below, they gather about that corner
-//   near     whether the point is near the rim: then in steps that grow with the distance from there, from beta up
+//   ellipse    prepared
+//   turn       (cos, sin) of the t of the corner nearest to the lobe
+//   beta       1: corners at equal steps of t; below, they gather about that corner
+//   near       whether the point is near the rim: then half of the corners, in steps that grow with the distance from there
+//   near_turn  (cos, sin) of the t of the rim's place next to the point
+//   near_beta  half its distance, in units of t
 struct SteradianEllipseFan {
     SteradianEllipse ellipse;
     vec2 turn;
     float beta;
     bool near;
+    vec2 near_turn;
+    float near_beta;
 };
 
 // The polygon whose corners stand at equal steps of t.
@@ -1498,6 +1512,8 @@ SteradianEllipseFan steradian_ellipse_fan(SteradianEllipse e) {
     fan.turn = vec2(1.0, 0.0);
     fan.beta = 1.0;
     fan.near = steradian_mask_none();
+    fan.near_turn = vec2(1.0, 0.0);
+    fan.near_beta = 1.0;
     return fan;
 }
 
@@ -1530,11 +1546,11 @@ vec2 steradian_ellipse_nearest(SteradianEllipse e) {
     return nearest;
 }
 
-// Gathers the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a fixed
-// share of the radius stands out, or leaves out, would else be the half of what is seen.
+// Gathers half of the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a
+// fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. Of 24 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
 SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
     SteradianEllipse e = usual.ellipse;
     SteradianEllipseFan fan = usual;
@@ -1547,9 +1563,8 @@ SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
         vec3 tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
         float distance2 = dot(rim, rim);
         fan.near = may_be && distance2 < 0.04 * dot(opposite, opposite);
-        fan.turn = steradian_select(fan.near, nearest, usual.turn);
-        float beta = 0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor()));
-        fan.beta = steradian_select(fan.near, clamp(beta, 1.0e-6, 1.0), usual.beta);
+        fan.near_turn = nearest;
+        fan.near_beta = clamp(0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor())), 1.0e-6, 1.0);
     }
     return fan;
 }
@@ -1583,19 +1598,68 @@ SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, vec3 
     return steradian_ellipse_fan_near(fan);
 }
 
+// (cos t/2, sin t/2) where tan(t/2) = near_beta sinh(x), t from the rim's place next to the point.
+vec2 steradian_ellipse_near_place(SteradianEllipseFan fan, float x) {
+    float power = exp(x);
+    return steradian_complex_sign(vec2(1.0, 0.5 * fan.near_beta * (power - 1.0 / power)));
+}
+
+// The share of the corners up to a place of a rim that is near: the mean of the lobe's share and of the near place's.
+//
+//   x        as in steradian_ellipse_near_place
+//   lobe     (cos t/2, sin t/2) of the lobe's place, from the same origin
+//   reach    the x up to which, on either side, the near place has corners
+float steradian_ellipse_near_share(SteradianEllipseFan fan, float x, vec2 lobe, float reach) {
+    vec2 w = steradian_ellipse_near_place(fan, x);
+    vec2 from_lobe = vec2(w.x * lobe.x + w.y * lobe.y, (w.y * lobe.x - w.x * lobe.y) / fan.beta);
+    vec2 start = vec2(-lobe.y, -lobe.x / fan.beta);  // opposite the near place
+    float angle = steradian_trig_atan2_unwrapped(start.x * from_lobe.y - start.y * from_lobe.x, start.x * from_lobe.x + start.y * from_lobe.y);
+    return 0.5 * (angle * steradian_inverse_pi() + clamp(0.5 + 0.5 * x / reach, 0.0, 1.0));
+}
+
+// (cos t/2, sin t/2) of corner k of count of a rim that is near, from the rim's place next to the point.
+//
+// The share's inverse, by a bracket that eight halvings leave and a straight line in it: a corner that is a little off costs nothing,
+// and none passes another.
+vec2 steradian_ellipse_near_corner(SteradianEllipseFan fan, int k, int count) {
+    float far_side = 4.0 / fan.near_beta;
+    float reach = log(far_side + sqrt(far_side * far_side + 1.0));
+    vec2 apart = vec2(fan.turn.x * fan.near_turn.x + fan.turn.y * fan.near_turn.y, fan.turn.y * fan.near_turn.x - fan.turn.x * fan.near_turn.y);
+    vec2 lobe = vec2(1.0 + apart.x, apart.y);
+    lobe = steradian_select(dot(lobe, lobe) > 1.0e-10, steradian_complex_sign(lobe), vec2(0.0, 1.0));
+    int turn = k / count;  // -1, as 0, stands for the corners before the first
+    if (k < 0) {
+        turn = -1;
+    }
+    float share = (float(k - turn * count) + 0.5) / float(count);
+    float low = -reach - 3.0;
+    float high = reach + 3.0;
+    float low_share = 0.0;
+    float high_share = 1.0;
+    for (int i = 0; i < 8; i++) {
+        float middle = 0.5 * (low + high);
+        float value = steradian_ellipse_near_share(fan, middle, lobe, reach);
+        bool below = value < share;
+        low = steradian_select(below, middle, low);
+        low_share = steradian_select(below, value, low_share);
+        high = steradian_select(below, high, middle);
+        high_share = steradian_select(below, high_share, value);
+    }
+    float rest = clamp((share - low_share) / max(high_share - low_share, 1.0e-6), 0.0, 1.0);
+    return steradian_ellipse_near_place(fan, low + rest * (high - low));
+}
+
 // (cos t, sin t) of corner k of count, counted from the middle one.
 vec2 steradian_ellipse_corner(SteradianEllipseFan fan, int k, int count) {
     float half_angle = steradian_pi() * (float(k) / float(count) - 0.5);
     vec2 u = steradian_complex_unit(half_angle);
     vec2 w = steradian_complex_sign(vec2(u.x, fan.beta * u.y));
+    vec2 corner = steradian_complex_product(steradian_complex_product(w, w), fan.turn);
     if (fan.near) {
-        // tan(t/2) = beta sinh(x), x in equal steps between those of the tangents -4 and 4.
-        float far_side = 4.0 / fan.beta;
-        float x = log(far_side + sqrt(far_side * far_side + 1.0)) * (float(2 * k + 1) / float(count) - 1.0);
-        float power = exp(x);
-        w = steradian_select(fan.near, steradian_complex_sign(vec2(1.0, 0.5 * fan.beta * (power - 1.0 / power))), w);
+        w = steradian_ellipse_near_corner(fan, k, count);
+        corner = steradian_select(fan.near, steradian_complex_product(steradian_complex_product(w, w), fan.near_turn), corner);
     }
-    return steradian_complex_product(steradian_complex_product(w, w), fan.turn);
+    return corner;
 }
 
 // The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
@@ -1608,17 +1672,22 @@ float steradian_ellipse_gap(vec2 from_corner, vec2 to_corner) {
     return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
 }
 
-// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+// The corner between two others, as a vector from the shading point.
+//
+//   before, here, after  steradian_ellipse_corner of three neighbours
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
-// Error: docs/accuracy.md, "Float against double", ellipse.
-vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
-    vec2 before = steradian_ellipse_corner(fan, k - 1, count);
-    vec2 here = steradian_ellipse_corner(fan, k, count);
-    vec2 after = steradian_ellipse_corner(fan, k + 1, count);
+vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 here, vec2 after) {
     float radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
     SteradianEllipse e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Error: docs/accuracy.md, "Float against double", ellipse.
+vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
+    return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
 
 // ==== capsule ====
@@ -3382,12 +3451,6 @@ SteradianCharlieCubature steradian_charlie_cubature_begin(SteradianCharlieLobe l
     return c;
 }
 
-// A direction on the way from the centre to the rim, by the share of 1 - cosine.
-vec3 steradian_charlie_cubature_inward(vec3 centre, vec3 outward, float rim_cosine, float share) {
-    float cosine = 1.0 - (1.0 - rim_cosine) * share;
-    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
 // Adds the nodes of an arc of at most a quarter of a circle.
 //
 //   a, b     unit directions of its ends, in walk order
@@ -3411,9 +3474,9 @@ SteradianCharlieCubature steradian_charlie_cubature_arc(SteradianCharlieCubature
             vec3 outward = aside * inversesqrt(max(dot(aside, aside), steradian_smallest_divisor()));
             float weight = steradian_select(present, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), 0.0);
             next.at_centre = next.at_centre + 0.0625 * weight;
-            float radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
-            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
-            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            float radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.911412040487296148));
             next.sum = next.sum + weight * radial;
         }
     }
@@ -3646,8 +3709,9 @@ vec2 steradian_ggx_rule(float n, int j) {
 //
 //   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
 //
-// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
-// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: three rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3), 4 (with the centre and two more: Radau's), the finer from 0.5 on, and 8 (with four
+// more) where a rough lobe sees a large light: there the horizon, at which shadowing ends, is among what is averaged.
 SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, SteradianConicArc edge, int extra) {
     SteradianGgxCubature next = c;
     float total = edge.sweep.x + edge.sweep.y;
@@ -3656,6 +3720,7 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     if (extra > 0) {
         fine = total > -1.0;
     }
+    bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
         if (present) {
@@ -3672,18 +3737,19 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = steradian_select(present, om, 0.0);
 
-            float first = steradian_select(fine, 0.355051025721682190, 0.666666666666666667);
-            float first_weight = steradian_select(fine, 0.512485826188421615, 0.75);
-            float centre_weight = steradian_select(fine, 0.111111111111111111, 0.25);
-            float cosine = 1.0 - (1.0 - rim_cosine) * first;
-            float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
-            next.centre_weight = next.centre_weight + om * centre_weight;
-            if (fine && present) {
-                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
-                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-                om = steradian_select(fine, om * 0.376403062700467274, 0.0);
-                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
+            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if ((fine || wide) && present) {
+                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            }
+            if (wide && present) {
+                om = steradian_select(wide, om, 0.0);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
             }
         }
     }

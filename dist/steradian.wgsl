@@ -218,6 +218,16 @@ fn steradian_gauss_legendre_node(n: i32, j: i32) -> vec2f {
     return r;
 }
 
+// A direction of a fan of the sphere about a centre, on the way from there to the rim: where a radial rule in the cosine has its node.
+//
+//   outward     unit, perpendicular to the centre
+//   rim_cosine  of the rim's distance from the centre
+//   share       of 1 - cosine, in [0, 1]
+fn steradian_fan_place(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f32) -> vec3f {
+    let cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
 // ==== inverse_trig ====
 
 // Inverse trigonometry for the kernels, the same in every language.
@@ -1477,15 +1487,19 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
 }
 
 // A polygon about an ellipse: where its corners gather.
-//   ellipse  prepared
-//   turn     (cos, sin) of the t of the corner nearest to the lobe
-//   beta     1: corners at equal steps of t; below, they gather about that corner
-//   near     whether the point is near the rim: then in steps that grow with the distance from there, from beta up
+//   ellipse    prepared
+//   turn       (cos, sin) of the t of the corner nearest to the lobe
+//   beta       1: corners at equal steps of t; below, they gather about that corner
+//   near       whether the point is near the rim: then half of the corners, in steps that grow with the distance from there
+//   near_turn  (cos, sin) of the t of the rim's place next to the point
+//   near_beta  half its distance, in units of t
 struct SteradianEllipseFan {
     ellipse: SteradianEllipse,
     turn: vec2f,
     beta: f32,
     near: bool,
+    near_turn: vec2f,
+    near_beta: f32,
 }
 
 // The polygon whose corners stand at equal steps of t.
@@ -1495,6 +1509,8 @@ fn steradian_ellipse_fan(e: SteradianEllipse) -> SteradianEllipseFan {
     fan.turn = vec2f(1.0, 0.0);
     fan.beta = 1.0;
     fan.near = steradian_mask_none();
+    fan.near_turn = vec2f(1.0, 0.0);
+    fan.near_beta = 1.0;
     return fan;
 }
 
@@ -1527,11 +1543,11 @@ fn steradian_ellipse_nearest(e: SteradianEllipse) -> vec2f {
     return nearest;
 }
 
-// Gathers the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a fixed
-// share of the radius stands out, or leaves out, would else be the half of what is seen.
+// Gathers half of the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a
+// fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. Of 24 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
 fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan {
     let e = usual.ellipse;
     var fan = usual;
@@ -1544,9 +1560,8 @@ fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan
         let tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
         let distance2 = dot(rim, rim);
         fan.near = may_be && distance2 < 0.04 * dot(opposite, opposite);
-        fan.turn = select(usual.turn, nearest, fan.near);
-        let beta = 0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor()));
-        fan.beta = select(usual.beta, clamp(beta, 1.0e-6, 1.0), fan.near);
+        fan.near_turn = nearest;
+        fan.near_beta = clamp(0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor())), 1.0e-6, 1.0);
     }
     return fan;
 }
@@ -1580,19 +1595,68 @@ fn steradian_ellipse_fan_concentrated(e: SteradianEllipse, r: vec3f, width: f32)
     return steradian_ellipse_fan_near(fan);
 }
 
+// (cos t/2, sin t/2) where tan(t/2) = near_beta sinh(x), t from the rim's place next to the point.
+fn steradian_ellipse_near_place(fan: SteradianEllipseFan, x: f32) -> vec2f {
+    let power = exp(x);
+    return steradian_complex_sign(vec2f(1.0, 0.5 * fan.near_beta * (power - 1.0 / power)));
+}
+
+// The share of the corners up to a place of a rim that is near: the mean of the lobe's share and of the near place's.
+//
+//   x        as in ellipse_near_place
+//   lobe     (cos t/2, sin t/2) of the lobe's place, from the same origin
+//   reach    the x up to which, on either side, the near place has corners
+fn steradian_ellipse_near_share(fan: SteradianEllipseFan, x: f32, lobe: vec2f, reach: f32) -> f32 {
+    let w = steradian_ellipse_near_place(fan, x);
+    let from_lobe = vec2f(w.x * lobe.x + w.y * lobe.y, (w.y * lobe.x - w.x * lobe.y) / fan.beta);
+    let start = vec2f(-lobe.y, -lobe.x / fan.beta);  // opposite the near place
+    let angle = steradian_trig_atan2_unwrapped(start.x * from_lobe.y - start.y * from_lobe.x, start.x * from_lobe.x + start.y * from_lobe.y);
+    return 0.5 * (angle * steradian_inverse_pi() + clamp(0.5 + 0.5 * x / reach, 0.0, 1.0));
+}
+
+// (cos t/2, sin t/2) of corner k of count of a rim that is near, from the rim's place next to the point.
+//
+// The share's inverse, by a bracket that eight halvings leave and a straight line in it: a corner that is a little off costs nothing,
+// and none passes another.
+fn steradian_ellipse_near_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec2f {
+    let far_side = 4.0 / fan.near_beta;
+    let reach = log(far_side + sqrt(far_side * far_side + 1.0));
+    let apart = vec2f(fan.turn.x * fan.near_turn.x + fan.turn.y * fan.near_turn.y, fan.turn.y * fan.near_turn.x - fan.turn.x * fan.near_turn.y);
+    var lobe = vec2f(1.0 + apart.x, apart.y);
+    lobe = select(vec2f(0.0, 1.0), steradian_complex_sign(lobe), dot(lobe, lobe) > 1.0e-10);
+    var turn: i32 = k / count;  // -1, as 0, stands for the corners before the first
+    if (k < 0) {
+        turn = -1;
+    }
+    let share = (f32(k - turn * count) + 0.5) / f32(count);
+    var low = -reach - 3.0;
+    var high = reach + 3.0;
+    var low_share = 0.0;
+    var high_share = 1.0;
+    for (var i: i32 = 0; i < 8; i++) {
+        let middle = 0.5 * (low + high);
+        let value = steradian_ellipse_near_share(fan, middle, lobe, reach);
+        let below = value < share;
+        low = select(low, middle, below);
+        low_share = select(low_share, value, below);
+        high = select(middle, high, below);
+        high_share = select(value, high_share, below);
+    }
+    let rest = clamp((share - low_share) / max(high_share - low_share, 1.0e-6), 0.0, 1.0);
+    return steradian_ellipse_near_place(fan, low + rest * (high - low));
+}
+
 // (cos t, sin t) of corner k of count, counted from the middle one.
 fn steradian_ellipse_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec2f {
     let half_angle = steradian_pi() * (f32(k) / f32(count) - 0.5);
     let u = steradian_complex_unit(half_angle);
     var w = steradian_complex_sign(vec2f(u.x, fan.beta * u.y));
+    var corner = steradian_complex_product(steradian_complex_product(w, w), fan.turn);
     if (fan.near) {
-        // tan(t/2) = beta sinh(x), x in equal steps between those of the tangents -4 and 4.
-        let far_side = 4.0 / fan.beta;
-        let x = log(far_side + sqrt(far_side * far_side + 1.0)) * (f32(2 * k + 1) / f32(count) - 1.0);
-        let power = exp(x);
-        w = select(w, steradian_complex_sign(vec2f(1.0, 0.5 * fan.beta * (power - 1.0 / power))), fan.near);
+        w = steradian_ellipse_near_corner(fan, k, count);
+        corner = select(corner, steradian_complex_product(steradian_complex_product(w, w), fan.near_turn), fan.near);
     }
-    return steradian_complex_product(steradian_complex_product(w, w), fan.turn);
+    return corner;
 }
 
 // The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
@@ -1605,17 +1669,22 @@ fn steradian_ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
     return select(angle / max(sine, 1.0e-4), 1.0, angle < 1.0e-3);
 }
 
-// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+// The corner between two others, as a vector from the shading point.
+//
+//   before, here, after  ellipse_corner of three neighbours
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
-// Error: docs/accuracy.md, "Float against double", ellipse.
-fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
-    let before = steradian_ellipse_corner(fan, k - 1, count);
-    let here = steradian_ellipse_corner(fan, k, count);
-    let after = steradian_ellipse_corner(fan, k + 1, count);
+fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
     let radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
     let e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Error: docs/accuracy.md, "Float against double", ellipse.
+fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
+    return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
 
 // ==== capsule ====
@@ -3379,12 +3448,6 @@ fn steradian_charlie_cubature_begin(lobe: SteradianCharlieLobe, e: vec3f, facing
     return c;
 }
 
-// A direction on the way from the centre to the rim, by the share of 1 - cosine.
-fn steradian_charlie_cubature_inward(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f32) -> vec3f {
-    let cosine = 1.0 - (1.0 - rim_cosine) * share;
-    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
 // Adds the nodes of an arc of at most a quarter of a circle.
 //
 //   a, b     unit directions of its ends, in walk order
@@ -3408,9 +3471,9 @@ fn steradian_charlie_cubature_arc(c: SteradianCharlieCubature, a: vec3f, b: vec3
             let outward = aside * inverseSqrt(max(dot(aside, aside), steradian_smallest_divisor()));
             let weight = select(0.0, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), present);
             next.at_centre = next.at_centre + 0.0625 * weight;
-            var radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
-            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
-            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            var radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.911412040487296148));
             next.sum = next.sum + weight * radial;
         }
     }
@@ -3643,8 +3706,9 @@ fn steradian_ggx_rule(n: f32, j: i32) -> vec2f {
 //
 //   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
 //
-// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
-// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: three rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3), 4 (with the centre and two more: Radau's), the finer from 0.5 on, and 8 (with four
+// more) where a rough lobe sees a large light: there the horizon, at which shadowing ends, is among what is averaged.
 fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc, extra: i32) -> SteradianGgxCubature {
     var next = c;
     let total = edge.sweep.x + edge.sweep.y;
@@ -3653,6 +3717,7 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     if (extra > 0) {
         fine = total > -1.0;
     }
+    let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
         if (present) {
@@ -3669,18 +3734,19 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = select(0.0, om, present);
 
-            let first = select(0.666666666666666667, 0.355051025721682190, fine);
-            let first_weight = select(0.75, 0.512485826188421615, fine);
-            let centre_weight = select(0.25, 0.111111111111111111, fine);
-            var cosine = 1.0 - (1.0 - rim_cosine) * first;
-            var sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
-            next.centre_weight = next.centre_weight + om * centre_weight;
-            if (fine && present) {
-                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
-                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-                om = select(0.0, om * 0.376403062700467274, fine);
-                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
+            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if ((fine || wide) && present) {
+                share = select(0.844948974278317810, 0.416409567631083166, wide);
+                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            }
+            if (wide && present) {
+                om = select(0.0, om, wide);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
             }
         }
     }

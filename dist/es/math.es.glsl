@@ -196,6 +196,16 @@ vec2 steradian_gauss_legendre_node(int n, int j) {
     return r;
 }
 
+// A direction of a fan of the sphere about a centre, on the way from there to the rim: where a radial rule in the cosine has its node.
+//
+//   outward     unit, perpendicular to the centre
+//   rim_cosine  of the rim's distance from the centre
+//   share       of 1 - cosine, in [0, 1]
+vec3 steradian_fan_place(vec3 centre, vec3 outward, float rim_cosine, float share) {
+    float cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
 // ==== inverse_trig ====
 
 // Inverse trigonometry for the kernels, the same in every language.

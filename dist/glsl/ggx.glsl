@@ -66,12 +66,6 @@ SteradianCharlieCubature steradian_charlie_cubature_begin(SteradianCharlieLobe l
     return c;
 }
 
-// A direction on the way from the centre to the rim, by the share of 1 - cosine.
-vec3 steradian_charlie_cubature_inward(vec3 centre, vec3 outward, float rim_cosine, float share) {
-    float cosine = 1.0 - (1.0 - rim_cosine) * share;
-    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
 // Adds the nodes of an arc of at most a quarter of a circle.
 //
 //   a, b     unit directions of its ends, in walk order
@@ -95,9 +89,9 @@ SteradianCharlieCubature steradian_charlie_cubature_arc(SteradianCharlieCubature
             vec3 outward = aside * inversesqrt(max(dot(aside, aside), steradian_smallest_divisor()));
             float weight = steradian_select(present, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), 0.0);
             next.at_centre = next.at_centre + 0.0625 * weight;
-            float radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
-            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
-            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            float radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.911412040487296148));
             next.sum = next.sum + weight * radial;
         }
     }
@@ -330,8 +324,9 @@ vec2 steradian_ggx_rule(float n, int j) {
 //
 //   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
 //
-// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
-// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: three rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3), 4 (with the centre and two more: Radau's), the finer from 0.5 on, and 8 (with four
+// more) where a rough lobe sees a large light: there the horizon, at which shadowing ends, is among what is averaged.
 SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, SteradianConicArc edge, int extra) {
     SteradianGgxCubature next = c;
     float total = edge.sweep.x + edge.sweep.y;
@@ -340,6 +335,7 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     if (extra > 0) {
         fine = total > -1.0;
     }
+    bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
         if (present) {
@@ -356,18 +352,19 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = steradian_select(present, om, 0.0);
 
-            float first = steradian_select(fine, 0.355051025721682190, 0.666666666666666667);
-            float first_weight = steradian_select(fine, 0.512485826188421615, 0.75);
-            float centre_weight = steradian_select(fine, 0.111111111111111111, 0.25);
-            float cosine = 1.0 - (1.0 - rim_cosine) * first;
-            float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
-            next.centre_weight = next.centre_weight + om * centre_weight;
-            if (fine && present) {
-                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
-                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-                om = steradian_select(fine, om * 0.376403062700467274, 0.0);
-                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
+            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if ((fine || wide) && present) {
+                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            }
+            if (wide && present) {
+                om = steradian_select(wide, om, 0.0);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
             }
         }
     }

@@ -66,12 +66,6 @@ fn steradian_charlie_cubature_begin(lobe: SteradianCharlieLobe, e: vec3f, facing
     return c;
 }
 
-// A direction on the way from the centre to the rim, by the share of 1 - cosine.
-fn steradian_charlie_cubature_inward(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f32) -> vec3f {
-    let cosine = 1.0 - (1.0 - rim_cosine) * share;
-    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
 // Adds the nodes of an arc of at most a quarter of a circle.
 //
 //   a, b     unit directions of its ends, in walk order
@@ -95,9 +89,9 @@ fn steradian_charlie_cubature_arc(c: SteradianCharlieCubature, a: vec3f, b: vec3
             let outward = aside * inverseSqrt(max(dot(aside, aside), steradian_smallest_divisor()));
             let weight = select(0.0, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), present);
             next.at_centre = next.at_centre + 0.0625 * weight;
-            var radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
-            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
-            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            var radial = 0.328844319980059696 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * steradian_charlie_lobe(c.lobe, steradian_fan_place(c.centre, outward, rim_cosine, 0.911412040487296148));
             next.sum = next.sum + weight * radial;
         }
     }
@@ -330,8 +324,9 @@ fn steradian_ggx_rule(n: f32, j: i32) -> vec2f {
 //
 //   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
 //
-// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
-// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: three rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3), 4 (with the centre and two more: Radau's), the finer from 0.5 on, and 8 (with four
+// more) where a rough lobe sees a large light: there the horizon, at which shadowing ends, is among what is averaged.
 fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc, extra: i32) -> SteradianGgxCubature {
     var next = c;
     let total = edge.sweep.x + edge.sweep.y;
@@ -340,6 +335,7 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     if (extra > 0) {
         fine = total > -1.0;
     }
+    let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
         if (present) {
@@ -356,18 +352,19 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = select(0.0, om, present);
 
-            let first = select(0.666666666666666667, 0.355051025721682190, fine);
-            let first_weight = select(0.75, 0.512485826188421615, fine);
-            let centre_weight = select(0.25, 0.111111111111111111, fine);
-            var cosine = 1.0 - (1.0 - rim_cosine) * first;
-            var sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-            next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
-            next.centre_weight = next.centre_weight + om * centre_weight;
-            if (fine && present) {
-                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
-                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-                om = select(0.0, om * 0.376403062700467274, fine);
-                next = steradian_ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
+            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if ((fine || wide) && present) {
+                share = select(0.844948974278317810, 0.416409567631083166, wide);
+                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            }
+            if (wide && present) {
+                om = select(0.0, om, wide);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
             }
         }
     }

@@ -193,6 +193,16 @@ fn steradian_gauss_legendre_node(n: i32, j: i32) -> vec2f {
     return r;
 }
 
+// A direction of a fan of the sphere about a centre, on the way from there to the rim: where a radial rule in the cosine has its node.
+//
+//   outward     unit, perpendicular to the centre
+//   rim_cosine  of the rim's distance from the centre
+//   share       of 1 - cosine, in [0, 1]
+fn steradian_fan_place(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f32) -> vec3f {
+    let cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
+}
+
 // ==== inverse_trig ====
 
 // Inverse trigonometry for the kernels, the same in every language.

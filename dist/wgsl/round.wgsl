@@ -440,15 +440,19 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
 }
 
 // A polygon about an ellipse: where its corners gather.
-//   ellipse  prepared
-//   turn     (cos, sin) of the t of the corner nearest to the lobe
-//   beta     1: corners at equal steps of t; below, they gather about that corner
-//   near     whether the point is near the rim: then in steps that grow with the distance from there, from beta up
+//   ellipse    prepared
+//   turn       (cos, sin) of the t of the corner nearest to the lobe
+//   beta       1: corners at equal steps of t; below, they gather about that corner
+//   near       whether the point is near the rim: then half of the corners, in steps that grow with the distance from there
+//   near_turn  (cos, sin) of the t of the rim's place next to the point
+//   near_beta  half its distance, in units of t
 struct SteradianEllipseFan {
     ellipse: SteradianEllipse,
     turn: vec2f,
     beta: f32,
     near: bool,
+    near_turn: vec2f,
+    near_beta: f32,
 }
 
 // The polygon whose corners stand at equal steps of t.
@@ -458,6 +462,8 @@ fn steradian_ellipse_fan(e: SteradianEllipse) -> SteradianEllipseFan {
     fan.turn = vec2f(1.0, 0.0);
     fan.beta = 1.0;
     fan.near = steradian_mask_none();
+    fan.near_turn = vec2f(1.0, 0.0);
+    fan.near_beta = 1.0;
     return fan;
 }
 
@@ -490,11 +496,11 @@ fn steradian_ellipse_nearest(e: SteradianEllipse) -> vec2f {
     return nearest;
 }
 
-// Gathers the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a fixed
-// share of the radius stands out, or leaves out, would else be the half of what is seen.
+// Gathers half of the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a
+// fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. Of 24 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
 fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan {
     let e = usual.ellipse;
     var fan = usual;
@@ -507,9 +513,8 @@ fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan
         let tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
         let distance2 = dot(rim, rim);
         fan.near = may_be && distance2 < 0.04 * dot(opposite, opposite);
-        fan.turn = select(usual.turn, nearest, fan.near);
-        let beta = 0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor()));
-        fan.beta = select(usual.beta, clamp(beta, 1.0e-6, 1.0), fan.near);
+        fan.near_turn = nearest;
+        fan.near_beta = clamp(0.5 * sqrt(distance2 / max(dot(tangent, tangent), steradian_smallest_divisor())), 1.0e-6, 1.0);
     }
     return fan;
 }
@@ -543,19 +548,68 @@ fn steradian_ellipse_fan_concentrated(e: SteradianEllipse, r: vec3f, width: f32)
     return steradian_ellipse_fan_near(fan);
 }
 
+// (cos t/2, sin t/2) where tan(t/2) = near_beta sinh(x), t from the rim's place next to the point.
+fn steradian_ellipse_near_place(fan: SteradianEllipseFan, x: f32) -> vec2f {
+    let power = exp(x);
+    return steradian_complex_sign(vec2f(1.0, 0.5 * fan.near_beta * (power - 1.0 / power)));
+}
+
+// The share of the corners up to a place of a rim that is near: the mean of the lobe's share and of the near place's.
+//
+//   x        as in ellipse_near_place
+//   lobe     (cos t/2, sin t/2) of the lobe's place, from the same origin
+//   reach    the x up to which, on either side, the near place has corners
+fn steradian_ellipse_near_share(fan: SteradianEllipseFan, x: f32, lobe: vec2f, reach: f32) -> f32 {
+    let w = steradian_ellipse_near_place(fan, x);
+    let from_lobe = vec2f(w.x * lobe.x + w.y * lobe.y, (w.y * lobe.x - w.x * lobe.y) / fan.beta);
+    let start = vec2f(-lobe.y, -lobe.x / fan.beta);  // opposite the near place
+    let angle = steradian_trig_atan2_unwrapped(start.x * from_lobe.y - start.y * from_lobe.x, start.x * from_lobe.x + start.y * from_lobe.y);
+    return 0.5 * (angle * steradian_inverse_pi() + clamp(0.5 + 0.5 * x / reach, 0.0, 1.0));
+}
+
+// (cos t/2, sin t/2) of corner k of count of a rim that is near, from the rim's place next to the point.
+//
+// The share's inverse, by a bracket that eight halvings leave and a straight line in it: a corner that is a little off costs nothing,
+// and none passes another.
+fn steradian_ellipse_near_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec2f {
+    let far_side = 4.0 / fan.near_beta;
+    let reach = log(far_side + sqrt(far_side * far_side + 1.0));
+    let apart = vec2f(fan.turn.x * fan.near_turn.x + fan.turn.y * fan.near_turn.y, fan.turn.y * fan.near_turn.x - fan.turn.x * fan.near_turn.y);
+    var lobe = vec2f(1.0 + apart.x, apart.y);
+    lobe = select(vec2f(0.0, 1.0), steradian_complex_sign(lobe), dot(lobe, lobe) > 1.0e-10);
+    var turn: i32 = k / count;  // -1, as 0, stands for the corners before the first
+    if (k < 0) {
+        turn = -1;
+    }
+    let share = (f32(k - turn * count) + 0.5) / f32(count);
+    var low = -reach - 3.0;
+    var high = reach + 3.0;
+    var low_share = 0.0;
+    var high_share = 1.0;
+    for (var i: i32 = 0; i < 8; i++) {
+        let middle = 0.5 * (low + high);
+        let value = steradian_ellipse_near_share(fan, middle, lobe, reach);
+        let below = value < share;
+        low = select(low, middle, below);
+        low_share = select(low_share, value, below);
+        high = select(middle, high, below);
+        high_share = select(value, high_share, below);
+    }
+    let rest = clamp((share - low_share) / max(high_share - low_share, 1.0e-6), 0.0, 1.0);
+    return steradian_ellipse_near_place(fan, low + rest * (high - low));
+}
+
 // (cos t, sin t) of corner k of count, counted from the middle one.
 fn steradian_ellipse_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec2f {
     let half_angle = steradian_pi() * (f32(k) / f32(count) - 0.5);
     let u = steradian_complex_unit(half_angle);
     var w = steradian_complex_sign(vec2f(u.x, fan.beta * u.y));
+    var corner = steradian_complex_product(steradian_complex_product(w, w), fan.turn);
     if (fan.near) {
-        // tan(t/2) = beta sinh(x), x in equal steps between those of the tangents -4 and 4.
-        let far_side = 4.0 / fan.beta;
-        let x = log(far_side + sqrt(far_side * far_side + 1.0)) * (f32(2 * k + 1) / f32(count) - 1.0);
-        let power = exp(x);
-        w = select(w, steradian_complex_sign(vec2f(1.0, 0.5 * fan.beta * (power - 1.0 / power))), fan.near);
+        w = steradian_ellipse_near_corner(fan, k, count);
+        corner = select(corner, steradian_complex_product(steradian_complex_product(w, w), fan.near_turn), fan.near);
     }
-    return steradian_complex_product(steradian_complex_product(w, w), fan.turn);
+    return corner;
 }
 
 // The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
@@ -568,17 +622,22 @@ fn steradian_ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
     return select(angle / max(sine, 1.0e-4), 1.0, angle < 1.0e-3);
 }
 
-// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+// The corner between two others, as a vector from the shading point.
+//
+//   before, here, after  ellipse_corner of three neighbours
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
-// Error: docs/accuracy.md, "Float against double", ellipse.
-fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
-    let before = steradian_ellipse_corner(fan, k - 1, count);
-    let here = steradian_ellipse_corner(fan, k, count);
-    let after = steradian_ellipse_corner(fan, k + 1, count);
+fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
     let radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
     let e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Error: docs/accuracy.md, "Float against double", ellipse.
+fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
+    return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
 
 // ==== capsule ====

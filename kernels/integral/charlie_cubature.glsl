@@ -38,12 +38,6 @@ CharlieCubature charlie_cubature_begin(CharlieLobe lobe, vec3 e, real facing) {
     return c;
 }
 
-// A direction on the way from the centre to the rim, by the share of 1 - cosine.
-vec3 charlie_cubature_inward(vec3 centre, vec3 outward, real rim_cosine, real share) {
-    real cosine = 1.0 - (1.0 - rim_cosine) * share;
-    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
-}
-
 // Adds the nodes of an arc of at most a quarter of a circle.
 //
 //   a, b     unit directions of its ends, in walk order
@@ -67,9 +61,9 @@ CharlieCubature charlie_cubature_arc(CharlieCubature c, vec3 a, vec3 b) {
             vec3 outward = aside * inversesqrt(max(dot(aside, aside), smallest_divisor()));
             real weight = select(present, fan * inverse2 * rule.y / (1.0 + max(rim_cosine, -0.9)), 0.0);
             next.at_centre = next.at_centre + 0.0625 * weight;
-            real radial = 0.328844319980059696 * charlie_lobe(c.lobe, charlie_cubature_inward(c.centre, outward, rim_cosine, 0.212340538239152943));
-            radial = radial + 0.388193468843171893 * charlie_lobe(c.lobe, charlie_cubature_inward(c.centre, outward, rim_cosine, 0.590533135559265283));
-            radial = radial + 0.220462211176768373 * charlie_lobe(c.lobe, charlie_cubature_inward(c.centre, outward, rim_cosine, 0.911412040487296148));
+            real radial = 0.328844319980059696 * charlie_lobe(c.lobe, fan_place(c.centre, outward, rim_cosine, 0.212340538239152943));
+            radial = radial + 0.388193468843171893 * charlie_lobe(c.lobe, fan_place(c.centre, outward, rim_cosine, 0.590533135559265283));
+            radial = radial + 0.220462211176768373 * charlie_lobe(c.lobe, fan_place(c.centre, outward, rim_cosine, 0.911412040487296148));
             next.sum = next.sum + weight * radial;
         }
     }

@@ -110,8 +110,9 @@ vec2 ggx_rule(real n, int j) {
 //
 //   extra    more nodes along the edge than its angle asks for, and always the finer rule inwards: 0 is normal, 2 high quality
 //
-// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: two rules for a fan triangle,
-// exact to degree 2 (with the centre and 2/3) and 4 (with the centre and two more: Radau's), the finer from 0.5 on.
+// Along the edge: 1 to 4 nodes for angles up to 0.25, 0.8, 1.6 and beyond. Inwards, in cos: three rules for a fan triangle,
+// exact to degree 2 (with the centre and 2/3), 4 (with the centre and two more: Radau's), the finer from 0.5 on, and 8 (with four
+// more) where a rough lobe sees a large light: there the horizon, at which shadowing ends, is among what is averaged.
 GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
     GgxCubature next = c;
     real total = edge.sweep.x + edge.sweep.y;
@@ -120,6 +121,7 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
     if (extra > 0) {
         fine = total > -1.0;
     }
+    mask wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         mask present = n > real(j) + 0.5 && total > 0.0;
         if (any_lane(present)) {
@@ -136,18 +138,19 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
                 / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
             om = select(present, om, 0.0);
 
-            real first = select(fine, 0.355051025721682190, 0.666666666666666667);
-            real first_weight = select(fine, 0.512485826188421615, 0.75);
-            real centre_weight = select(fine, 0.111111111111111111, 0.25);
-            real cosine = 1.0 - (1.0 - rim_cosine) * first;
-            real sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-            next = ggx_cubature_add(next, c.centre * cosine + outward * sine, om * first_weight);
-            next.centre_weight = next.centre_weight + om * centre_weight;
-            if (any_lane(fine && present)) {
-                cosine = 1.0 - (1.0 - rim_cosine) * 0.844948974278317810;
-                sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-                om = select(fine, om * 0.376403062700467274, 0.0);
-                next = ggx_cubature_add(next, c.centre * cosine + outward * sine, om);
+            next.centre_weight = next.centre_weight + om * select(wide, 0.04, select(fine, 0.111111111111111111, 0.25));
+            real share = select(wide, 0.139759864343780571, select(fine, 0.355051025721682190, 0.666666666666666667));
+            real share_weight = select(wide, 0.223103901083570916, select(fine, 0.512485826188421615, 0.75));
+            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if (any_lane((fine || wide) && present)) {
+                share = select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = select(wide, 0.311826522975741250, select(fine, 0.376403062700467274, 0.0));
+                next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            }
+            if (any_lane(wide && present)) {
+                om = select(wide, om, 0.0);
+                next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+                next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
             }
         }
     }

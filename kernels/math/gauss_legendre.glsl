@@ -1,6 +1,7 @@
 // Nodes and weights of Gauss and Legendre on [0, 1]: zeros of Legendre's polynomials.
 //
 // The test GaussLegendre.IntegratesPolynomialsOfItsDegreesExactly proves every number.
+// Topics: gauss_legendre fan
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Node j of the rule with n nodes, j from 0, n in 1 to 6 or 8: vec2(node, weight). Weights add up to 1.
@@ -52,4 +53,14 @@ vec2 gauss_legendre_node(int n, int j) {
         if (j == 7) { r = vec2(0.980144928248768116, 0.05061426814518813); }
     }
     return r;
+}
+
+// A direction of a fan of the sphere about a centre, on the way from there to the rim: where a radial rule in the cosine has its node.
+//
+//   outward     unit, perpendicular to the centre
+//   rim_cosine  of the rim's distance from the centre
+//   share       of 1 - cosine, in [0, 1]
+vec3 fan_place(vec3 centre, vec3 outward, real rim_cosine, real share) {
+    real cosine = 1.0 - (1.0 - rim_cosine) * share;
+    return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
 }

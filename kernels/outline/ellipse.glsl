@@ -100,15 +100,19 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
 }
 
 // A polygon about an ellipse: where its corners gather.
-//   ellipse  prepared
-//   turn     (cos, sin) of the t of the corner nearest to the lobe
-//   beta     1: corners at equal steps of t; below, they gather about that corner
-//   near     whether the point is near the rim: then in steps that grow with the distance from there, from beta up
+//   ellipse    prepared
+//   turn       (cos, sin) of the t of the corner nearest to the lobe
+//   beta       1: corners at equal steps of t; below, they gather about that corner
+//   near       whether the point is near the rim: then half of the corners, in steps that grow with the distance from there
+//   near_turn  (cos, sin) of the t of the rim's place next to the point
+//   near_beta  half its distance, in units of t
 struct EllipseFan {
     Ellipse ellipse;
     vec2 turn;
     real beta;
     mask near;
+    vec2 near_turn;
+    real near_beta;
 };
 
 // The polygon whose corners stand at equal steps of t.
@@ -118,6 +122,8 @@ EllipseFan ellipse_fan(Ellipse e) {
     fan.turn = vec2(1.0, 0.0);
     fan.beta = 1.0;
     fan.near = mask_none();
+    fan.near_turn = vec2(1.0, 0.0);
+    fan.near_beta = 1.0;
     return fan;
 }
 
@@ -150,11 +156,11 @@ vec2 ellipse_nearest(Ellipse e) {
     return nearest;
 }
 
-// Gathers the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a fixed
-// share of the radius stands out, or leaves out, would else be the half of what is seen.
+// Gathers half of the corners where the point is near the rim, closer than a fifth of its distance from the far end: what a
+// fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. Of 24 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
 EllipseFan ellipse_fan_near(EllipseFan usual) {
     Ellipse e = usual.ellipse;
     EllipseFan fan = usual;
@@ -167,9 +173,8 @@ EllipseFan ellipse_fan_near(EllipseFan usual) {
         vec3 tangent = e.axis_b * nearest.x - e.axis_a * nearest.y;
         real distance2 = dot(rim, rim);
         fan.near = may_be && distance2 < 0.04 * dot(opposite, opposite);
-        fan.turn = select(fan.near, nearest, usual.turn);
-        real beta = 0.5 * sqrt(distance2 / max(dot(tangent, tangent), smallest_divisor()));
-        fan.beta = select(fan.near, clamp(beta, 1.0e-6, 1.0), usual.beta);
+        fan.near_turn = nearest;
+        fan.near_beta = clamp(0.5 * sqrt(distance2 / max(dot(tangent, tangent), smallest_divisor())), 1.0e-6, 1.0);
     }
     return fan;
 }
@@ -203,19 +208,68 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     return ellipse_fan_near(fan);
 }
 
+// (cos t/2, sin t/2) where tan(t/2) = near_beta sinh(x), t from the rim's place next to the point.
+vec2 ellipse_near_place(EllipseFan fan, real x) {
+    real power = exp(x);
+    return complex_sign(vec2(1.0, 0.5 * fan.near_beta * (power - 1.0 / power)));
+}
+
+// The share of the corners up to a place of a rim that is near: the mean of the lobe's share and of the near place's.
+//
+//   x        as in ellipse_near_place
+//   lobe     (cos t/2, sin t/2) of the lobe's place, from the same origin
+//   reach    the x up to which, on either side, the near place has corners
+real ellipse_near_share(EllipseFan fan, real x, vec2 lobe, real reach) {
+    vec2 w = ellipse_near_place(fan, x);
+    vec2 from_lobe = vec2(w.x * lobe.x + w.y * lobe.y, (w.y * lobe.x - w.x * lobe.y) / fan.beta);
+    vec2 start = vec2(-lobe.y, -lobe.x / fan.beta);  // opposite the near place
+    real angle = trig_atan2_unwrapped(start.x * from_lobe.y - start.y * from_lobe.x, start.x * from_lobe.x + start.y * from_lobe.y);
+    return 0.5 * (angle * inverse_pi() + clamp(0.5 + 0.5 * x / reach, 0.0, 1.0));
+}
+
+// (cos t/2, sin t/2) of corner k of count of a rim that is near, from the rim's place next to the point.
+//
+// The share's inverse, by a bracket that eight halvings leave and a straight line in it: a corner that is a little off costs nothing,
+// and none passes another.
+vec2 ellipse_near_corner(EllipseFan fan, int k, int count) {
+    real far_side = 4.0 / fan.near_beta;
+    real reach = log(far_side + sqrt(far_side * far_side + 1.0));
+    vec2 apart = vec2(fan.turn.x * fan.near_turn.x + fan.turn.y * fan.near_turn.y, fan.turn.y * fan.near_turn.x - fan.turn.x * fan.near_turn.y);
+    vec2 lobe = vec2(1.0 + apart.x, apart.y);
+    lobe = select(dot(lobe, lobe) > 1.0e-10, complex_sign(lobe), vec2(0.0, 1.0));
+    int turn = k / count;  // -1, as 0, stands for the corners before the first
+    if (k < 0) {
+        turn = -1;
+    }
+    real share = (real(k - turn * count) + 0.5) / real(count);
+    real low = -reach - 3.0;
+    real high = reach + 3.0;
+    real low_share = 0.0;
+    real high_share = 1.0;
+    for (int i = 0; i < 8; i++) {
+        real middle = 0.5 * (low + high);
+        real value = ellipse_near_share(fan, middle, lobe, reach);
+        mask below = value < share;
+        low = select(below, middle, low);
+        low_share = select(below, value, low_share);
+        high = select(below, high, middle);
+        high_share = select(below, high_share, value);
+    }
+    real rest = clamp((share - low_share) / max(high_share - low_share, 1.0e-6), 0.0, 1.0);
+    return ellipse_near_place(fan, low + rest * (high - low));
+}
+
 // (cos t, sin t) of corner k of count, counted from the middle one.
 vec2 ellipse_corner(EllipseFan fan, int k, int count) {
     real half_angle = pi() * (real(k) / real(count) - 0.5);
     vec2 u = complex_unit(half_angle);
     vec2 w = complex_sign(vec2(u.x, fan.beta * u.y));
+    vec2 corner = complex_product(complex_product(w, w), fan.turn);
     if (any_lane(fan.near)) {
-        // tan(t/2) = beta sinh(x), x in equal steps between those of the tangents -4 and 4.
-        real far_side = 4.0 / fan.beta;
-        real x = log(far_side + sqrt(far_side * far_side + 1.0)) * (real(2 * k + 1) / real(count) - 1.0);
-        real power = exp(x);
-        w = select(fan.near, complex_sign(vec2(1.0, 0.5 * fan.beta * (power - 1.0 / power))), w);
+        w = ellipse_near_corner(fan, k, count);
+        corner = select(fan.near, complex_product(complex_product(w, w), fan.near_turn), corner);
     }
-    return complex_product(complex_product(w, w), fan.turn);
+    return corner;
 }
 
 // The angle from one corner to the next over its sine: what equal area needs; the angle is taken up to 2.6.
@@ -228,15 +282,20 @@ real ellipse_gap(vec2 from_corner, vec2 to_corner) {
     return select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
 }
 
-// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+// The corner between two others, as a vector from the shading point.
+//
+//   before, here, after  ellipse_corner of three neighbours
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
-// Error: docs/accuracy.md, "Float against double", ellipse.
-vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
-    vec2 before = ellipse_corner(fan, k - 1, count);
-    vec2 here = ellipse_corner(fan, k, count);
-    vec2 after = ellipse_corner(fan, k + 1, count);
+vec3 ellipse_pushed_corner(EllipseFan fan, vec2 before, vec2 here, vec2 after) {
     real radius = sqrt(0.5 * (ellipse_gap(before, here) + ellipse_gap(here, after)));
     Ellipse e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
+// Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
+//
+// Error: docs/accuracy.md, "Float against double", ellipse.
+vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
+    return ellipse_pushed_corner(fan, ellipse_corner(fan, k - 1, count), ellipse_corner(fan, k, count), ellipse_corner(fan, k + 1, count));
 }

@@ -50,7 +50,7 @@ vec4 case_ellipse_corner_near(CaseInput i) {
     vec3 aside = transform(frame, vec3(0.0, 1.0, 0.0));
     vec3 center = long_axis * (-1.0 - i.a.x) + case_xyz(i.b) * i.a.y + aside * i.c.y;
     Ellipse e = ellipse_prepare(center, long_axis, aside * i.c.x);
-    return case_of_vec3(ellipse_fan_corner(ellipse_fan_concentrated(e, case_xyz(i.b), 0.5), 9, 24));
+    return case_of_vec3(ellipse_fan_corner(ellipse_fan_concentrated(e, case_xyz(i.b), 0.5), 9, 32));
 }
 
 // ellipse, its elements

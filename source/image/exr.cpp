@@ -76,7 +76,8 @@ std::pair<std::string, int> layer_and_suffix(const std::string& name) {
 
 // Types of attributes whose readers make no more room than the attribute's own size: all that a picture needs.
 bool is_plain_type(std::string_view type) {
-  constexpr std::string_view kPlain[] = {"box2i", "chlist", "compression", "double", "float", "int", "lineOrder", "string", "tiledesc", "v2f"};
+  constexpr std::string_view kPlain[] = {"box2i", "chlist",    "compression", "double",   "float",
+                                         "int",   "lineOrder", "string",      "tiledesc", "v2f"};
   return std::find(std::begin(kPlain), std::end(kPlain), type) != std::end(kPlain);
 }
 

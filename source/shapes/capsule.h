@@ -36,7 +36,7 @@ struct AboutLobe {
   Real<S> width;
   int corners;  // 12, or 16 for high quality (docs/ggx.md)
 };
-inline constexpr int kMostCorners = 24;  // beside a rim: ellipse.h
+inline constexpr int kMostCorners = 32;  // beside a rim: ellipse.h
 template <class S>
 using Corners = std::array<typename Kernels<S>::vec3, static_cast<std::size_t>(kMostCorners)>;
 

@@ -186,7 +186,7 @@ __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoi
 }
 
 // Of a polygon where the rim is near: kernels/outline/ellipse.glsl, ellipse_fan_near.
-inline constexpr int kCornersNearRim = 24;
+inline constexpr int kCornersNearRim = 32;
 static_assert(kCornersNearRim <= kMostCorners);
 
 // The corners that stand for the outline about a lobe, in walk order; how many there are.
@@ -196,7 +196,13 @@ STERADIAN_INLINE int fill_corners(const Round& light, const AboutLobe<S>& lobe, 
   Kernels<S> k;
   const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
   const int count = any_lane(fan.near) ? std::max(lobe.corners, kCornersNearRim) : lobe.corners;
-  for (int i = 0; i < count; ++i) corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.ellipse_fan_corner(fan, i, count));
+  auto before = k.ellipse_corner(fan, -1, count), here = k.ellipse_corner(fan, 0, count);
+  for (int i = 0; i < count; ++i) {
+    const auto after = k.ellipse_corner(fan, i + 1, count);
+    corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.ellipse_pushed_corner(fan, before, here, after));
+    before = here;
+    here = after;
+  }
   return count;
 }
 

@@ -48,7 +48,7 @@ PolygonLight polygon_of(const Kernels<double>::EllipseFan& fan, Vec3d position, 
 }
 
 // Twice those of kernels/outline/ellipse.glsl: a quarter of the error, where time does not count.
-constexpr int kVerticesNearRim = 48;
+constexpr int kVerticesNearRim = 64;
 
 const Frame kWorld{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 

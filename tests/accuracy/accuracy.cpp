@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   write_half_vector(page);
   write_sheen(page);
   write_lights(page);
+  write_limits(page);
   std::ofstream file(argv[1], std::ios::binary);
   file << page.str();
   file.close();

@@ -15,5 +15,6 @@ void write_phong(std::ostream& out);          // Phong lobes by every method
 void write_ggx(std::ostream& out);            // GGX by every real-time method against the reference
 void write_half_vector(std::ostream& out);    // edge splitting against the reference
 void write_lights(std::ostream& out);         // small, near and grazing lights, half vectors with shadowing, textured lights
+void write_limits(std::ostream& out);         // lights that fill the hemisphere, touch, stand edge-on, are round and near
 
 }  // namespace steradian::accuracy

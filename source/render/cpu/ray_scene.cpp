@@ -71,7 +71,7 @@ RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")) {
     const Mesh& mesh = scene.meshes[i];
     if (mesh.indices.empty()) continue;
     const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owned(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
-                                                                             &rtcReleaseGeometry);
+                                                                              &rtcReleaseGeometry);
     throw_noted_error(device_.get(), "making a mesh");
     RTCGeometry geometry = owned.get();
     copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(), mesh.positions.size());

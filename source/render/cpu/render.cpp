@@ -107,9 +107,8 @@ class Renderer {
       // Asked to stop on its way, it has left out samples: what it has is of no use.
       stopped() ? clear_tile(index, state.picture) : void(state.done[tile] = 1);
     });
-    if (!indirect_ || stopped()) return state.picture;
-    Picture picture = state.picture;
-    arena_.execute([&] { indirect_->add_to(picture); });
+    Picture picture = options_.stop != nullptr ? state.picture : std::move(state.picture);  // who cannot stop it needs no copy
+    if (indirect_ && !stopped()) arena_.execute([&] { indirect_->add_to(picture); });
     return picture;
   }
 
