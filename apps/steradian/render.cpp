@@ -107,13 +107,14 @@ bool samples(const Options& options) {
 // Everything that the picture depends on.
 std::string identity_of(const Options& options, const Scene& scene) {
   const RenderOptions& r = options.render;
-  return fmt::format("steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} | scattering {}",
-                     version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights,
-                     fmt::join(options.lights, ","), options.light_units, options.environment, options.background, r.camera, r.method,
-                     options.quality, options.shadows, options.multiple_scattering) +
+  return fmt::format(
+             "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} | scattering {}",
+             version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights,
+             fmt::join(options.lights, ","), options.light_units, options.environment, options.background, r.camera, r.method,
+             options.quality, options.shadows, options.multiple_scattering) +
          fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", options.indirect, r.indirect.virtual_lights,
-                     options.indirect_shadows, r.indirect.kept_pairs, options.indirect_quads, options.indirect_clamp, options.size, r.aa, r.spp,
-                     r.target_error, r.seed);
+                     options.indirect_shadows, r.indirect.kept_pairs, options.indirect_quads, options.indirect_clamp, options.size, r.aa,
+                     r.spp, r.target_error, r.seed);
 }
 
 // The picture; running out of memory says what was being made, and how large it is.

@@ -79,12 +79,14 @@ constexpr Kind kKinds[] = {
     {"ball on the surface",
      [](Random& random, Vec3d) {
        const double turn = random.uniform(-M_PI, M_PI), away = std::pow(10.0, random.uniform(-1.5, 0.3));
-       return shaped(Ellipsoid{{away * std::cos(turn), away * std::sin(turn), 1 - random.uniform(0, 0.5)}, {0.999, 0, 0}, {0, 0.999, 0}, {0, 0, 0.999}});
+       return shaped(Ellipsoid{
+           {away * std::cos(turn), away * std::sin(turn), 1 - random.uniform(0, 0.5)}, {0.999, 0, 0}, {0, 0.999, 0}, {0, 0, 0.999}});
      }},
     {"ellipsoid, to 1e-3",
      [](Random& random, Vec3d mirror) {
        const Frame f = Frame::from_normal(random_direction(random));
-       const Vec3d to = near(random, mirror), x = f.x * random.uniform(0.1, 1), y = f.y * random.uniform(0.1, 1), z = f.z * random.uniform(0.1, 1);
+       const Vec3d to = near(random, mirror), x = f.x * random.uniform(0.1, 1), y = f.y * random.uniform(0.1, 1),
+                   z = f.z * random.uniform(0.1, 1);
        const double reach = std::hypot(dot(x, to), dot(y, to), dot(z, to));
        return shaped(Ellipsoid{to * (reach * (1 + std::pow(10.0, random.uniform(-3, 0)))), x, y, z});
      }},
@@ -135,9 +137,11 @@ Material random_lobe(Random& random, const Row& row) {
 
 void write_limits(std::ostream& out) {
   constexpr int kCases = 24;
-  out << "\n## Lights at the limits\n\nRelative RMSE / largest error in units of the full lobe (of the radiance, where that is above 1), over "
+  out << "\n## Lights at the limits\n\nRelative RMSE / largest error in units of the full lobe (of the radiance, where that is above 1), "
+         "over "
       << kCases
-      << " lights of each kind, lobes of widths 0.01 to 1 (exponents to match), views 0 to 80 degrees; against `reference`, errors within its bound "
+      << " lights of each kind, lobes of widths 0.01 to 1 (exponents to match), views 0 to 80 degrees; against `reference`, errors within "
+         "its bound "
          "left out. In float the same, but for 1e-4 of Blinn-Phong (test `LargeLight`, `SmallLight`).\n\n| lobe and method |";
   for (const Kind& kind : kKinds) out << " " << kind.name << " |";
   out << "\n|---|";
@@ -154,7 +158,8 @@ void write_limits(std::ostream& out) {
         const AreaLight light = kind.light(random, {-at.view.x, -at.view.y, at.view.z});
         const Material m = random_lobe(random, row);
         const RadianceResult truth = radiance(light, at, m, {.method = Method::reference});
-        const double d = std::max(std::fabs(radiance(light, at, m, {.method = row.method}).radiance.x - truth.radiance.x) - *truth.bound, 0.0);
+        const double d =
+            std::max(std::fabs(radiance(light, at, m, {.method = row.method}).radiance.x - truth.radiance.x) - *truth.bound, 0.0);
         error += d * d;
         signal += truth.radiance.x * truth.radiance.x;
         largest = std::max(largest, d / std::max(truth.radiance.x, 1.0));
