@@ -94,10 +94,10 @@ def main():
     browser = next((b for b in ("chromium", "chromium-browser", "google-chrome") if shutil.which(b)), None)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        scene, plane = scenes / "plane.glb", scenes / "plane" / "room.svg"
+        scene, plane = scenes / "glossy_floor.glb", scenes / "plane" / "room.svg"
         run(program, "compare", scene, "-o", folder / "space", "--methods", "closed-form,ltc,sampled", "--size", "96x54", "--spp", 16,
             "--target-error", 0.05)
-        run(program, "compare", plane, "-o", folder / "plane", "--methods", "exact,sampled", "--size", "96x54", "--spp", 16)
+        run(program, "compare", plane, "-o", folder / "plane", "--methods", "exact,sampled", "--size", "95x53", "--spp", 16)
         space = check_numbers(program, folder / "space", ["closed-form", "ltc", "sampled"])
         flat = check_numbers(program, folder / "plane", ["exact", "sampled"])
         settings = [p["setting"] for p in space["over_time"] if p["method"] == "sampled"]
@@ -116,7 +116,7 @@ def main():
             print("skipped: no Chromium here (apt-get install chromium)")
             sys.exit(77)
         check_page(browser, program, folder / "space", scene, space, [])
-        check_page(browser, program, folder / "plane", plane, flat, ["--size", "96x54"])
+        check_page(browser, program, folder / "plane", plane, flat, ["--size", "95x53"])
 
 
 if __name__ == "__main__":
