@@ -78,7 +78,7 @@ struct LightContours : Contours<Vec3d, Direction> {
   Vec3d position;
   Turned turned;
 
-  // An edge that is seen under more than 120 degrees is walked in two, by way of its point next to the shading point: of ends that are
+  // An edge that is seen under more than 179 degrees is walked in two, by way of its point next to the shading point: of ends that are
   // nearly opposite no direction in between is left, however near the edge passes.
   template <class End, class Add>
   void walk(End end, Add add) const {
@@ -95,7 +95,7 @@ struct LightContours : Contours<Vec3d, Direction> {
           return Corner{v, u, end(u)};
         },
         [&](const Corner& a, const Corner& b) {
-          if (any_lane(dot(a.u, b.u) < Real<S>(-0.5))) {
+          if (any_lane(dot(a.u, b.u) < Real<S>(-0.9999))) {
             const Vec3d span = b.vertex - a.vertex, foot = foot_on_line(a.vertex - position, b.vertex - position);
             if (dot(foot, foot) > 1e-28 * dot(span, span)) {
               const auto between = end(Kernels<S>().polygon_direction(turned(foot)));
