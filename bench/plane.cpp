@@ -1,10 +1,11 @@
 // plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
-// 64 rays a pixel over the grid, on every 97th pixel of a frame.
+// 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes.
 #include <fmt/format.h>
 
 #include <memory>
 
 #include "benches.h"
+#include "plane/frame/drawing.h"
 #include "plane/frame/light_field.h"
 #include "steradian/plane.h"
 
@@ -61,9 +62,25 @@ Bench rays(const LightField& field) {
           }};
 }
 
+std::string suffix(const plane::Drawing& drawing) { return drawing.shape + "-" + drawing.emission; }
+
+Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
+  auto scene = std::make_shared<PlaneScene>(plane::make_drawing(drawing));
+  auto picture = std::make_shared<Picture>();
+  return {"plane/drawing/" + suffix(drawing), std::size_t{1920} * 1080, name_of(options.simd), [scene, picture] {
+            PlaneFrameOptions frame = one_thread();
+            frame.width = 1920;
+            frame.height = 1080;
+            render_plane_into(*picture, PlaneWorld(*scene), frame);
+            keep(picture->pixels.front());
+          }};
+}
+
 }  // namespace
 
 void add_plane(BenchList& list) {
+  for (const plane::Drawing& drawing : plane::all_drawings())
+    list.add("plane/drawing/" + suffix(drawing), [drawing](const BenchOptions& o) { return drawn(drawing, o); });
   for (const LightField& field : kLightFields) {
     list.add("plane/frame/" + suffix(field), [field](const BenchOptions& o) { return cold(field, o); });
     list.add("plane/warm/" + suffix(field), [field](const BenchOptions& o) { return warm(field, o); });

@@ -11,6 +11,7 @@
 #include "plane/exact/families.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
+#include "plane/frame/drawing.h"
 #include "plane/frame/light_field.h"
 #include "plane/frame/scene.h"
 
@@ -66,6 +67,8 @@ TEST(PlaneFrame, EqualsTheQueryInEveryInstructionSet) {
   for (Simd simd : available_simd()) {
     setenv("STERADIAN_SIMD", name_of(simd), 1);
     expect_query(make_plane_family(8, 2), 160, 120, 5, name_of(simd));
+    for (const Drawing& drawing : {Drawing{"ellipse", "gradient"}, Drawing{"circle", "lambert"}, Drawing{"capsule", "spot"}})
+      expect_query(make_drawing(drawing), 97, 61, 7, std::string(name_of(simd)) + ", " + drawing.shape + "-" + drawing.emission);
     unsetenv("STERADIAN_SIMD");
   }
 }
@@ -160,6 +163,11 @@ TEST(PlaneFrame, TakesLightsOfEveryKindOnPacks) {
   const PlaneWorld world(scene);
   Budget budget{Limits{}};
   EXPECT_FALSE(prepare_frame(world.impl(), budget).any_general);
+}
+
+TEST(PlaneFrame, EqualsTheQueryInDrawingsOfEveryLight) {
+  for (const Drawing& drawing : all_drawings())
+    expect_query(make_drawing(drawing), 97, 61, 11, drawing.shape + "-" + drawing.emission, drawing.emission == "inverse" ? 3e-5 : 1e-5);
 }
 
 TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
