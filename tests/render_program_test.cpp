@@ -22,6 +22,7 @@ TEST_F(Program, RenderWritesAPictureWithItsSettingsAndItsStatistics) {
   EXPECT_EQ(picture.width, 64);
   EXPECT_EQ(picture.height, 36);
   EXPECT_EQ(picture.metadata.at("steradian.method"), "exact");
+  EXPECT_EQ(picture.metadata.at("steradian.shadows"), "on");
   EXPECT_EQ(picture.metadata.at("steradian.scene"), floor_scene());
   const json s = json::parse(contents(stats));
   for (const char* key :

@@ -33,7 +33,7 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "off", quality = "normal", indirect = "off",
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", quality = "normal", indirect = "off",
                              indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto", environment,
                              background = "on", light_units = "auto", occluders = "black";
   std::vector<std::string> lights;

@@ -91,17 +91,25 @@ struct Crossing {
   bool operator<(const Crossing& c) const { return after != c.after ? c.after : t < c.t; }
 };
 
-// Where f crosses e, whose midpoint lies on the given side of f.
-bool crossing_of(const Segment& e, const Segment& f, int middle, Crossing& result) {
+double place_between(const Side& from, const Side& to) {
+  const auto at = [](std::int64_t a, std::int64_t b) { return static_cast<double>(a) / static_cast<double>(a - b); };
+  return std::clamp(from.d0 != to.d0 ? at(from.d0, to.d0) : from.d1 != to.d1 ? at(from.d1, to.d1) : 0.5, 0.0, 1.0);
+}
+
+// Where f crosses e, and where e crosses f.
+struct Pair {
+  Crossing on_e, on_f;
+};
+bool cross(const Segment& e, const Segment& f, Pair& result) {
   if (share_an_end(e, f) || apart(e, f)) return false;
-  const Side a = side(f, once(e.a), 1), b = side(f, once(e.b), 1);
-  if (a.sign() == b.sign()) return false;
-  if (side(e, once(f.a), 1).sign() == side(e, once(f.b), 1).sign()) return false;
-  const auto at = [](std::int64_t from, std::int64_t to) { return static_cast<double>(from) / static_cast<double>(from - to); };
-  result.t = a.d0 != b.d0 ? at(a.d0, b.d0) : a.d1 != b.d1 ? at(a.d1, b.d1) : 0.5;
-  result.t = std::clamp(result.t, 0.0, 1.0);
-  result.change = b.sign() > 0 ? f.weight : -f.weight;
-  result.after = middle != b.sign();
+  const Side ea = side(f, once(e.a), 1), eb = side(f, once(e.b), 1);
+  if (ea.sign() == eb.sign()) return false;
+  const Side fa = side(e, once(f.a), 1), fb = side(e, once(f.b), 1);
+  if (fa.sign() == fb.sign()) return false;
+  const auto crossing = [](const Segment& g, const Segment& by, const Side& from, const Side& to) -> Crossing {
+    return {side(by, midpoint(g), 2).sign() != to.sign(), place_between(from, to), to.sign() > 0 ? by.weight : -by.weight};
+  };
+  result = {crossing(e, f, ea, eb), crossing(f, e, fa, fb)};
   return true;
 }
 
@@ -181,8 +189,8 @@ void arrange(const SegmentSet& set, std::vector<Piece>& pieces) {
       if (start_above == end_above && apart(e, f)) continue;
       const int middle = side(f, m, 2).sign();
       count += left_ray_crosses(f, middle, start_above, end_above);
-      Crossing crossing;
-      if (crossing_of(e, f, middle, crossing)) crossings.push_back(crossing);
+      Pair pair;
+      if (cross(e, f, pair)) crossings.push_back(pair.on_e);
     }
     std::sort(crossings.begin(), crossings.end());
     const Crossing *begin = crossings.data(), *end = begin + crossings.size();
@@ -286,29 +294,46 @@ void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arr
   arrays.assign(set);
   const SegmentView view = arrays.view();
   thread_local Chains chains;
+  struct Found {
+    std::uint32_t segment;
+    Crossing crossing;
+  };
+  thread_local std::vector<Found> found_crossings;
   thread_local std::vector<Crossing> crossings;
   thread_local std::vector<Along> along;
   chains.assign(set.segments);
-  crossings.clear();
+  found_crossings.clear();
   along.assign(set.segments.size(), {});
   std::uint32_t* found = arrays.found.data();
-  for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
-    const Segment& e = set.segments[i];
-    Along& a = along[i];
-    a.first = crossings.size();
-    const std::size_t count = packs.may_cross(view, arrays.place[i], found);
+  for (std::uint32_t place = 0; place < set.segments.size(); ++place) {
+    const std::uint32_t i = arrays.order[place];
+    const std::size_t count = packs.may_cross(view, place, found);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = arrays.order[found[k]];
-      const Segment& f = set.segments[j];
-      if (j == i || share_an_end(e, f)) continue;
-      Crossing crossing;
-      if (!crossing_of(e, f, side(f, midpoint(e), 2).sign(), crossing)) continue;
-      crossings.push_back(crossing);
-      a.change += crossing.change;
+      Pair pair;
+      if (!cross(set.segments[i], set.segments[j], pair)) continue;
+      found_crossings.push_back({i, pair.on_e});
+      found_crossings.push_back({j, pair.on_f});
     }
-    a.count = crossings.size() - a.first;
-    if (a.count > 1) std::sort(crossings.begin() + static_cast<std::ptrdiff_t>(a.first), crossings.end());
   }
+  // Into a list for each segment.
+  for (const Found& f : found_crossings) ++along[f.segment].count;
+  std::size_t first = 0;
+  for (Along& a : along) {
+    a.first = first;
+    first += a.count;
+    a.count = 0;
+  }
+  crossings.resize(first);
+  for (const Found& f : found_crossings) {
+    Along& a = along[f.segment];
+    crossings[a.first + a.count++] = f.crossing;
+    a.change += f.crossing.change;
+  }
+  for (const Along& a : along)
+    if (a.count > 1)
+      std::sort(crossings.begin() + static_cast<std::ptrdiff_t>(a.first),
+                crossings.begin() + static_cast<std::ptrdiff_t>(a.first + a.count));
 
   // Hands the count of a segment on along its chain, from its end or from its start.
   const auto hand_on = [&](std::uint32_t i, bool from_end) {

@@ -81,7 +81,8 @@ bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
     };
     span = k.shadow_clip_side(span, distance(a), distance(b), side + 1.0);
   }
-  if (!(span.t0 < span.t1).m) return false;
+  // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+  if (!(span.t0 < span.t1).m && span.sides.x.v > 0.5f && span.sides.y.v > 0.5f) return false;
   const K::vec3 d = b.homogeneous - a.homogeneous;
   const auto cell = [](K::real v) { return static_cast<std::int32_t>(v.v); };
   if (span.sides.x.v > 0.5f) {

@@ -35,14 +35,15 @@ Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points) {
   half_[1] = frame.axes.y * half.y;
   half_[2] = frame.axes.z * half.z;
 
+  origin_ = frame.origin;
+  far_ = std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x), std::fabs(high.y)});
   const double near = std::max(-high.z, 1e-12), far = std::max(-low.z, near);
   // The slanted side through the light's box at z = 0 and the points' box: which of its faces bounds depends on the slope.
   const auto slope = [&](double beyond) { return beyond / (beyond > 0 ? near : far); };
   const auto bound = [&](Vec3d normal, double offset) -> Bound {
     const Vec3d n = frame.axes.to_world(normal);
     const double d = offset + dot(n, frame.origin);
-    const double rounding = 1e-12 * (std::fabs(d) + length(n) * (length(frame.origin) + far));
-    return {n, d + rounding};
+    return {n, d, length(n)};
   };
   bounds_ = {bound({0, 0, -1}, far),
              bound({0, 0, 1}, -frame.eta),
@@ -52,16 +53,23 @@ Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points) {
              bound({0, -1, slope(-low.y - frame.box_y)}, frame.box_y)};
 }
 
+double Shaft::rounding(Vec3d p) const {
+  const Vec3d d = p - origin_;
+  return 2e-6 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z) + far_) + 1e-12 * length(origin_);
+}
+
 bool Shaft::may_meet_box(Vec3d low, Vec3d high) const {
   const Vec3d c = (low + high) * 0.5, h = (high - low) * 0.5;
+  const double margin = rounding(c) + 2e-6 * (h.x + h.y + h.z);
   return std::none_of(bounds_.begin(), bounds_.end(), [&](const Bound& b) {
-    return dot(b.normal, c) - (std::fabs(b.normal.x) * h.x + std::fabs(b.normal.y) * h.y + std::fabs(b.normal.z) * h.z) > b.offset;
+    return dot(b.normal, c) - (std::fabs(b.normal.x) * h.x + std::fabs(b.normal.y) * h.y + std::fabs(b.normal.z) * h.z) >
+           b.offset + margin * b.length;
   });
 }
 
 bool Shaft::may_meet(const Vec3d* corners, int count) const {
   return std::none_of(bounds_.begin(), bounds_.end(), [&](const Bound& b) {
-    return std::all_of(corners, corners + count, [&](const Vec3d& c) { return dot(b.normal, c) > b.offset; });
+    return std::all_of(corners, corners + count, [&](const Vec3d& c) { return dot(b.normal, c) > b.offset + rounding(c) * b.length; });
   });
 }
 

@@ -30,9 +30,14 @@ class Shaft {
  private:
   struct Bound {  // inside: dot(normal, x) <= offset
     Vec3d normal;
-    double offset;
+    double offset, length;  // of the normal
   };
+  // How far off a place may be: points look at positions in float, and a vertex that one of them sees inside the box must not lose
+  // its edges.
+  double rounding(Vec3d p) const;
   std::array<Bound, 6> bounds_;
+  Vec3d origin_;                         // of the light
+  double far_ = 0;                       // distance of the farthest point from its plane
   Vec3d center_;                         // of the points' box, in the world
   Vec3d half_[3];                        // its half sides, as vectors
   int facing(const Plane& plane) const;  // 1 the front for all points, -1 the back, 0 either

@@ -78,7 +78,7 @@ struct ShadowTable {
 
   // Lists must have room for all segments; segment e itself may be among them.
   LeftRay (*left_ray)(const SegmentView& segments, std::size_t e, std::uint32_t* uncertain);
-  // The segments that may cross e; returns how many.
+  // The segments behind e that may cross it; returns how many.
   std::size_t (*may_cross)(const SegmentView& segments, std::size_t e, std::uint32_t* found);
   // How far it is from a place along a unit direction to the next segment but one; infinite where there is none.
   float (*distance_to_next)(const SegmentView& segments, float x, float y, float dx, float dy, std::size_t but);

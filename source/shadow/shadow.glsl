@@ -101,7 +101,8 @@ ShadowSegment shadow_clip(vec3 a, vec3 b, vec2 box) {
     span = shadow_clip_side(span, box.y * a.z - a.y, box.y * b.z - b.y, 4.0);
     vec3 d = b - a;
     ShadowSegment segment;
-    segment.inside = span.inside && span.t0 < span.t1;
+    // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+    segment.inside = span.inside && (span.t0 < span.t1 || span.sides.x < 0.5 || span.sides.y < 0.5);
     segment.sides = span.sides;
     segment.start = shadow_cell(select(span.sides.x > 0.5, a + d * span.t0, a), box, span.sides.x);
     segment.end = shadow_cell(select(span.sides.y > 0.5, a + d * span.t1, b), box, span.sides.y);

@@ -155,7 +155,7 @@ __attribute__((flatten)) std::size_t may_cross(const SegmentView& f, std::size_t
   const float low = ay < by ? ay : by, high = ay < by ? by : ay, left = ax < bx ? ax : bx, right = ax < bx ? bx : ax;
   const PackReal low_x = broadcast(left), high_x = broadcast(right), low_y = broadcast(low), high_y = broadcast(high);
   const PackReal eax = broadcast(ax), eay = broadcast(ay), ex = broadcast(bx - ax), ey = broadcast(by - ay);
-  for (std::size_t i = 0; i < f.count; i += kLanes) {
+  for (std::size_t i = e / kLanes * kLanes; i < f.count; i += kLanes) {
     const std::size_t block = i / kPadding;
     if (f.block_low[block] > high || f.block_high[block] < low || f.block_left[block] > right || f.block_right[block] < left) continue;
     const PackReal fax = load(f.ax + i), fay = load(f.ay + i), fbx = load(f.bx + i), fby = load(f.by + i);
@@ -165,7 +165,9 @@ __attribute__((flatten)) std::size_t may_cross(const SegmentView& f, std::size_t
     const Sides ea = sides_of(dx, dy, px, py), eb = sides_of(dx, dy, px + ex, py + ey);
     const Sides fa = sides_of(ex, ey, -px, -py), fb = sides_of(ex, ey, fbx - eax, fby - eay);
     const PackMask misses = (ea.left && eb.left) || (ea.right && eb.right) || (fa.left && fb.left) || (fa.right && fb.right);
-    for_each_bit(bits_of(near) & ~bits_of(misses), [&](std::size_t lane) { found[n++] = static_cast<std::uint32_t>(i + lane); });
+    std::uint32_t bits = bits_of(near) & ~bits_of(misses);
+    if (i <= e) bits &= ~((2u << (e - i)) - 1u);
+    for_each_bit(bits, [&](std::size_t lane) { found[n++] = static_cast<std::uint32_t>(i + lane); });
   }
   return n;
 }

@@ -9,6 +9,7 @@
 #include "integrals/ltc/table.h"
 #include "lobes/lobe.h"
 #include "shadow/edge_arrays.h"
+#include "shadow/shadow_kernels.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
 #include "shadow/triangle_rays.h"
@@ -335,6 +336,12 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
       const double change = region_of(frame, false, in_packs) - area_of(in_exact);
       EXPECT_LE(std::fabs(change), 1e-4) << i;
       squares += change * change;
+      double x = 0, y = 0;
+      for (const Boundary& b : in_packs.boundary) {
+        x += (b.bx - b.ax) / kCells;
+        y += (b.by - b.ay) / kCells;
+      }
+      EXPECT_LE(std::hypot(x, y), 1e-12) << i;
       // The same from another frame's coordinates.
       LightFrame other;
       other.origin = frame.origin + frame.axes.x * 0.1;
@@ -342,6 +349,19 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
       EXPECT_LE(std::fabs(region_of(other, true, in_turned) - area_of(in_exact)), 1e-4) << i;
     }
     EXPECT_LE(std::sqrt(squares / kPoints), 5e-7);
+  }
+}
+
+// A vertex that lies inside by less than a rounding: its edge stays, with the event of the side that cut it, or counts to its left
+// would be off by its weight (a black pixel).
+TEST(SoftShadow, KeepsAnEdgeThatEndsARoundingInside) {
+  ShadowKernels<float> k;
+  const float inside = std::nextafter(-1.0f, 0.0f);
+  for (const bool out_first : {true, false}) {
+    const ShadowKernels<float>::vec3 out(-1000.0, 0.0, 1.0), in(static_cast<double>(inside), 0.25, 1.0);
+    const auto s = out_first ? k.shadow_clip(out, in, {1.0, 1.0}) : k.shadow_clip(in, out, {1.0, 1.0});
+    EXPECT_TRUE(s.inside.m);
+    EXPECT_EQ((out_first ? s.sides.x : s.sides.y).v, 1.0f);
   }
 }
 

@@ -353,6 +353,8 @@ class Renderer {
   // The radiance that a light sends to some slots alone, in their order.
   SurfaceTile& light_slots(const SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
     work.filled = take_slots(tile, work.slots, work.filled, work.some);
+    // Pieces lie above the surface's horizon, not above that of a coat with a normal of its own.
+    if (light.is_pieces()) work.some.coat_normal = work.some.normal;
     add_light(work.some, {&light});
     return work.some;
   }
