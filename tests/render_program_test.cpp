@@ -104,6 +104,39 @@ TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   EXPECT_EQ(run({"render", floor_scene(), "-o", exr, "--environment", "no_such.hdr"}).status, 1);
 }
 
+TEST_F(Program, ATableOfOnesOwnTakesThePlaceOfTheShippedOne) {
+  const std::string table = folder / "t.json", rough = folder / "rough.json", exr = folder / "a.exr";
+  ASSERT_EQ(run({"fit", "--lobe", "ggx", "--size", "8", "-o", table}).status, 0);
+  const auto picture = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", glossy_scene(), "-o", exr, "--size", "64x36", "--method", "ltc"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return read_picture(exr);
+  };
+  const Picture shipped = picture({}), own = picture({"--table", table});
+  const double off = difference(own, shipped).relative_l2;
+  EXPECT_GT(off, 1e-5) << "the table is read";
+  EXPECT_LT(off, 0.2) << "8 x 8 nodes in place of 64 x 64 of the same lobe";
+
+  // Twice the magnitudes: twice the specular light, and the diffuse light as it was.
+  json doubled = json::parse(contents(table));
+  for (json& node : doubled["magnitude"])
+    for (int i : {0, 1}) node[static_cast<std::size_t>(i)] = 2 * node[static_cast<std::size_t>(i)].get<double>();
+  std::ofstream(rough) << doubled;
+  EXPECT_GT(picture({"--table", rough}).at(32, 30).x, own.at(32, 30).x);
+
+  json broken = doubled;
+  broken["matrix"].erase(3);
+  for (const json& bad : {broken, json({{"layout", "compact"}}), json(17)}) {
+    std::ofstream(rough) << bad;
+    const Outcome r = run({"render", glossy_scene(), "-o", exr, "--size", "64x36", "--method", "ltc", "--table", rough});
+    EXPECT_EQ(r.status, 1) << r.err;
+    EXPECT_NE(r.err.find(rough), std::string::npos) << r.err;
+  }
+  EXPECT_EQ(run({"render", glossy_scene(), "-o", exr, "--table", table}).status, 2) << "without --method ltc";
+}
+
 TEST_F(Program, InfoTellsWhatASceneHolds) {
   const Outcome r = run({"info", test::kSourceDir + "/scenes/gallery.glb", "--json"});
   ASSERT_EQ(r.status, 0) << r.err;

@@ -158,6 +158,7 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
   refuse_without_effect(verb, {{"--quality", false, third},
+                               {"--table", false, third},
                                {"--shadows", options.shadows != "off", third},
                                {"--multiple-scattering", false, third},
                                {"--indirect", false, third},
@@ -292,6 +293,8 @@ void add_render(CLI::App& app, Exit&) {
             return known ? std::string() : "unknown method " + name + ", use " + methods::names();
           },
           ""))
+      ->group("Light");
+  verb->add_option("--table", r.table, "of ltc: a fitted table (fit --layout classic -o FILE.json) in place of GGX's, under area lights")
       ->group("Light");
   verb->add_option("--quality", options->quality, "of closed-form, half-vector and series; of auto: draft takes ltc-compact for GGX")
       ->check(CLI::IsMember({"draft", "normal", "high"}))

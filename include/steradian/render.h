@@ -23,6 +23,7 @@ struct RenderOptions {
   int height = 720;
   std::string camera;                 // name; empty: the first
   std::string method = "auto";        // of the specular lobe: a name of `render --help`
+  std::string table;                  // of method ltc: a file of fit's in place of the shipped table of GGX; empty: the shipped one
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
   bool background = true;      // the camera sees the scene's environment; false: black

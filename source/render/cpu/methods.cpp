@@ -122,6 +122,8 @@ DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
     method = chosen(lobes, options.method, options.quality);
   }
   method.quality = options.quality;
+  if (!options.table.empty() && (options.method != "ltc" || options.shadows != Shadows::off))
+    throw UsageError("--table", "only --method ltc without shadows reads a table", "add --method ltc, and leave --shadows out");
   return method;
 }
 

@@ -82,7 +82,7 @@ class Renderer {
         environment_(prepare_environment(scene)),
         lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
         direct_(direct_table_for(active_simd())),
-        specular_(method_),
+        specular_(method_, options.table),
         tiles_x_((options.width + kTileSide - 1) / kTileSide),
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
         samplers_([this] {

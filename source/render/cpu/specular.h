@@ -16,7 +16,8 @@ namespace steradian {
 // lobes, and the methods that exist for comparison only, run point by point in float.
 class SpecularPass {
  public:
-  explicit SpecularPass(const DirectMethod& method);
+  // table: as RenderOptions::table.
+  SpecularPass(const DirectMethod& method, const std::string& table);
 
   // Whether add() also brings the diffuse light of a light: a walk along a polygon serves both lobes.
   bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;

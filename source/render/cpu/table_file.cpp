@@ -1,0 +1,51 @@
+#include "render/cpu/table_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/budget.h"
+#include "core/read_file.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+constexpr int kLargestSize = 1024;  // as fit writes them
+constexpr double kLargestValue = 1e6;
+
+PackTable read_nodes(const nlohmann::json& table, const char* key, int size, const std::string& path) {
+  const auto rows = table.find(key);
+  const auto count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  if (rows == table.end() || !rows->is_array() || rows->size() != count)
+    throw Error(path, std::string("\"") + key + "\" is no list of " + std::to_string(count) + " nodes");
+  PackTable result{size, {}};
+  for (const nlohmann::json& node : *rows) {
+    if (!node.is_array() || node.size() != 4) throw Error(path, std::string("\"") + key + "\" has a node that is not 4 numbers");
+    for (const nlohmann::json& x : node) {
+      const double value = x.is_number() ? x.get<double>() : kLargestValue;
+      if (!(std::fabs(value) < kLargestValue)) throw Error(path, std::string("\"") + key + "\" has a value that is no number of a table");
+      result.nodes.push_back(static_cast<float>(value));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+LtcPackTables read_classic_table(const std::string& path) {
+  Budget budget(Limits{.memory = 400'000'000, .work = 0});
+  const Bytes bytes = read_file(path, path, budget);
+  const nlohmann::json table = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
+  const char* hint = "write it by steradian fit --layout classic -o FILE.json";
+  if (table.is_discarded() || !table.is_object()) throw Error(path, "is no table in JSON", hint);
+  const auto layout = table.find("layout"), size = table.find("size");
+  if (layout == table.end() || *layout != "classic") throw Error(path, "is no table of the classic layout", hint);
+  if (size == table.end() || !size->is_number_integer() || *size < 2 || *size > kLargestSize)
+    throw Error(path, "\"size\" is no number from 2 to " + std::to_string(kLargestSize), hint);
+  const int n = size->get<int>();
+  return {read_nodes(table, "matrix", n, path), read_nodes(table, "magnitude", n, path)};
+}
+
+}  // namespace steradian
