@@ -12,7 +12,7 @@ namespace {
 
 // The shortest text that reads back as the same double; no locale.
 std::string number(double x) {
-  char text[32];
+  char text[32] = {};
   for (int digits : {6, 9, 17}) {
     std::snprintf(text, sizeof text, "%.*g", digits, x);
     for (char& c : text)
