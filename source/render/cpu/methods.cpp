@@ -123,7 +123,7 @@ DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
   }
   method.quality = options.quality;
   if (!options.table.empty() && (options.method != "ltc" || options.shadows != Shadows::off))
-    throw UsageError("--table", "only --method ltc without shadows reads a table", "add --method ltc, and leave --shadows out");
+    throw UsageError("--table", "only --method ltc without shadows reads a table", "add --method ltc --shadows off");
   return method;
 }
 
