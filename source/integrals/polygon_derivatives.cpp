@@ -228,10 +228,12 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
     // The series' bias is a smooth function of the outline, and over a light that is small against the lobe its derivative is a multiple of
-    // the light's: there by quadrature, as long as elements (shapes/small_light.h) would take the light's value over.
+    // the light's: there by quadrature, where elements take the light's value over (shapes/small_light.h: t^3 / 8 below the bias).
     const LightQuarters& q = light.quarters;
-    const double sharpness = 2.5 + std::sqrt(m.exponent), distance2 = dot(q.center - at.position, q.center - at.position);
-    const bool small = sharpness * sharpness * (dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) < 2 * distance2;
+    const Vec3d to = q.center - at.position;
+    const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
+    const double bias = quality == Quality::high ? integrals::kHighSeriesBias : integrals::kSeriesBias;
+    const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
       const integrals::PhongLobe<S> lobe(m.exponent);
       // Of two methods alone: all of them in dual numbers would take the compiler's budget for inlining.

@@ -16,7 +16,8 @@ constexpr Part kShapes[] = {
     {"circle", R"(<circle cx="150" cy="120" r="24" {0}/><circle cx="470" cy="250" r="30" {0}/>)"},
     {"ellipse", R"(<ellipse cx="150" cy="120" rx="40" ry="14" {0}/><ellipse cx="470" cy="250" rx="18" ry="44" {0}/>)"},
     {"polygon", R"(<rect x="150" y="120" width="50" height="24" {0}/><polygon points="470,250 520,260 500,300 460,290" {0}/>)"},
-    {"capsule", R"(<g stroke-linecap="round"><path d="M150 120L210 100" stroke-width="20" {0}/><path d="M470 250L480 300" stroke-width="14" {0}/></g>)"},
+    {"capsule",
+     R"(<g stroke-linecap="round"><path d="M150 120L210 100" stroke-width="20" {0}/><path d="M470 250L480 300" stroke-width="14" {0}/></g>)"},
     {"stroke", R"(<g stroke-linecap="round"><path d="M150 120C200 60 220 180 280 120" stroke-width="10" {0}/>)"
                R"(<path d="M470 250q40 10 30 50" stroke-width="14" {0}/></g>)"},
     {"curve", R"(<path d="M150 120C200 60 220 180 280 120z" {0}/><path d="M470 250q40 10 30 50t-30 -20z" {0}/>)"}};
