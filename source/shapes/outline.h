@@ -9,6 +9,7 @@
 // not know whether the edges are a polygon's contours, the corners that stand for a round light, or what occluders leave of one.
 #pragma once
 
+#include <utility>
 #include <cstddef>
 
 #include "steradian/kernels.h"
@@ -83,10 +84,11 @@ struct LightContours : Contours<Vec3d, Direction> {
   template <class End, class Add>
   void walk(End end, Add add) const {
     using Unit = decltype(this->direction(position));
+    using Kept = decltype(end(std::declval<Unit>()));
     struct Corner {
       Vec3d vertex;
       Unit u;
-      decltype(end(this->direction(position))) kept;
+      Kept kept;
     };
     walk_contours(
         this->vertices, this->contours, this->contour_count,
