@@ -4184,7 +4184,8 @@ float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop,
 
 // The published peak fits of the Phong lobe's boundary integrand: Lorentzian, Lorentzian-Pearson, ellipsoid.
 //
-// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0: f = x for even n, f = 1 otherwise.
+// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0, f = x or f = 1: the paper takes x for even n
+// and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
 // faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
@@ -4224,12 +4225,12 @@ float steradian_moment_peak_sine(float x) {
 
 // I less its smallest value, at x = c cos phi. f = x: x (1 - x^n)/(1 - x^2); f = 1: x^2 (1 - x^(n-1))/(1 - x^2).
 //
-//   even_n   1 for f = x, 0 for f = 1
-float steradian_moment_peak_height(float s2, float c2, float n, int even_n, float cosine, float sine) {
+//   f_is_x   1 for f = x, 0 for f = 1
+float steradian_moment_peak_height(float s2, float c2, float n, int f_is_x, float cosine, float sine) {
     float rest = s2 + c2 * sine * sine;  // 1 - x^2 without cancellation
     float x2 = max(c2 * cosine * cosine, 1.0e-12);
     float log_x = 0.5 * steradian_moment_log_1_plus(rest / x2);
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         return sqrt(x2) * steradian_moment_1_minus_exp(n * log_x) / rest;
     }
     return x2 * steradian_moment_1_minus_exp((n - 1.0) * log_x) / rest;
@@ -4239,8 +4240,8 @@ float steradian_moment_peak_height(float s2, float c2, float n, int even_n, floa
 //
 // Error: up to 17 % (f = x) and 32 % (f = 1, n = 5000), 4 to 8 % on the average.
 // Source: eq. 7, with pi/4 outside the power.
-float steradian_moment_peak_half_width_ratio(float c, float n, int even_n) {
-    if (even_n == 1) {
+float steradian_moment_peak_half_width_ratio(float c, float n, int f_is_x) {
+    if (f_is_x == 1) {
         float reduced = c - c / max(n - 1.0, 1.0);
         return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
     }
@@ -4249,26 +4250,26 @@ float steradian_moment_peak_half_width_ratio(float c, float n, int even_n) {
 }
 
 // What the fits share for one edge and a lobe of exponent n.
-SteradianMomentPeak steradian_moment_peak_prepare(SteradianMomentEdge edge, float n, int even_n) {
+SteradianMomentPeak steradian_moment_peak_prepare(SteradianMomentEdge edge, float n, int f_is_x) {
     float s2 = edge.s * edge.s;
     float c2 = edge.c * edge.c;
     float widest = 0.785398163397448310;
     SteradianMomentPeak p;
     p.smallest = 1.0;
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         widest = 1.04719755119659775;
         p.smallest = 0.0;
     }
-    p.ratio_w = steradian_moment_peak_half_width_ratio(edge.c, n, even_n);
+    p.ratio_w = steradian_moment_peak_half_width_ratio(edge.c, n, f_is_x);
     p.x_w = widest * p.ratio_w;
     float k = 1.0 - p.ratio_w;  // eq. 14: its twelfth power
     float k2 = k * k;
     float k4 = k2 * k2;
     p.x_t = min(p.x_w + 0.3946 * widest * (1.0 - k4 * k4 * k4), 1.57079632679489662);
-    p.peak = steradian_moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
+    p.peak = steradian_moment_peak_height(s2, c2, n, f_is_x, 1.0, 0.0);
     float scale = 1.0 / max(p.peak, 1.0e-12);
-    p.y_w = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_w), steradian_moment_peak_sine(p.x_w));
-    p.y_t = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_t), steradian_moment_peak_sine(p.x_t));
+    p.y_w = scale * steradian_moment_peak_height(s2, c2, n, f_is_x, steradian_moment_peak_cosine(p.x_w), steradian_moment_peak_sine(p.x_w));
+    p.y_t = scale * steradian_moment_peak_height(s2, c2, n, f_is_x, steradian_moment_peak_cosine(p.x_t), steradian_moment_peak_sine(p.x_t));
     p.y_w = clamp(p.y_w, 0.01, 0.99);
     p.phi0 = steradian_trig_atan2(edge.y0, edge.x0);
     p.phi1 = steradian_trig_atan2(edge.y1, edge.x1);
@@ -4367,33 +4368,33 @@ SteradianMomentFit steradian_moment_fit_blended(SteradianMomentPeak p, Steradian
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, from a fit.
 //
 // Degenerate: a peak below 1e-12 (n = 1) leaves the smallest value alone.
-float steradian_moment_fit_front(SteradianMomentEdge edge, SteradianMomentPeak p, SteradianMomentFit fit, int even_n) {
+float steradian_moment_fit_front(SteradianMomentEdge edge, SteradianMomentPeak p, SteradianMomentFit fit, int f_is_x) {
     float peak = steradian_select(p.peak > 1.0e-12, p.peak * fit.integral, 0.0);
     float front = edge.s * (peak + p.smallest * (p.phi1 - p.phi0));
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         front = front + steradian_moment_solid_angle_front(edge);
     }
     return max(front, 0.0);
 }
 
 // The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
-float steradian_moment_lorentzian_front(SteradianMomentEdge edge, float n, int even_n) {
-    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
-    return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), even_n);
+float steradian_moment_lorentzian_front(SteradianMomentEdge edge, float n, int f_is_x) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, f_is_x);
+    return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), f_is_x);
 }
 
 // The blend of Lorentzian and Pearson VII for one edge.
-float steradian_moment_pearson_front(SteradianMomentEdge edge, float n, int even_n) {
-    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+float steradian_moment_pearson_front(SteradianMomentEdge edge, float n, int f_is_x) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, f_is_x);
     SteradianMomentFit fit = steradian_moment_fit_blended(p, steradian_moment_fit_lorentzian(p), steradian_moment_fit_pearson(p));
-    return steradian_moment_fit_front(edge, p, fit, even_n);
+    return steradian_moment_fit_front(edge, p, fit, f_is_x);
 }
 
 // The blend of ellipsoid and squared ellipsoid for one edge.
-float steradian_moment_ellipsoid_front(SteradianMomentEdge edge, float n, int even_n) {
-    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, even_n);
+float steradian_moment_ellipsoid_front(SteradianMomentEdge edge, float n, int f_is_x) {
+    SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, f_is_x);
     SteradianMomentFit fit = steradian_moment_fit_blended(p, steradian_moment_fit_ellipsoid(edge, p), steradian_moment_fit_ellipsoid_squared(edge, p));
-    return steradian_moment_fit_front(edge, p, fit, even_n);
+    return steradian_moment_fit_front(edge, p, fit, f_is_x);
 }
 
 // ==== representative_point ====

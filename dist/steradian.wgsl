@@ -4181,7 +4181,8 @@ fn steradian_moment_arvo_front(edge: SteradianMomentEdge, n: i32, can_stop: i32,
 
 // The published peak fits of the Phong lobe's boundary integrand: Lorentzian, Lorentzian-Pearson, ellipsoid.
 //
-// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0: f = x for even n, f = 1 otherwise.
+// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0, f = x or f = 1: the paper takes x for even n
+// and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
 // faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
@@ -4221,12 +4222,12 @@ fn steradian_moment_peak_sine(x: f32) -> f32 {
 
 // I less its smallest value, at x = c cos phi. f = x: x (1 - x^n)/(1 - x^2); f = 1: x^2 (1 - x^(n-1))/(1 - x^2).
 //
-//   even_n   1 for f = x, 0 for f = 1
-fn steradian_moment_peak_height(s2: f32, c2: f32, n: f32, even_n: i32, cosine: f32, sine: f32) -> f32 {
+//   f_is_x   1 for f = x, 0 for f = 1
+fn steradian_moment_peak_height(s2: f32, c2: f32, n: f32, f_is_x: i32, cosine: f32, sine: f32) -> f32 {
     let rest = s2 + c2 * sine * sine;  // 1 - x^2 without cancellation
     let x2 = max(c2 * cosine * cosine, 1.0e-12);
     let log_x = 0.5 * steradian_moment_log_1_plus(rest / x2);
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         return sqrt(x2) * steradian_moment_1_minus_exp(n * log_x) / rest;
     }
     return x2 * steradian_moment_1_minus_exp((n - 1.0) * log_x) / rest;
@@ -4236,8 +4237,8 @@ fn steradian_moment_peak_height(s2: f32, c2: f32, n: f32, even_n: i32, cosine: f
 //
 // Error: up to 17 % (f = x) and 32 % (f = 1, n = 5000), 4 to 8 % on the average.
 // Source: eq. 7, with pi/4 outside the power.
-fn steradian_moment_peak_half_width_ratio(c: f32, n: f32, even_n: i32) -> f32 {
-    if (even_n == 1) {
+fn steradian_moment_peak_half_width_ratio(c: f32, n: f32, f_is_x: i32) -> f32 {
+    if (f_is_x == 1) {
         let reduced = c - c / max(n - 1.0, 1.0);
         return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
     }
@@ -4246,26 +4247,26 @@ fn steradian_moment_peak_half_width_ratio(c: f32, n: f32, even_n: i32) -> f32 {
 }
 
 // What the fits share for one edge and a lobe of exponent n.
-fn steradian_moment_peak_prepare(edge: SteradianMomentEdge, n: f32, even_n: i32) -> SteradianMomentPeak {
+fn steradian_moment_peak_prepare(edge: SteradianMomentEdge, n: f32, f_is_x: i32) -> SteradianMomentPeak {
     let s2 = edge.s * edge.s;
     let c2 = edge.c * edge.c;
     var widest = 0.785398163397448310;
     var p: SteradianMomentPeak;
     p.smallest = 1.0;
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         widest = 1.04719755119659775;
         p.smallest = 0.0;
     }
-    p.ratio_w = steradian_moment_peak_half_width_ratio(edge.c, n, even_n);
+    p.ratio_w = steradian_moment_peak_half_width_ratio(edge.c, n, f_is_x);
     p.x_w = widest * p.ratio_w;
     let k = 1.0 - p.ratio_w;  // eq. 14: its twelfth power
     let k2 = k * k;
     let k4 = k2 * k2;
     p.x_t = min(p.x_w + 0.3946 * widest * (1.0 - k4 * k4 * k4), 1.57079632679489662);
-    p.peak = steradian_moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
+    p.peak = steradian_moment_peak_height(s2, c2, n, f_is_x, 1.0, 0.0);
     let scale = 1.0 / max(p.peak, 1.0e-12);
-    p.y_w = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_w), steradian_moment_peak_sine(p.x_w));
-    p.y_t = scale * steradian_moment_peak_height(s2, c2, n, even_n, steradian_moment_peak_cosine(p.x_t), steradian_moment_peak_sine(p.x_t));
+    p.y_w = scale * steradian_moment_peak_height(s2, c2, n, f_is_x, steradian_moment_peak_cosine(p.x_w), steradian_moment_peak_sine(p.x_w));
+    p.y_t = scale * steradian_moment_peak_height(s2, c2, n, f_is_x, steradian_moment_peak_cosine(p.x_t), steradian_moment_peak_sine(p.x_t));
     p.y_w = clamp(p.y_w, 0.01, 0.99);
     p.phi0 = steradian_trig_atan2(edge.y0, edge.x0);
     p.phi1 = steradian_trig_atan2(edge.y1, edge.x1);
@@ -4364,33 +4365,33 @@ fn steradian_moment_fit_blended(p: SteradianMomentPeak, heavy: SteradianMomentFi
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, from a fit.
 //
 // Degenerate: a peak below 1e-12 (n = 1) leaves the smallest value alone.
-fn steradian_moment_fit_front(edge: SteradianMomentEdge, p: SteradianMomentPeak, fit: SteradianMomentFit, even_n: i32) -> f32 {
+fn steradian_moment_fit_front(edge: SteradianMomentEdge, p: SteradianMomentPeak, fit: SteradianMomentFit, f_is_x: i32) -> f32 {
     let peak = select(0.0, p.peak * fit.integral, p.peak > 1.0e-12);
     var front = edge.s * (peak + p.smallest * (p.phi1 - p.phi0));
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         front = front + steradian_moment_solid_angle_front(edge);
     }
     return max(front, 0.0);
 }
 
 // The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
-fn steradian_moment_lorentzian_front(edge: SteradianMomentEdge, n: f32, even_n: i32) -> f32 {
-    let p = steradian_moment_peak_prepare(edge, n, even_n);
-    return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), even_n);
+fn steradian_moment_lorentzian_front(edge: SteradianMomentEdge, n: f32, f_is_x: i32) -> f32 {
+    let p = steradian_moment_peak_prepare(edge, n, f_is_x);
+    return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), f_is_x);
 }
 
 // The blend of Lorentzian and Pearson VII for one edge.
-fn steradian_moment_pearson_front(edge: SteradianMomentEdge, n: f32, even_n: i32) -> f32 {
-    let p = steradian_moment_peak_prepare(edge, n, even_n);
+fn steradian_moment_pearson_front(edge: SteradianMomentEdge, n: f32, f_is_x: i32) -> f32 {
+    let p = steradian_moment_peak_prepare(edge, n, f_is_x);
     let fit = steradian_moment_fit_blended(p, steradian_moment_fit_lorentzian(p), steradian_moment_fit_pearson(p));
-    return steradian_moment_fit_front(edge, p, fit, even_n);
+    return steradian_moment_fit_front(edge, p, fit, f_is_x);
 }
 
 // The blend of ellipsoid and squared ellipsoid for one edge.
-fn steradian_moment_ellipsoid_front(edge: SteradianMomentEdge, n: f32, even_n: i32) -> f32 {
-    let p = steradian_moment_peak_prepare(edge, n, even_n);
+fn steradian_moment_ellipsoid_front(edge: SteradianMomentEdge, n: f32, f_is_x: i32) -> f32 {
+    let p = steradian_moment_peak_prepare(edge, n, f_is_x);
     let fit = steradian_moment_fit_blended(p, steradian_moment_fit_ellipsoid(edge, p), steradian_moment_fit_ellipsoid_squared(edge, p));
-    return steradian_moment_fit_front(edge, p, fit, even_n);
+    return steradian_moment_fit_front(edge, p, fit, f_is_x);
 }
 
 // ==== representative_point ====

@@ -1,6 +1,7 @@
 // The published peak fits of the Phong lobe's boundary integrand: Lorentzian, Lorentzian-Pearson, ellipsoid.
 //
-// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0: f = x for even n, f = 1 otherwise.
+// The integrand I = (f - x^m)/(1 - x^2) is a peak over phi with its foot at 0, f = x or f = 1: the paper takes x for even n
+// and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
 // faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
@@ -43,12 +44,12 @@ real moment_peak_sine(real x) {
 
 // I less its smallest value, at x = c cos phi. f = x: x (1 - x^n)/(1 - x^2); f = 1: x^2 (1 - x^(n-1))/(1 - x^2).
 //
-//   even_n   1 for f = x, 0 for f = 1
-real moment_peak_height(real s2, real c2, real n, int even_n, real cosine, real sine) {
+//   f_is_x   1 for f = x, 0 for f = 1
+real moment_peak_height(real s2, real c2, real n, int f_is_x, real cosine, real sine) {
     real rest = s2 + c2 * sine * sine;  // 1 - x^2 without cancellation
     real x2 = max(c2 * cosine * cosine, 1.0e-12);
     real log_x = 0.5 * moment_log_1_plus(rest / x2);
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         return sqrt(x2) * moment_1_minus_exp(n * log_x) / rest;
     }
     return x2 * moment_1_minus_exp((n - 1.0) * log_x) / rest;
@@ -58,8 +59,8 @@ real moment_peak_height(real s2, real c2, real n, int even_n, real cosine, real 
 //
 // Error: up to 17 % (f = x) and 32 % (f = 1, n = 5000), 4 to 8 % on the average.
 // Source: eq. 7, with pi/4 outside the power.
-real moment_peak_half_width_ratio(real c, real n, int even_n) {
-    if (even_n == 1) {
+real moment_peak_half_width_ratio(real c, real n, int f_is_x) {
+    if (f_is_x == 1) {
         real reduced = c - c / max(n - 1.0, 1.0);
         return sqrt(max(1.0 - reduced * reduced, 1.0e-8));
     }
@@ -68,26 +69,26 @@ real moment_peak_half_width_ratio(real c, real n, int even_n) {
 }
 
 // What the fits share for one edge and a lobe of exponent n.
-MomentPeak moment_peak_prepare(MomentEdge edge, real n, int even_n) {
+MomentPeak moment_peak_prepare(MomentEdge edge, real n, int f_is_x) {
     real s2 = edge.s * edge.s;
     real c2 = edge.c * edge.c;
     real widest = 0.785398163397448310;
     MomentPeak p;
     p.smallest = 1.0;
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         widest = 1.04719755119659775;
         p.smallest = 0.0;
     }
-    p.ratio_w = moment_peak_half_width_ratio(edge.c, n, even_n);
+    p.ratio_w = moment_peak_half_width_ratio(edge.c, n, f_is_x);
     p.x_w = widest * p.ratio_w;
     real k = 1.0 - p.ratio_w;  // eq. 14: its twelfth power
     real k2 = k * k;
     real k4 = k2 * k2;
     p.x_t = min(p.x_w + 0.3946 * widest * (1.0 - k4 * k4 * k4), 1.57079632679489662);
-    p.peak = moment_peak_height(s2, c2, n, even_n, 1.0, 0.0);
+    p.peak = moment_peak_height(s2, c2, n, f_is_x, 1.0, 0.0);
     real scale = 1.0 / max(p.peak, 1.0e-12);
-    p.y_w = scale * moment_peak_height(s2, c2, n, even_n, moment_peak_cosine(p.x_w), moment_peak_sine(p.x_w));
-    p.y_t = scale * moment_peak_height(s2, c2, n, even_n, moment_peak_cosine(p.x_t), moment_peak_sine(p.x_t));
+    p.y_w = scale * moment_peak_height(s2, c2, n, f_is_x, moment_peak_cosine(p.x_w), moment_peak_sine(p.x_w));
+    p.y_t = scale * moment_peak_height(s2, c2, n, f_is_x, moment_peak_cosine(p.x_t), moment_peak_sine(p.x_t));
     p.y_w = clamp(p.y_w, 0.01, 0.99);
     p.phi0 = trig_atan2(edge.y0, edge.x0);
     p.phi1 = trig_atan2(edge.y1, edge.x1);
@@ -186,31 +187,31 @@ MomentFit moment_fit_blended(MomentPeak p, MomentFit heavy, MomentFit light) {
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front, from a fit.
 //
 // Degenerate: a peak below 1e-12 (n = 1) leaves the smallest value alone.
-real moment_fit_front(MomentEdge edge, MomentPeak p, MomentFit fit, int even_n) {
+real moment_fit_front(MomentEdge edge, MomentPeak p, MomentFit fit, int f_is_x) {
     real peak = select(p.peak > 1.0e-12, p.peak * fit.integral, 0.0);
     real front = edge.s * (peak + p.smallest * (p.phi1 - p.phi0));
-    if (even_n == 1) {
+    if (f_is_x == 1) {
         front = front + moment_solid_angle_front(edge);
     }
     return max(front, 0.0);
 }
 
 // The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
-real moment_lorentzian_front(MomentEdge edge, real n, int even_n) {
-    MomentPeak p = moment_peak_prepare(edge, n, even_n);
-    return moment_fit_front(edge, p, moment_fit_lorentzian(p), even_n);
+real moment_lorentzian_front(MomentEdge edge, real n, int f_is_x) {
+    MomentPeak p = moment_peak_prepare(edge, n, f_is_x);
+    return moment_fit_front(edge, p, moment_fit_lorentzian(p), f_is_x);
 }
 
 // The blend of Lorentzian and Pearson VII for one edge.
-real moment_pearson_front(MomentEdge edge, real n, int even_n) {
-    MomentPeak p = moment_peak_prepare(edge, n, even_n);
+real moment_pearson_front(MomentEdge edge, real n, int f_is_x) {
+    MomentPeak p = moment_peak_prepare(edge, n, f_is_x);
     MomentFit fit = moment_fit_blended(p, moment_fit_lorentzian(p), moment_fit_pearson(p));
-    return moment_fit_front(edge, p, fit, even_n);
+    return moment_fit_front(edge, p, fit, f_is_x);
 }
 
 // The blend of ellipsoid and squared ellipsoid for one edge.
-real moment_ellipsoid_front(MomentEdge edge, real n, int even_n) {
-    MomentPeak p = moment_peak_prepare(edge, n, even_n);
+real moment_ellipsoid_front(MomentEdge edge, real n, int f_is_x) {
+    MomentPeak p = moment_peak_prepare(edge, n, f_is_x);
     MomentFit fit = moment_fit_blended(p, moment_fit_ellipsoid(edge, p), moment_fit_ellipsoid_squared(edge, p));
-    return moment_fit_front(edge, p, fit, even_n);
+    return moment_fit_front(edge, p, fit, f_is_x);
 }
