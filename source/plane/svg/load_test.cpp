@@ -377,8 +377,10 @@ TEST(LoadSvg, WrittenScenesReadBackAsTheSame) {
       }
     const PlaneSvg read = load_plane_scene_from_text(plane_scene_to_svg(scene), "written.svg");
     ASSERT_EQ(read.scene.bodies.size(), scene.bodies.size());
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (!scene.bodies[i].light) EXPECT_NEAR(read.scene.bodies[i].color.y, 0.25, 1e-12);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      if (scene.bodies[i].light) continue;
+      EXPECT_NEAR(read.scene.bodies[i].color.y, 0.25, 1e-12);
+    }
     const PlaneWorld before(scene), after(read.scene);
     for (Vec2d p : points_outside(before, 20, 4)) {
       EXPECT_NEAR(before.query(p).radiance.x, after.query(p).radiance.x, 1e-12);
