@@ -164,8 +164,9 @@ TEST(IndirectLighting, PathsSeeCoatAndSheen) {
   RenderOptions o = options(IndirectMode::path, 0);
   o.spp = 16;
   const auto energy = [&](const SurfaceMaterial& floor) {
+    const Picture picture = render(corner(floor, plastic(0.7f, 0.5f)), o);
     double sum = 0;
-    for (const Vec3f c : render(corner(floor, plastic(0.7f, 0.5f)), o).layers.at("indirect")) sum += static_cast<double>(c.x + c.y + c.z);
+    for (const Vec3f c : picture.layers.at("indirect")) sum += static_cast<double>(c.x + c.y + c.z);
     return sum;
   };
   const SurfaceMaterial dielectric = plastic(0, 0.4f);
