@@ -142,7 +142,7 @@ void write_limits(std::ostream& out) {
       << kCases
       << " lights of each kind, lobes of widths 0.01 to 1 (exponents to match), views 0 to 80 degrees; against `reference`, errors within "
          "its bound "
-         "left out. In float the same, but for 1e-4 of Blinn-Phong (test `LargeLight`, `SmallLight`).\n\n| lobe and method |";
+         "left out. In double; tests `LargeLight` and `SmallLight` hold float to the same.\n\n| lobe and method |";
   for (const Kind& kind : kKinds) out << " " << kind.name << " |";
   out << "\n|---|";
   for (std::size_t i = 0; i < std::size(kKinds); ++i) out << "---:|";
