@@ -80,9 +80,10 @@ struct PhongLobe {
   }
 };
 
-// Of a method over lights that are small against the lobe.
-inline double bias_of(const PhongOptions& options) {
-  if (options.method != Method::series) return kUnbiased;
+// Of a method over lights that are small against the lobe. Below an exponent of 2 the lobe has a bend where it ends, which elements do not
+// see: they serve only what is tiny there.
+inline double bias_of(double exponent, const PhongOptions& options) {
+  if (options.method != Method::series || exponent < 2) return kUnbiased;
   return options.quality == Quality::high ? kHighSeriesBias : kSeriesBias;
 }
 
@@ -95,9 +96,8 @@ class Phong {
 
   bool foreshortened = false;  // the shares are those of the lobe times the light's cosine
 
-  // Below an exponent of 2 the lobe has a bend where it ends, which elements do not see: they serve only what is tiny there.
   STERADIAN_INLINE Phong(Share share, double exponent, const PhongOptions& options)
-      : exponent_(exponent), bias_(exponent < 2 ? kUnbiased : bias_of(options)), share_(share) {}
+      : exponent_(exponent), bias_(bias_of(exponent, options)), share_(share) {}
   STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
     axis_ = Kernels<S>().phong_mirror(shading.view);
     sum_ = 0.0;

@@ -232,7 +232,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
     const LightQuarters& q = light.quarters;
     const Vec3d to = q.center - at.position;
     const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
-    const double bias = quality == Quality::high ? integrals::kHighSeriesBias : integrals::kSeriesBias;
+    const double bias = integrals::bias_of(m.exponent, {Method::series, quality});
     const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
     const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
       const integrals::PhongLobe<S> lobe(m.exponent);
