@@ -99,7 +99,7 @@ TEST_F(Program, RenderOfAPlaneTakesEveryMethod) {
   EXPECT_EQ(refused.status, 1) << "par knows no range";
   EXPECT_NE(refused.err.find("use exact"), std::string::npos) << refused.err;
   // Where one light and nothing else stands, the heuristic is exact.
-  std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'><circle cx='48' cy='32' r='9' class='light'/></svg>";
+  std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'><circle cx='48' cy='32' r='9' class='light' fill='#fff'/></svg>";
   EXPECT_NEAR(mean("par") / mean("exact"), 1, 1e-5);
 }
 
