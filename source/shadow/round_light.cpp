@@ -28,7 +28,9 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
     const Vec3d near_end = dot(to, axis) > 0 ? tube.end_b : tube.end_a;
     Vec3d through = center, normal = across;
     double distance = length(across);
-    if (!(distance > std::sin(20 * std::numbers::pi / 180) * length(p - near_end)) || axis == Vec3d{}) {
+    // Beyond an end and nearly along the axis the plane across the sight of that end; alongside the tube that of the axis.
+    const bool beyond = std::fabs(dot(to, axis)) > length(tube.end_b - tube.end_a) / 2;
+    if ((beyond && !(distance > std::sin(20 * std::numbers::pi / 180) * length(p - near_end))) || axis == Vec3d{}) {
       through = near_end;
       normal = p - near_end;
       distance = length(normal);
@@ -39,7 +41,8 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
     const double height = dot(through - p, normal);  // negative
     for (Vec3d& v : seen.vertices) {
       const Vec3d d = normalized(v - p);
-      v = p + d * (height / std::min(dot(d, normal), -1e-6));
+      const double down = std::min(dot(d, normal), -1e-6);  // on the plane, whatever the rounding
+      v = p + (d + normal * (down - dot(d, normal))) * (height / down);
     }
   }
   return prepare_polygon(seen);

@@ -138,6 +138,22 @@ TEST(ShadowRender, LobesUnderPartsOfLightsAgreeWithTheReference) {
   EXPECT_GE(z.share(), 0.9975) << "worst " << z.worst;
 }
 
+// Points right beside a long tube, far from both of its ends, and points beyond an end along its axis: all of them see it, and as much
+// of it as without shadows where nothing stands between.
+TEST(ShadowRender, SeesALongTubeFromRightBesideIt) {
+  Scene scene = still_life();
+  scene.meshes.resize(1);
+  for (const double height : {0.06, 0.3, 1.0}) {
+    scene.area_lights = {AreaLight{Capsule{{-3, height, 0.3}, {2, height, 0.1}, 0.04}, {3, 2, 1}}};
+    RenderOptions options = small();
+    const Picture shadowed = render(scene, options);
+    options.shadows = Shadows::off;
+    const Picture open = render(scene, options);
+    for (std::size_t i = 0; i < open.pixels.size(); ++i)
+      ASSERT_LT(length(shadowed.pixels[i] - open.pixels[i]), 1e-4f * (1 + length(open.pixels[i]))) << height << ", " << i;
+  }
+}
+
 TEST(ShadowRender, GivesTheSameBytesAtAnyNumberOfThreads) {
   Scene scene = still_life();
   scene.area_lights = {panel(), ball()};
