@@ -28,9 +28,9 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
     const Vec3d near_end = dot(to, axis) > 0 ? tube.end_b : tube.end_a;
     Vec3d through = center, normal = across;
     double distance = length(across);
-    // Beyond an end and nearly along the axis the plane across the sight of that end; alongside the tube that of the axis.
+    // Beyond an end the plane across the sight of that end, alongside the tube across that of the axis: there the two are one.
     const bool beyond = std::fabs(dot(to, axis)) > length(tube.end_b - tube.end_a) / 2;
-    if ((beyond && !(distance > std::sin(20 * std::numbers::pi / 180) * length(p - near_end))) || axis == Vec3d{}) {
+    if (beyond || axis == Vec3d{}) {
       through = near_end;
       normal = p - near_end;
       distance = length(normal);
