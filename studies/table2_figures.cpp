@@ -155,9 +155,7 @@ std::vector<std::string> write_table2_figures(const std::string& folder, Simd si
   std::vector<std::string> files;
   const auto write = [&](const std::string& name, const LinePlot& plot) {
     files.push_back(folder + "/" + name);
-    AtomicFile file(files.back());
-    file.write(to_svg(plot));
-    file.commit();
+    write_file(files.back(), to_svg(plot));
   };
   write("phong_integrand.svg", integrand_plot());
   write("phong_half_width.svg", half_width_plot());

@@ -180,14 +180,6 @@ double own_error(const Picture& picture) {
   return norm > 0 ? std::sqrt(variance / norm) : 0;
 }
 
-double white_of(const Picture& picture) {
-  std::vector<float> values;
-  for (const Vec3f& c : picture.pixels) values.insert(values.end(), {c.x, c.y, c.z});
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * 0.999);
-  std::nth_element(values.begin(), at, values.end());
-  return static_cast<double>(*at);
-}
-
 Report compared(const Subject& subject, const Options& options) {
   // All of a method's settings first, so that a method that does not exist or serve is refused before the long work.
   std::vector<std::pair<std::vector<Setting>, std::size_t>> settings;
@@ -220,20 +212,14 @@ Report compared(const Subject& subject, const Options& options) {
   return report;
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path.string());
-  file.write(text);
-  file.commit();
-}
-
 void write(const Report& report, const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) throw Error(folder.string(), "cannot make this folder: " + failed.message(), "choose another with -o");
   write_picture(report.reference, (folder / "reference.exr").string());
   for (const Compared& of : report.methods) write_picture(of.picture, (folder / (of.run.method + ".exr")).string());
-  write_text(folder / "report.json", report_json(report));
-  write_text(folder / "index.html", report_page(report));
+  write_file((folder / "report.json").string(), report_json(report));
+  write_file((folder / "index.html").string(), report_page(report));
 }
 
 void print(const Report& report, const std::string& folder) {

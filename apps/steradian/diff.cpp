@@ -42,16 +42,6 @@ Limit parse_limit(const std::string& text) {
   throw CLI::ValidationError("--fail-above", "'" + text + "' is not METRIC=VALUE with rmse, relative_l2 or max");
 }
 
-// The value that all but a thousandth of the reference's channels stay below: what an exposure would map to 1.
-double white_of(const Picture& picture) {
-  std::vector<float> values;
-  for (const Vec3f& c : picture.pixels) values.insert(values.end(), {c.x, c.y, c.z});
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * 0.999);
-  std::nth_element(values.begin(), at, values.end());
-  return static_cast<double>(*at);
-}
-
 // The pictures alone are compared, not what else their files hold.
 void say_what_is_left_out(const std::string& path, const Picture& picture) {
   std::vector<std::string> names = picture.unread;

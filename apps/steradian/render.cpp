@@ -129,12 +129,6 @@ Picture rendered(const Scene& scene, const Options& options, RenderStats& stats,
   }
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 // Of three dimensions: what an option needs to have an effect.
 void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
   const RenderOptions& r = options.render;
@@ -273,7 +267,7 @@ void run(const CLI::App& verb, Options& options) {
   write_picture(picture, options.output, exposure);
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
-  if (!options.stats.empty()) write_text(options.stats, stats_json(options, stats).dump(2) + "\n");
+  if (!options.stats.empty()) write_file(options.stats, stats_json(options, stats).dump(2) + "\n");
   if (options.resume) std::filesystem::remove(partial_path(options.output));
 }
 

@@ -76,9 +76,7 @@ void render_plane_scene(const PlaneRender& job) {
                                        {"method", name_of(options.method)},
                                        {"passes", passes},
                                        {"total_ms", stats.prepare_ms + stats.frame_ms}};
-  AtomicFile file(job.stats);
-  file.write(json.dump(2) + "\n");
-  file.commit();
+  write_file(job.stats, json.dump(2) + "\n");
 }
 
 }  // namespace steradian::app

@@ -16,4 +16,7 @@ struct Difference {
 // b is the reference. Throws Error when the sizes differ or a pixel is not finite.
 Difference difference(const Picture& a, const Picture& b);
 
+// The value that all but a thousandth of the channels stay below: what an exposure would map to 1. 0 of an empty picture.
+double white_of(const Picture& picture);
+
 }  // namespace steradian

@@ -133,4 +133,10 @@ void AtomicFile::fail(const char* doing, int error) const {
   throw Error(path_, std::string(doing) + ": " + std::strerror(error), hint_for(error));
 }
 
+void write_file(const std::string& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
 }  // namespace steradian

@@ -32,6 +32,9 @@ class AtomicFile {
   bool direct_ = false;
 };
 
+// A whole file at once.
+void write_file(const std::string& path, std::string_view bytes);
+
 // Writes all bytes to a descriptor, however many calls it takes; `name` is for the Error.
 void write_all(int descriptor, std::string_view bytes, const std::string& name);
 

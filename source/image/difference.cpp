@@ -52,4 +52,14 @@ Difference difference(const Picture& a, const Picture& b) {
   return d;
 }
 
+double white_of(const Picture& picture) {
+  std::vector<float> values;
+  values.reserve(3 * picture.pixels.size());
+  for (const Vec3f& c : picture.pixels) values.insert(values.end(), {c.x, c.y, c.z});
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * 0.999);
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<double>(*at);
+}
+
 }  // namespace steradian

@@ -37,20 +37,14 @@ Picture linear_picture(const Image& image, const std::string& place, Budget& bud
   return picture;
 }
 
-void write(const std::string& path, const std::string& bytes) {
-  AtomicFile file(path);
-  file.write(bytes);
-  file.commit();
-}
-
 }  // namespace
 
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops) {
   const std::string e = ending(path);
   if (e == ".exr")
-    write(path, image::encode_exr(picture));
+    write_file(path, image::encode_exr(picture));
   else if (e == ".png")
-    write(path, image::encode_png(picture, exposure_stops));
+    write_file(path, image::encode_png(picture, exposure_stops));
   else
     throw Error(path, "unknown picture format '" + e + "'", "use .exr (linear) or .png (tone mapped)");
 }

@@ -81,7 +81,8 @@ TEST(Eval, AnswersEveryMaterialMethodAndLight) {
         EXPECT_EQ(a.contains("standard_error"), method == "sampled");
         EXPECT_EQ(a.contains("bound"), a["method"] == "reference");
         if (method == "reference") truth = a;
-        // docs/accuracy.md, in shares of the full lobe: the largest errors of single points; of `sampled` its own standard error.
+        // docs/accuracy.md, in shares of the full lobe: the largest errors of single points, under lights of radiance 3 at most; of
+        // `sampled` its own standard error.
         const double of_method = resolved == "exact" ? 1e-9 : resolved == "series" ? 1.3e-3 : resolved == "closed-form" ? 0.02 : 0.03;
         const bool is_point = light.find("point") != std::string::npos;
         for (std::size_t c = 0; c < 3; ++c) {

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "shapes/area_moments.h"
 #include "shadow/round_light.h"
+#include "shadow/round_shaft.h"
 #include "shadow/visible.h"
 
 namespace steradian {
@@ -38,63 +39,6 @@ class EmbreeBlockers : public shadow::Blockers {
  private:
   const RayScene& rays_;
 };
-
-struct Ball {
-  Vec3d center;
-  double radius = 0;
-};
-
-// Holds a sphere, ellipsoid or tube.
-Ball ball_around(const AreaLight& area) {
-  if (const auto* c = std::get_if<Capsule>(&area.shape)) return {(c->end_a + c->end_b) * 0.5, length(c->end_b - c->end_a) / 2 + c->radius};
-  const auto& e = std::get<Ellipsoid>(area.shape);
-  const double x2 = dot(e.x, e.x), y2 = dot(e.y, e.y), z2 = dot(e.z, e.z);
-  const double skew = std::fabs(dot(e.x, e.y)) + std::fabs(dot(e.y, e.z)) + std::fabs(dot(e.z, e.x));
-  const bool right_angles = skew < 1e-6 * (x2 + y2 + z2);
-  return {e.center, right_angles ? std::sqrt(std::max({x2, y2, z2})) * (1 + 1e-5) : std::sqrt(x2 + y2 + z2)};
-}
-
-// A frame whose shaft holds a round light for all points of a group: a square behind its bounding ball.
-std::optional<LightFrame> frame_behind(const PackLight& light, const std::vector<Vec3d>& points) {
-  const Ball ball = ball_around(*light.area);
-  const double radius = 1.5 * ball.radius;  // the box around the polygon has corners
-  Vec3d middle{};
-  for (const Vec3d& p : points) middle += p / static_cast<double>(points.size());
-  const Vec3d axis = ball.center - middle;
-  const double distance = length(axis);
-  if (!(distance > 0)) return std::nullopt;
-  double nearest = INFINITY, farthest = 0, spread = 0;
-  LightFrame frame;
-  frame.axes = Frame::from_normal(axis / distance);
-  for (const Vec3d& p : points) {
-    const Vec3d d = frame.axes.to_local(ball.center - p);
-    nearest = std::min(nearest, length(d));
-    farthest = std::max(farthest, length(d));
-    spread = std::max(spread, std::hypot(d.x, d.y));
-  }
-  if (nearest < 1.2 * radius || distance < 2 * spread) return std::nullopt;
-  frame.origin = ball.center + frame.axes.z * radius;
-  // The tangent cone from the nearest point, at the square's plane, and its tilt for points off the axis.
-  const double tangent = radius / std::sqrt(nearest * nearest - radius * radius), tilt = spread / (distance - spread);
-  const double half = (farthest + radius) * (tangent * (1 + tilt) * (1 + tilt)) + radius * tilt;
-  frame.half_x = frame.half_y = half;
-  frame.box_x = frame.box_y = 1.1 * half;
-  return frame;
-}
-
-// Triangles whose box meets that of a round light, enlarged: the polygon's box in its plane reaches beyond the ball.
-std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& area) {
-  const Ball ball = ball_around(area);
-  const double reach = 1.6 * ball.radius;
-  std::vector<std::uint32_t> result;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - ball.center, b = mesh.vertices[mesh.triangles[t][1]] - ball.center,
-                c = mesh.vertices[mesh.triangles[t][2]] - ball.center;
-    const auto apart = [&](double x, double y, double z) { return std::min({x, y, z}) > reach || std::max({x, y, z}) < -reach; };
-    if (!apart(a.x, b.x, c.x) && !apart(a.y, b.y, c.y) && !apart(a.z, b.z, c.z)) result.push_back(t);
-  }
-  return result;
-}
 
 bool on_light(const LightFrame& frame, double x, double y) {
   bool inside = false;
@@ -214,7 +158,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
         flat.sides[s] = side_of(flat.polygon, s == 0 ? 1 : -1);
         flat.sides[s]->crossing = shadow::crossing_triangles(mesh_, flat.sides[s]->frame);
       }
-    if (light.is_round() && !is_disk(light)) flat.near = triangles_near(mesh_, *light.area);
+    if (light.is_round() && !is_disk(light)) flat.near = shadow::triangles_near(mesh_, *light.area);
     flats_.push_back(std::move(flat));
   }
 }
@@ -425,7 +369,7 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
                             Work& work) const {
   work.whole_outline = true;
   work.turned = true;
-  const Ball ball = ball_around(*light.area);
+  const shadow::Ball ball = shadow::ball_around(*light.area);
   work.base.origin = ball.center;
   work.base.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
@@ -452,7 +396,7 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
 
 // Fills work.tile with what points that see a round light need. False where no shaft holds them: then with everything.
 bool ShadowPass::gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const {
-  const std::optional<LightFrame> behind = frame_behind(light, positions);
+  const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, positions);
   if (!behind) return false;
   const Shaft shaft(*behind, positions);
   tree_.gather(mesh_, shaft, work.edges);
@@ -468,7 +412,7 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
                                   Work& work) const {
   std::vector<Vec3d> positions;
   for (const std::uint32_t i : slots) positions.push_back(work.at(i).position);
-  const std::optional<LightFrame> behind = frame_behind(light, positions);
+  const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, positions);
   work.cut_outs = !cut_outs_.empty();
   if (behind && (together || gather_round(light, flat, positions, work))) {
     const Shaft shaft(*behind, positions);
