@@ -19,8 +19,8 @@ struct Ball {
 // Holds a sphere, ellipsoid or tube.
 Ball ball_around(const AreaLight& light);
 
-// A frame whose shaft holds a sphere, ellipsoid or tube for all points of a group: a square behind its bounding ball. None where the group is
-// too near or too wide for one.
+// A frame whose shaft holds a sphere, ellipsoid or tube for all points of a group: a square behind its bounding ball. None where the group
+// is too near or too wide for one.
 std::optional<LightFrame> frame_behind(const AreaLight& light, const std::vector<Vec3d>& points);
 
 // Triangles whose box meets that of the light, enlarged: the polygon's box in its plane reaches beyond the ball.
