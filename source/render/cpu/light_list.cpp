@@ -94,6 +94,19 @@ bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
       light.shape);
 }
 
+// Where an edge passes the ball, if points of the ball see it under nearly half a turn.
+std::optional<Vec3d> foot_on_long_edge(Vec3d a, Vec3d b, Vec3d center, double radius) {
+  constexpr double kBend = 0.014;  // what is left of half a turn [rad] where an edge's plane is known to 1e-5
+  constexpr double kLong = 20;     // an edge's least length on each side, in the ball's radii: points of a tile may touch any shorter edge
+  const double span = length(b - a);
+  if (!(span > 2 * kLong * radius)) return std::nullopt;
+  const Vec3d along = (b - a) / span;
+  const double before = dot(center - a, along), arm = std::min(before, span - before);
+  const Vec3d foot = a + along * before;
+  if (arm < kLong * radius || length(center - foot) - radius > kBend * arm) return std::nullopt;
+  return foot;
+}
+
 }  // namespace
 
 PackLight prepare_light(const PreparedPolygon& polygon) {
@@ -109,7 +122,10 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
   const auto add = [&](PackLight light) {
     const Vec3f& r = light.radiance;
     const bool shines = r.x > 0 || r.y > 0 || r.z > 0;
-    if (shines && std::visit([](const auto& shape) { return has_extent(shape); }, light.shape)) lights.push_back(std::move(light));
+    if (shines && std::visit([](const auto& shape) { return has_extent(shape); }, light.shape)) {
+      light.index = lights.size();
+      lights.push_back(std::move(light));
+    }
   };
   for (const AreaLight& a : scene.area_lights) {
     PackLight light = from_area_light(a);
@@ -127,7 +143,30 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
   return lights;
 }
 
-std::vector<const PackLight*> lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile) {
+std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius) {
+  PreparedPolygon cut;  // stays empty up to the first long edge: there is none in most tiles
+  std::size_t contour = 0;
+  for (std::size_t i = 0; i < light.vertices.size(); ++i) {
+    while (i == light.contours[contour + 1]) ++contour;
+    const bool last = i + 1 == light.contours[contour + 1];
+    const Vec3d a = light.vertices[i], b = light.vertices[last ? light.contours[contour] : i + 1];
+    const std::optional<Vec3d> foot = foot_on_long_edge(a, b, center, radius);
+    if (foot && cut.contours.empty()) {
+      cut = light;
+      cut.vertices.resize(i);
+      cut.contours.resize(contour + 1);
+    }
+    if (cut.contours.empty()) continue;
+    cut.vertices.push_back(a);
+    if (foot)
+      for (const double at : {-2.0, 0.0, 2.0}) cut.vertices.push_back(*foot + normalized(b - a) * (at * radius));
+    if (last) cut.contours.push_back(cut.vertices.size());
+  }
+  if (cut.contours.empty()) return std::nullopt;
+  return packed::prepare(cut);
+}
+
+ReachingLights lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile) {
   Box positions, normals;
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (tile.material[i] == nullptr) continue;
@@ -135,9 +174,18 @@ std::vector<const PackLight*> lights_reaching(const std::vector<PackLight>& ligh
     normals.add({tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
     if (tile.coat[i] > 0) normals.add({tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]});
   }
-  std::vector<const PackLight*> result;
-  for (const PackLight& light : lights)
-    if (reaches(light, positions, normals)) result.push_back(&light);
+  const Vec3d low{positions.x.low, positions.y.low, positions.z.low}, high{positions.x.high, positions.y.high, positions.z.high};
+  ReachingLights result;
+  for (const PackLight& light : lights) {
+    if (!reaches(light, positions, normals)) continue;
+    result.lights.push_back(&light);
+    if (!light.is_polygon()) continue;
+    std::optional<packed::Polygon> cut = with_long_edges_cut(light.polygon, (low + high) / 2, length(high - low) / 2);
+    if (!cut) continue;
+    result.cut.push_back(std::make_unique<PackLight>(light));
+    result.cut.back()->shape = std::move(*cut);
+    result.lights.back() = result.cut.back().get();
+  }
   return result;
 }
 

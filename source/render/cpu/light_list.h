@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -21,6 +22,7 @@ struct PackLight {
   std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual, packed::Pieces> shape;
   Vec3f radiance{};                               // punctual lights: intensity (illuminance for directional)
   const AreaLight* area = nullptr;                // what it was made of; null for punctual lights
+  std::size_t index = 0;                          // among all of the scene's
   PreparedPolygon polygon;                        // polygon, in double
   std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
 
@@ -46,8 +48,17 @@ PackLight prepare_light(const PreparedPolygon& polygon);
 // All lights of a scene, and area lights beside them, which must stay. Lights without area, power or volume are left out.
 std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLight> beside = {});
 
-// Lights that may reach a surface of the tile: conservative bounds of positions and normals against the light's plane
-// and the surfaces' horizons.
-std::vector<const PackLight*> lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile);
+// Lights that may reach a surface of a tile.
+struct ReachingLights {
+  std::vector<const PackLight*> lights;
+  std::vector<std::unique_ptr<PackLight>> cut;  // what some of them point to: see with_long_edges_cut
+};
+
+// By conservative bounds of positions and normals against the light's plane and the surfaces' horizons.
+ReachingLights lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile);
+
+// The polygon with corners between those of its edges that points of the ball see under nearly half a turn: an edge whose ends are all but
+// opposite leaves single precision no direction in between. The same outline; empty where no edge is as long.
+std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius);
 
 }  // namespace steradian

@@ -27,10 +27,9 @@ STERADIAN_INLINE Both integrate_over(const Outline& outline, const integrals::Sh
 }
 
 // Functions of their own, so that each holds one walk in registers.
-template <bool with_diffuse>
-__attribute__((flatten, noinline)) Both integrate_polygon(const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
-                                                          const PackVec3& view, const Lobe& lobe) {
-  return integrate_over<with_diffuse>(PolygonOutline{seen, frame, p}, seen.shading(view), lobe);
+template <bool with_diffuse, class Outline>
+__attribute__((flatten, noinline)) Both integrate_polygon(const Outline& outline, const PackVec3& view, const Lobe& lobe) {
+  return integrate_over<with_diffuse>(outline, outline.seen.shading(view), lobe);
 }
 
 template <bool with_diffuse>
@@ -63,9 +62,12 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
     if (any_lane(seen.lit)) {
       const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
+      const PolygonOutline polygon = {{seen, frame, p}};
       both = light.is_round()    ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
              : light.is_pieces() ? integrate_pieces<with_diffuse>(seen, frame, view, lobe)
-                                 : integrate_polygon<with_diffuse>(seen, frame, p, view, lobe);
+             : polygon.may_be_small(integrals::kTransformed.least_distance2)
+                 ? integrate_polygon<with_diffuse>(polygon, view, lobe)
+                 : integrate_polygon<with_diffuse>(PolygonEdges{seen, frame, p}, view, lobe);
     }
     if (with_diffuse) store(sums.irradiance + i, irradiance_below(both.irradiance, view, fresnel_loss(points, i)));
     store(sums.specular + i, both.specular.x);

@@ -18,7 +18,7 @@ __attribute__((flatten, noinline)) void radiance_by(const Share& share, double e
     const SeenLight seen(light, p, i);
     const auto shading = seen.shading(transform_transposed(frame, v));
     const auto r = light.is_pieces() ? integrate(PiecesOutline{seen, frame}, shading, integral)
-                                     : integrate(PolygonOutline{seen, frame, p}, shading, integral);
+                                     : integrate(PolygonOutline{{seen, frame, p}}, shading, integral);
     store(result + i, r.x);
   }
 }

@@ -400,9 +400,9 @@ class Renderer {
     const float weight = 1.0f / static_cast<float>(options_.aa);
     const auto reaching = lights_reaching(lights_, tile);
     if (shadows_) {
-      add_shadowed(tile, reaching);
+      add_shadowed(tile, reaching.lights);
     } else {
-      add_light(tile, reaching);
+      add_light(tile, reaching.lights);
     }
     if (environment_ && !method_.estimates()) environment_clock_.run([&] { add_environment(tile); });
     if (method_.estimates())

@@ -57,8 +57,9 @@ STERADIAN_INLINE PackReal distance2_of(const PackLight& light, const PackVec3& p
   return result;
 }
 
-// The contours of a polygon.
-struct PolygonOutline {
+// The contours of a polygon that no lane sees as small. Where the walk is short, the elements in the same function cost it an eighth,
+// by the registers that they take: a caller may ask PolygonOutline::may_be_small first, and have a function for each.
+struct PolygonEdges {
   const SeenLight& seen;
   const PackKernels::mat3& frame;
   const PackVec3& p;
@@ -67,12 +68,17 @@ struct PolygonOutline {
   STERADIAN_INLINE void walk(End end, Add add) const {
     shapes::contours_in<Pack>(polygon(), frame, p).walk(end, add);
   }
+  STERADIAN_INLINE const packed::Polygon& polygon() const { return *std::get_if<packed::Polygon>(&seen.light.shape); }
+};
+
+// The contours of any polygon.
+struct PolygonOutline : PolygonEdges {
   PackKernels::LightElements elements() const { return elements_in(seen, frame, p); }
   STERADIAN_INLINE PackReal deviation2() const { return shapes::deviation2<Pack>(polygon()); }
   STERADIAN_INLINE PackReal distance2() const { return shapes::distance2<Pack>(polygon(), p); }
-
- private:
-  STERADIAN_INLINE const packed::Polygon& polygon() const { return *std::get_if<packed::Polygon>(&seen.light.shape); }
+  STERADIAN_INLINE bool may_be_small(double least_distance2) const {
+    return any_lane(seen.lit && distance2() > deviation2() * PackReal(least_distance2));
+  }
 };
 
 // What bounds the visible part behind occluders, for each point by itself. Edges lie above the horizon of the surface's normal.
@@ -150,7 +156,7 @@ struct AnyOutline {
     else if (round.seen.light.is_pieces())
       pieces().walk(end, add);
     else
-      PolygonOutline{round.seen, round.frame, round.p}.walk(end, add);
+      PolygonEdges{round.seen, round.frame, round.p}.walk(end, add);
   }
   PackKernels::LightElements elements() const { return is_pieces() ? pieces().elements() : round.elements(); }
   STERADIAN_INLINE PackReal deviation2() const { return is_pieces() ? pieces().deviation2() : round.deviation2(); }
@@ -179,7 +185,7 @@ __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight
     return e;
   }
   integrals::Irradiance<Pack> integral;
-  return integrate(PolygonOutline{light, frame, p}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
+  return integrate(PolygonOutline{{light, frame, p}}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral).z;
 }
 
 __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenLight& light, const PackKernels::mat3& frame,
@@ -191,7 +197,7 @@ __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenL
     return e;
   }
   integrals::Irradiance<Pack> integral;
-  return integrate(PolygonOutline{light, frame, p}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
+  return integrate(PolygonOutline{{light, frame, p}}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
 }
 
 // What of it reaches a diffuse lobe under a dielectric's boundary (kernels/lobe/lambert.glsl). view: in the frame.

@@ -173,7 +173,7 @@ void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const P
   result.seen.fill(Seen::dark);
   result.parts.clear();
   result.edges.clear();
-  const Flat& flat = flats_[static_cast<std::size_t>(&light - lights_.data())];
+  const Flat& flat = flats_[light.index];
   if (!light.is_area())
     find_punctual(tile, light, work);
   else if (!flat.polygon.vertices.empty())
