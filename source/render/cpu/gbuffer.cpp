@@ -1,7 +1,11 @@
 #include "render/cpu/gbuffer.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
+
+#include "render/cpu/plain_surface.h"
 
 namespace steradian {
 namespace {
@@ -13,6 +17,17 @@ void put(TileVector& v, std::size_t i, Vec3f a) {
 }
 
 bool weighs(Vec3f a) { return a.x > 0 || a.y > 0 || a.z > 0; }
+
+// What the tile holds, now that it holds this surface.
+void note(SurfaceTile& tile, const Surface& s) {
+  tile.any_surface = true;
+  tile.any_passing |= weighs(s.passes);
+  tile.any_diffuse |= weighs(s.albedo);
+  tile.any_specular |= weighs(s.f0) || weighs(s.f90);
+  tile.any_sheen |= weighs(s.sheen);
+  tile.any_coat |= s.coat > 0;
+  tile.any_override |= !s.material->specular_override.empty();
+}
 
 void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view) {
   put(tile.position, i, s.position);
@@ -33,14 +48,13 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   put(tile.coat_normal, i, s.coat_normal);
   put(tile.radiance, i, s.emission);
   put(tile.passes, i, s.passes);
-  tile.any_passing |= weighs(s.passes);
   tile.material[i] = s.material;
-  tile.any_surface = true;
-  tile.any_diffuse |= weighs(s.albedo);
-  tile.any_specular |= weighs(s.f0) || weighs(s.f90);
-  tile.any_sheen |= weighs(s.sheen);
-  tile.any_coat |= s.coat > 0;
-  tile.any_override |= !s.material->specular_override.empty();
+  note(tile, s);
+}
+
+std::array<TileVector*, 12> vectors_of(SurfaceTile& t) {
+  return {&t.position, &t.normal, &t.geometric_normal, &t.view,   &t.albedo,  &t.f0, &t.f90,
+          &t.tangent,  &t.sheen,  &t.coat_normal,      &t.passes, &t.radiance};
 }
 
 Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
@@ -48,9 +62,7 @@ Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]};
 }  // namespace
 
 void put_nothing(SurfaceTile& tile, std::size_t i) {
-  for (TileVector* v : {&tile.position, &tile.normal, &tile.geometric_normal, &tile.view, &tile.albedo, &tile.f0, &tile.f90, &tile.tangent,
-                        &tile.sheen, &tile.coat_normal, &tile.passes, &tile.radiance})
-    put(*v, i, {});
+  for (TileVector* v : vectors_of(tile)) put(*v, i, {});
   tile.alpha_x[i] = tile.alpha_y[i] = tile.coat_alpha[i] = tile.sheen_alpha[i] = 1;
   tile.coat[i] = tile.fresnel_loss[i] = 0;
   tile.material[i] = nullptr;
@@ -126,16 +138,66 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
     }
 }
 
-void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
+namespace {
+
+constexpr std::size_t kBlock = 16;  // slots that packets of rays and packs have together
+
+// A block behind which nothing is.
+void put_nothing_in_block(SurfaceTile& tile, std::size_t first) {
+  const auto fill = [&](TilePlane& plane, float value) { std::fill_n(plane.data() + first, kBlock, value); };
+  for (TileVector* v : vectors_of(tile))
+    for (TilePlane* plane : {&v->x, &v->y, &v->z}) fill(*plane, 0);
+  for (TilePlane* plane : {&tile.alpha_x, &tile.alpha_y, &tile.coat_alpha, &tile.sheen_alpha}) fill(*plane, 1);
+  for (TilePlane* plane : {&tile.coat, &tile.fresnel_loss}) fill(*plane, 0);
+  std::fill_n(tile.material.data() + first, kBlock, nullptr);
+}
+
+// The mesh that was hit last: neighbours mostly hit the same.
+struct LastMesh {
+  unsigned geometry = RTC_INVALID_GEOMETRY_ID;
+  bool plain = false;
+  Surface like;  // of a plain mesh
+};
+
+}  // namespace
+
+void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, SurfaceTile& tile) {
   tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = tile.any_passing = false;
-  for (std::size_t i = 0; i < kTilePixels; ++i) {
-    if (hits.geometry[i] == RTC_INVALID_GEOMETRY_ID) {
-      put_nothing(tile, i);
+  LastMesh last;
+  const auto surface_of = [&](std::size_t i, Vec3f view) {
+    return surface_at(scene, scene.meshes[hits.geometry[i]], hits.triangle[i], hits.u[i], hits.v[i], view);
+  };
+  for (std::size_t first = 0; first < kTilePixels; first += kBlock) {
+    std::uint32_t hit = 0;
+    for (std::size_t k = 0; k < kBlock; ++k) hit |= std::uint32_t{hits.geometry[first + k] != RTC_INVALID_GEOMETRY_ID} << k;
+    if (hit == 0) {
+      put_nothing_in_block(tile, first);
       continue;
     }
-    const Vec3f view = -get(hits.direction, i);
-    const Mesh& mesh = scene.meshes[hits.geometry[i]];
-    put_surface(tile, i, surface_at(scene, mesh, hits.triangle[i], hits.u[i], hits.v[i], view), view);
+    for (std::size_t k = 0; k < kBlock; ++k)
+      if ((hit >> k & 1) == 0) put_nothing(tile, first + k);
+    while (hit != 0) {  // the slots of one mesh at a time
+      const std::size_t slot = first + static_cast<std::size_t>(std::countr_zero(hit));
+      const unsigned geometry = hits.geometry[slot];
+      const Mesh& mesh = scene.meshes[geometry];
+      std::uint32_t of_mesh = 0;
+      for (std::size_t k = 0; k < kBlock; ++k) of_mesh |= std::uint32_t{hits.geometry[first + k] == geometry} << k;
+      hit &= ~of_mesh;
+      if (geometry != last.geometry) {
+        last.geometry = geometry;
+        last.plain = is_plain(scene, mesh);
+        if (last.plain) last.like = surface_of(slot, -get(hits.direction, slot));
+      }
+      if (last.plain) {
+        note(tile, last.like);
+        of_mesh &= ~packs.fill(mesh, last.like, hits, first, of_mesh, tile);
+      }
+      for (; of_mesh != 0; of_mesh &= of_mesh - 1) {
+        const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(of_mesh));
+        const Vec3f view = -get(hits.direction, i);
+        put_surface(tile, i, surface_of(i, view), view);
+      }
+    }
   }
 }
 

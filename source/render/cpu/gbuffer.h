@@ -27,8 +27,10 @@ struct TileHits {
 void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits,
                 const TilePlane* behind = nullptr);
 
-// The surfaces that were hit. tile.radiance becomes the emission.
-void shade_tile(const Scene& scene, const TileHits& hits, SurfaceTile& tile);
+struct PlainSurfaceTable;
+
+// The surfaces that were hit, plain meshes on packs. tile.radiance becomes the emission.
+void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, SurfaceTile& tile);
 
 // Empties a slot: what packs read there is finite and weighs nothing.
 void put_nothing(SurfaceTile& tile, std::size_t slot);

@@ -18,6 +18,7 @@
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
+#include "render/cpu/plain_surface.h"
 #include "render/cpu/shadow_pass.h"
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
@@ -82,6 +83,7 @@ class Renderer {
         environment_(prepare_environment(scene)),
         lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
         direct_(direct_table_for(active_simd())),
+        plain_surfaces_(plain_surface_table_for(active_simd())),
         specular_(method_, options.table),
         tiles_x_((options.width + kTileSide - 1) / kTileSide),
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
@@ -245,7 +247,7 @@ class Renderer {
     TileHits hits;
     rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
     gbuffer_clock_.run([&] {
-      shade_tile(scene_, hits, tile);
+      shade_tile(scene_, plain_surfaces_, hits, tile);
       if (environment_ && options_.background) show_background(hits, tile, behind);
     });
     TilePlane distances{};
@@ -469,6 +471,7 @@ class Renderer {
   const std::unique_ptr<const environment::EnvironmentLight> environment_;  // null without one
   const std::vector<PackLight> lights_;
   const DirectTable& direct_;
+  const PlainSurfaceTable& plain_surfaces_;
   const SpecularPass specular_;
   const int tiles_x_, tiles_y_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cpu/plain_surface.h"
 #include "steradian/albedo.h"
 
 namespace steradian {
@@ -149,6 +150,17 @@ Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
 }
 
 }  // namespace
+
+bool is_plain(const Scene& scene, const Mesh& mesh) {
+  const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+  const auto black = [](Vec3f c) { return !(c.x > 0 || c.y > 0 || c.z > 0); };
+  for (const TextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
+                                &m.specular_texture, &m.specular_color_texture})
+    if (use->present()) return false;
+  const bool one_sided_glow = m.emits() && !m.double_sided;
+  return mesh.colors.empty() && !m.unlit && !one_sided_glow && m.anisotropy == 0 && m.transmission == 0 && m.clearcoat == 0 &&
+         black(m.sheen_color) && !scene.multiple_scattering;
+}
 
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
