@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "fit/fit_report.h"
 #include "integrals/ltc/ggx_tables.h"
@@ -17,12 +19,19 @@ struct CellCheck {
   double energy = 0;  // the fit's above the horizon over the lobe's
 };
 
-// The cell's texels taken for the lobe of roughness i and view j.
-CellCheck check(const ClassicTable& table, int texel_i, int texel_j, int i, int j, int n) {
-  const std::size_t at = static_cast<std::size_t>(texel_j * table.size + texel_i);
+LtcValue shipped_at(int i, int j) {
+  const ClassicTable& table = ggx_classic_table();
+  const std::size_t at = static_cast<std::size_t>(j * table.size + i);
   const auto& m = table.matrix[at];
-  const LtcValue value = {{m[0], m[2], 1.0, m[1], m[3]}, table.magnitude[at][0], table.magnitude[at][1]};
-  const Lobe lobe = lobe_family("ggx").at(ltc_roughness_at(i, table.size), ltc_cosine_at(j, table.size));
+  return {{m[0], m[2], 1.0, m[1], m[3]}, table.magnitude[at][0], table.magnitude[at][1]};
+}
+
+Lobe lobe_at(int i, int j) { return lobe_family("ggx").at(ltc_roughness_at(i, 64), ltc_cosine_at(j, 64)); }
+
+// The cell's texels taken for the lobe of roughness i and view j.
+CellCheck check(int texel_i, int texel_j, int i, int j, int n) {
+  const LtcValue value = shipped_at(texel_i, texel_j);
+  const Lobe lobe = lobe_at(i, j);
   double albedo = 0;
   for (int a = 0; a < n * n; ++a) {
     const double b = a * 0.6180339887498949;
@@ -32,8 +41,39 @@ CellCheck check(const ClassicTable& table, int texel_i, int texel_j, int i, int 
   return {lobe_l1(lobe, value, n), value.n_a * ltc_above_horizon(value.inverse) / albedo};
 }
 
-// The largest L1 of a good fit: the table of docs/ltc.md, "error of the fits", rounded up.
-double largest_l1(int j) { return ltc_cosine_at(j, 64) > 0.26 ? 0.3 : 0.75; }
+// Columns of the table fitted again, one of each range of roughness; every view of each, the grazing ones with the worst fits included.
+constexpr int kColumns[] = {0, 6, 14, 22, 30, 40, 52, 63};
+const std::vector<LtcCell>& refitted(int i) {
+  static std::map<int, std::vector<LtcCell>> columns;
+  std::vector<LtcCell>& column = columns[i];
+  if (column.empty()) column = fit_column(lobe_family("ggx"), i, 64, {});
+  return column;
+}
+
+LtcValue value_of(const LtcCell& cell) { return {cell.inverse, cell.n_a(), cell.f_a()}; }
+
+// The largest L1 of a good fit at a node: between two columns it exceeds the larger of theirs by an eighth at most (measured over
+// the table), of which this allows twice as much, and 24 x 24 nodes on half a lobe are good to 0.002.
+double largest_l1(int i, int j) {
+  std::size_t k = 0;
+  while (k + 2 < std::size(kColumns) && kColumns[k + 1] <= i) ++k;
+  const auto l1 = [&](int column) { return lobe_l1(lobe_at(column, j), value_of(refitted(column)[static_cast<std::size_t>(j)]), 24); };
+  return 1.25 * std::max(l1(kColumns[k]), l1(kColumns[k + 1])) + 0.002;
+}
+
+// What the fitter's second pass minimises: the relative error on its rectangles and a tenth of the L1.
+double objective(const Lobe& lobe, const LtcValue& value) {
+  const FitOptions options;
+  const std::vector<TestRectangle> lights = test_rectangles_near(lobe, options.lights, 1);
+  const std::vector<double> truth = true_radiance(lobe, lights, options.light_directions);
+  double error = 0, signal = 0;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    const double difference = value.n_a * integrate_rectangle(value.inverse, lights[k]) - truth[k];
+    error += difference * difference;
+    signal += truth[k] * truth[k];
+  }
+  return std::sqrt(error / signal) + options.lobe_share * lobe_l1(lobe, value, options.nodes);
+}
 
 // A lattice of 576 points that the horizon cuts is off by about 576^(-3/4).
 constexpr double kEnergyTolerance = 0.01;
@@ -49,13 +89,12 @@ double relative_error(const LookUp& look_up, double from, double to) {
 }  // namespace
 
 TEST(LtcTable, EveryCellIsTheLobe) {
-  const ClassicTable& table = ggx_classic_table();
-  ASSERT_EQ(table.size, 64);
+  ASSERT_EQ(ggx_classic_table().size, 64);
   double worst = 0, worst_energy = 0;
   for (int j = 0; j < 64; ++j)
     for (int i = 0; i < 64; ++i) {
-      const CellCheck c = check(table, i, j, i, j, 24);
-      EXPECT_LE(c.lobe_l1, largest_l1(j)) << "cell " << i << " " << j;
+      const CellCheck c = check(i, j, i, j, 24);
+      EXPECT_LE(c.lobe_l1, largest_l1(i, j)) << "cell " << i << " " << j;
       EXPECT_NEAR(c.energy, 1, kEnergyTolerance) << "cell " << i << " " << j;
       worst = std::max(worst, c.lobe_l1);
       worst_energy = std::max(worst_energy, std::fabs(c.energy - 1));
@@ -68,28 +107,35 @@ TEST(LtcTable, SwappedAxesWouldFail) {
   for (int j = 1; j < 64; j += 3)
     for (int i = 1; i < 64; i += 3) {
       if (std::abs(i - j) < 4) continue;
-      const CellCheck c = check(ggx_classic_table(), j, i, i, j, 24);
-      failures += c.lobe_l1 > largest_l1(j) || std::fabs(c.energy - 1) > kEnergyTolerance;
+      const CellCheck c = check(j, i, i, j, 24);
+      failures += c.lobe_l1 > largest_l1(i, j) || std::fabs(c.energy - 1) > kEnergyTolerance;
       ++cells;
     }
   EXPECT_GT(failures, cells * 9 / 10) << failures << " of " << cells;
 }
 
-// Continuation makes a cell depend on those before it in its column: columns are fitted again from the start.
+// Continuation makes a cell depend on those before it in its column: whole columns are fitted again. Another compiler may lead the
+// optimiser to another place of a flat valley, so that not entries are compared but what it minimises, and what is no choice of its
+// at all: the energies.
 TEST(LtcTable, IsTheFittersOwn) {
-  const LobeFamily& family = lobe_family("ggx");
-  for (int i : {6, 30, 60}) {
-    const std::vector<LtcCell> column = fit_column(family, i, 12, {});
-    for (int j : {0, 4, 11}) {
-      const LtcCell& cell = column[static_cast<std::size_t>(j)];
-      const auto& m = ggx_classic_table().matrix[static_cast<std::size_t>(j * 64 + i)];
-      const double expected[4] = {cell.inverse.xx, cell.inverse.zx, cell.inverse.xz, cell.inverse.zz};
-      // The optimiser stops at 1e-5 of its variables; compilers may lead it there by different steps.
-      for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(m[c], expected[c] / cell.inverse.yy, 1e-3) << i << " " << j << " entry " << c;
-      EXPECT_NEAR(ggx_classic_table().magnitude[static_cast<std::size_t>(j * 64 + i)][0], cell.n_a(), 1e-4);
-      EXPECT_NEAR(ggx_classic_table().magnitude[static_cast<std::size_t>(j * 64 + i)][1], cell.f_a(), 1e-4);
+  double worst = 0, worst_energy = 0;
+  for (int i : kColumns)
+    for (int j = 0; j < 64; ++j) {
+      const LtcCell& cell = refitted(i)[static_cast<std::size_t>(j)];
+      const LtcValue shipped = shipped_at(i, j);
+      const double above = ltc_above_horizon(shipped.inverse);
+      // The table's floats, of the magnitude and of the four entries that the share above the horizon is made of.
+      EXPECT_NEAR(shipped.n_a * above, cell.albedo, 6 * 6e-8 * cell.albedo) << i << " " << j;
+      EXPECT_NEAR(shipped.f_a * above, cell.grazing, 6 * 6e-8) << i << " " << j;
+      worst_energy = std::max(worst_energy, std::fabs(shipped.n_a * above / cell.albedo - 1));
+      const Lobe lobe = lobe_at(i, j);
+      const double ours = objective(lobe, shipped), again = objective(lobe, value_of(cell));
+      // The last two views of the roughest lobe have two valleys, and builds end in either.
+      const double bound = (i == 63 && j >= 62 ? 0.15 : 0.02) * again + 1e-4;
+      EXPECT_NEAR(ours, again, bound) << i << " " << j;
+      worst = std::max(worst, std::fabs(ours - again) / bound);
     }
-  }
+  std::printf("largest difference of the objectives %.2f of the bound, of the energies %.1e\n", worst, worst_energy);
 }
 
 TEST(LtcFit, IsTheSameAtAnyNumberOfThreads) {

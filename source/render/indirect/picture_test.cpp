@@ -57,15 +57,17 @@ TEST(IndirectPicture, SharpReceiversSeeQuads) {
 // The bounce is the scene's, not the picture's: with fewer pixels the pattern is smaller, and what it joins as near.
 TEST(IndirectPicture, SmallPicturesHaveTheSameLight) {
   const Scene scene = mixed_corner();
-  for (const int width : {48, 160, 320}) {
+  // What docs/indirect.md says of each width; the pattern of 8 has 0.32, 0.15, 0.10. Seeds are fixed: floats of other instruction
+  // sets decide a few pairs at their thresholds otherwise, a fiftieth of the figure at most, beside its last digit.
+  for (const auto& [width, stated] : {std::pair{48, 0.001}, {160, 0.054}, {320, 0.058}}) {
     RenderOptions o = options(IndirectMode::ltc, 1 << 14), all = uncut(1 << 14);
     o.indirect.quads = o.indirect.soften = false;
     o.width = all.width = width;
     o.height = all.height = width * 3 / 4;
     const Difference d = difference(bounce(scene, o), bounce(scene, all));
     std::cout << width << " pixels wide: relative L2 " << d.relative_l2 << ", energy " << d.mean_ratio << "\n";
-    EXPECT_NEAR(d.mean_ratio, 1, 0.01) << width;
-    EXPECT_LT(d.relative_l2, 0.07) << width;  // what docs/indirect.md says; the pattern of 8 has 0.32, 0.15, 0.10
+    EXPECT_NEAR(d.mean_ratio, 1, 0.0035) << width;  // "within 0.3 %"
+    EXPECT_NEAR(d.relative_l2, stated, 0.0005 + stated / 50) << width;
   }
 }
 

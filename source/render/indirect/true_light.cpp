@@ -99,6 +99,10 @@ Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f vi
         out += light.ltc(at_light, by_pair);
         in += eye.ltc(at_eye, false);
         break;
+      case SumLobe::ltc_averaged:
+        out += light.ltc(at_light, false);
+        in += eye.ltc(at_eye, false);
+        break;
       case SumLobe::ltc_outgoing:
         out += light.ltc_from(at_light, at_light.z, std::max(light.view_cosine(), 1e-6));
         in += eye.ltc(at_eye, false);

@@ -11,9 +11,10 @@ namespace steradian::indirect {
 // What lobe a sum evaluates.
 //   ggx            GGX at both ends, Schlick's Fresnel for every pair at both
 //   ltc            algorithm 2: the virtual light's lobe looked up for its incoming light; by pair below F0 0.1
+//   ltc_averaged   the same with Fresnel averaged over the lobe for all
 //   ltc_outgoing   algorithm 1: looked up for every pair at the outgoing direction, times cos theta_o / cos theta_i
 //   ltc_outgoing_raw  the same without that factor
-enum class SumLobe { ggx, ltc, ltc_outgoing, ltc_outgoing_raw };
+enum class SumLobe { ggx, ltc, ltc_averaged, ltc_outgoing, ltc_outgoing_raw };
 
 struct SumOptions {
   SumLobe lobe = SumLobe::ggx;
