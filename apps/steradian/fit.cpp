@@ -35,9 +35,13 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
   return dot == std::string::npos ? path + suffix : path.substr(0, dot) + suffix + path.substr(dot);
 }
 
+ClassicNormalisation normalisation_of(const Options& options) {
+  return options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
+}
+
 void write_table(const LtcTable& table, const Options& options, const std::string& path) {
   const std::vector<TableFile> files = options.layout == "classic"
-                                           ? classic_files(classic_table(table), table.family.name, path)
+                                           ? classic_files(classic_table(table, normalisation_of(options)), table.family.name, path)
                                            : compact_files(compact_table(table, options.compact), table.family.name, path);
   write_files(files);
   for (const TableFile& file : files) fmt::print("{}\n", file.path);
@@ -45,8 +49,7 @@ void write_table(const LtcTable& table, const Options& options, const std::strin
 
 LookUp look_up_of(const LtcTable& table, const Options& options) {
   if (options.layout == "compact") return [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
-  const auto normalisation = options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
-  return [t = classic_table(table, normalisation)](double r, double c) { return t.look_up(r, c); };
+  return [t = classic_table(table, normalisation_of(options))](double r, double c) { return t.look_up(r, c); };
 }
 
 void report(const LtcTable& table, const Options& options) {
@@ -113,7 +116,8 @@ void add_fit(CLI::App& app, Exit&) {
       ->needs("--output");
   verb->add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
   verb->add_option("--report-picture", options->picture, "The error over roughness and view (.png, .exr)")->needs("--report");
-  verb->add_option("--normalisation", options->normalisation, "Of the classic matrix, in the report: its element that is 1")
+  verb->add_option("--normalisation", options->normalisation,
+                   "Of the classic matrix: its element that is 1, in the table and in the report")
       ->check(CLI::IsMember({"middle", "last"}));
   verb->add_option("--threads", options->fit.threads, "0: all")->check(CLI::Range(0, 4096));
   verb->callback([options] { run(*options); });

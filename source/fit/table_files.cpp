@@ -139,6 +139,11 @@ const char* const kClassicText =
     "// Roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends. matrix: M^-1 over its middle\n"
     "// element, column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2. magnitude: n_A, f_A, 0, form factor of\n"
     "// a sphere clipped by the horizon.";
+const char* const kClassicLastText =
+    "the classic layout, of another normalisation.\n"
+    "// Roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends. matrix: M^-1 over its last\n"
+    "// element, column 0 row 0, column 0 row 2, column 2 row 0, column 1 row 1. magnitude: n_A, f_A, 0, form factor of\n"
+    "// a sphere clipped by the horizon.";
 const char* const kCompactText =
     "the compact layout.\n"
     "// Roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends; half floats, two in a word, the\n"
@@ -207,7 +212,9 @@ std::string with_name(std::string text, const std::string& name) {
 
 std::vector<TableFile> classic_files(const ClassicTable& table, const std::string& lobe, const std::string& path) {
   const std::string ending = ending_of(path), name = "ltc_" + identifier(lobe);
-  const std::string head = preamble(lobe, kClassicText, "--size " + std::to_string(table.size) + " --layout classic");
+  const bool last = table.normalisation == ClassicNormalisation::last;
+  const std::string head = preamble(lobe, last ? kClassicLastText : kClassicText,
+                                    "--size " + std::to_string(table.size) + " --layout classic" + (last ? " --normalisation last" : ""));
   if (ending == ".dds")
     return {{numbered(path, "_1"), dds(table.matrix, table.size)}, {numbered(path, "_2"), dds(table.magnitude, table.size)}};
   if (ending == ".exr")
@@ -222,8 +229,11 @@ std::vector<TableFile> classic_files(const ClassicTable& table, const std::strin
     return {{path, head + "\n" + glsl_size(name, table.size) + glsl_array("vec4", name + "_matrix", vec4s(table.matrix)) +
                        glsl_array("vec4", name + "_magnitude", vec4s(table.magnitude))}};
   if (ending == ".json") {
-    nlohmann::ordered_json json = {
-        {"lobe", lobe}, {"layout", "classic"}, {"size", table.size}, {"matrix", table.matrix}, {"magnitude", table.magnitude}};
+    nlohmann::ordered_json json = {{"lobe", lobe}, {"layout", "classic"}};
+    if (last) json["normalisation"] = "last";
+    json["size"] = table.size;
+    json["matrix"] = table.matrix;
+    json["magnitude"] = table.magnitude;
     return {{path, json.dump() + "\n"}};
   }
   refuse(path, "classic", ".dds, .exr, .h, .glsl or .json");

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "fit/tables_of_fit.h"
 #include "integrals/ltc/ggx_tables.h"
 #include "integrals/ltc/half.h"
 #include "steradian/error.h"
@@ -74,6 +77,29 @@ TEST(LtcFiles, JsonAndExrHoldTheTable) {
   const auto exr = classic_files(table, "ggx", "x.exr");
   ASSERT_EQ(exr.size(), 2u);
   EXPECT_EQ(word(exr[0].bytes, 0), 20000630u);  // EXR's magic number
+}
+
+// Both normalisations hold the same matrices up to a factor, and say which they are.
+TEST(LtcFiles, EveryNormalisationIsTheSameLobes) {
+  FitOptions options;
+  options.size = 4;
+  options.nodes = 12;
+  options.lights = 8;
+  options.light_directions = options.magnitude_directions = 256;
+  const LtcTable fit = fit_table(lobe_family("ggx"), options);
+  const auto middle = nlohmann::json::parse(classic_files(classic_table(fit), "ggx", "x.json")[0].bytes);
+  const auto last = nlohmann::json::parse(classic_files(classic_table(fit, ClassicNormalisation::last), "ggx", "x.json")[0].bytes);
+  EXPECT_FALSE(middle.contains("normalisation"));
+  EXPECT_EQ(last["normalisation"], "last");
+  for (std::size_t k = 0; k < 16; ++k) {
+    const auto a = middle["matrix"][k].get<std::array<double, 4>>(), b = last["matrix"][k].get<std::array<double, 4>>();
+    // (xx, zx, xz, zz) over yy, and (xx, zx, xz, yy) over zz; floats round twice.
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(b[c], a[c] / a[3], 2e-7 * std::fabs(b[c])) << k << " " << c;
+    EXPECT_NEAR(b[3], 1 / a[3], 2e-7 * std::fabs(b[3])) << k;
+    EXPECT_EQ(middle["magnitude"][k], last["magnitude"][k]);
+  }
+  const std::string header = classic_files(classic_table(fit, ClassicNormalisation::last), "ggx", "x.h")[0].bytes;
+  EXPECT_NE(header.find("--normalisation last"), std::string::npos);
 }
 
 TEST(LtcFiles, UnknownEndingsAreRefused) {

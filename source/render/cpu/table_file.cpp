@@ -42,6 +42,8 @@ LtcPackTables read_classic_table(const std::string& path) {
   if (table.is_discarded() || !table.is_object()) throw Error(path, "is no table in JSON", hint);
   const auto layout = table.find("layout"), size = table.find("size");
   if (layout == table.end() || *layout != "classic") throw Error(path, "is no table of the classic layout", hint);
+  if (const auto one = table.find("normalisation"); one != table.end() && *one != "middle")
+    throw Error(path, "its matrices have another element that is 1 than the middle one", "write it without --normalisation last");
   if (size == table.end() || !size->is_number_integer() || *size < 2 || *size > kLargestSize)
     throw Error(path, "\"size\" is no number from 2 to " + std::to_string(kLargestSize), hint);
   const int n = size->get<int>();
