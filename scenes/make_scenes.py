@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|textured_floor|ring|arcade ...]
+"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|textured_floor|ring|arcade|hall ...]
 
 Standard library only; the same bytes on every machine: coordinates are rounded before they become floats.
 """
@@ -479,6 +479,53 @@ def arcade():
     return g
 
 
+def hall():
+    """A nave of two storeys with a polished floor, brass columns and vessels, and curtains; sun through an open roof."""
+    g = Gltf()
+    stone = g.diffuse("stone", (0.72, 0.68, 0.60))
+    brass = g.material("brass", (0.90, 0.70, 0.40), 1.0, 0.3)
+    column = lathe(lambda v: (0.26 - 0.04 * v + 0.10 * math.exp(-(v / 0.05) ** 2) + 0.10 * math.exp(-((v - 1) / 0.05) ** 2), 2.9 * v), 32, 20)
+    below, above = g.mesh("column", column, brass), g.mesh("upper column", column, stone)
+    panel = g.mesh("arch", arch(2.4, 1.4, 0.85, 0.5, 20), stone)
+    vessel = g.mesh("vessel", lathe(lambda v: (0.05 + 0.42 * math.sin(math.pi * (0.12 + 0.80 * v)) ** 1.5, 0.8 * v), 40, 24), brass)
+    for row, x in enumerate((-3.0, 3.0)):
+        for i in range(8):
+            z = rounded(3.6 - 2.4 * i)
+            g.node("column %d.%d" % (row, i), mesh=below, translation=[x, 0.0, z])
+            g.node("upper column %d.%d" % (row, i), mesh=above, translation=[x, 4.5, z], scale=[0.8, 0.8, 0.8])
+            if i < 7:
+                g.node("arch %d.%d" % (row, i), mesh=panel, translation=[x, 2.9, rounded(z - 1.2)], rotation=[0.0, HALF, 0.0, HALF])
+                g.node("upper arch %d.%d" % (row, i), mesh=panel, translation=[x, 6.82, rounded(z - 1.2)], rotation=[0.0, HALF, 0.0, HALF])
+            if i % 2 == 1 and i < 7:
+                g.node("vessel %d.%d" % (row, i), mesh=vessel, translation=[rounded(0.55 * x), 0.0, rounded(z - 1.2)])
+    g.node("gallery left", mesh=g.mesh("gallery left", box(-5.5, 4.3, -14.0, -2.75, 4.5, 4.5), stone))
+    g.node("gallery right", mesh=g.mesh("gallery right", box(2.75, 4.3, -14.0, 5.5, 4.5, 4.5), stone))
+    for name, color, x, z in (("red", (0.65, 0.08, 0.06), -2.70, 2.4), ("green", (0.10, 0.42, 0.12), 2.70, 0.0), ("blue", (0.08, 0.16, 0.55), -2.70, -2.4)):
+        s = Shape()
+
+        def fold(u, v, x=x, z=z):
+            a = 10 * math.pi * u
+            side = 1.0 if x < 0 else -1.0
+            along = side * (1.7 * (0.5 - u))
+            slope = 0.06 * 10 * math.pi * math.cos(a) / 1.7
+            return (x + side * 0.06 * math.sin(a), 4.2 - 3.2 * (1 - v), z - 1.2 + along), (side, 0.0, side * slope)
+        s.grid(80, 2, fold)
+        g.node("curtain " + name, mesh=g.mesh("curtain " + name, s, g.diffuse(name, color)))
+    walls = ((("floor"), g.material("floor", (0.45, 0.42, 0.38), 0.0, 0.2), ((-5.5, 0, 6), (5.5, 0, 6), (5.5, 0, -15), (-5.5, 0, -15))),
+             (("left wall"), stone, ((-5.5, 0, 6), (-5.5, 0, -15), (-5.5, 9, -15), (-5.5, 9, 6))),
+             (("right wall"), stone, ((5.5, 0, -15), (5.5, 0, 6), (5.5, 9, 6), (5.5, 9, -15))),
+             (("end wall"), stone, ((-5.5, 0, -15), (5.5, 0, -15), (5.5, 9, -15), (-5.5, 9, -15))))
+    for name, material, corners in walls:
+        g.node(name, mesh=g.mesh(name, plate(*corners), material))
+    g.light("KHR_lights_punctual", "sun",
+            {"type": "spot", "color": [1.0, 0.92, 0.78], "intensity": 9000.0, "spot": {"innerConeAngle": 0.22, "outerConeAngle": 0.27}},
+            matrix=looking([5.5, 17.0, 2.0], [-0.6, 0.0, -4.5]))
+    g.area_light("sky", {"type": "rect", "color": [0.55, 0.72, 1.0], "intensity": 1.2, "size": 5.0, "rect": {"aspect": 3.0}},
+                 translation=[0.0, 9.2, -5.0], rotation=DOWN)
+    g.camera("main", [1.2, 1.75, 5.6], [-0.35, 1.9, -6.0], 0.9)
+    return g
+
+
 def table(g, material, x, z, width, depth, height):
     """A table top on four legs."""
     leg, thick = 0.06, 0.04
@@ -561,7 +608,7 @@ def grille():
 
 
 SCENES = {"room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
-          "ring": ring, "arcade": arcade}
+          "ring": ring, "arcade": arcade, "hall": hall}
 
 
 def main():

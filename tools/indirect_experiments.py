@@ -3,7 +3,7 @@
 
 usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [NAME ...]
 
-names: scenes, count, truth, pictures; none: all. Standard library only.
+names: scenes, count, truth, pictures, modes, lights; none: all. Standard library only.
 The first of the literature's experiments, one point light over a plane, is a test:
 steradian_tests --gtest_filter=IndirectKernel.PointLightOverAPlane
 An rmse is that of the picture at the exposure which maps the reference's 99.9th percentile to 1.
@@ -21,7 +21,11 @@ import ltc_experiments
 from ltc_experiments import ROOT
 
 print = partial(print, flush=True)
-FAIR = ("--indirect-quads", "off")  # points in both modes: only the lobes differ
+
+
+def fair(mode):
+    """Points in both modes, so that only the lobes differ; with GGX there are no others."""
+    return ("--indirect", mode) + (("--indirect-quads", "off") if mode == "ltc" else ())
 
 
 class Bench(ltc_experiments.Bench):
@@ -54,10 +58,10 @@ def scenes(bench):
     """Three scenes, both modes on the same lists."""
     passes = ("surfaces", "shadow map", "virtual lights", "ranges", "interleave", "cull", "light", "deinterleave", "filter", "resolve")
     print("\n| scene, mode | " + " | ".join(passes) + " | cull + light, gain | rmse | relative L2 |\n|" + "---|" * (len(passes) + 4))
-    for name in ("ring", "gallery", "arcade"):
+    for name in ("ring", "gallery", "arcade", "hall"):
         found = {}
         for mode in ("ggx", "ltc"):
-            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", "--indirect", mode, *FAIR, runs=5)
+            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", *fair(mode), runs=5)
         work = {m: found[m][1]["cull"] + found[m][1]["light"] for m in found}
         for mode in ("ggx", "ltc"):
             picture, times = found[mode]
@@ -75,12 +79,12 @@ def count(bench):
     scene, size, rows = bench.named("ring"), "1280x720", []
     print("\n| virtual lights | ltc cull + light [ms] | ggx | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
     for bits in range(12, 19):
-        all_pairs = ("--method", "ltc-compact", "--vpls", str(1 << bits), *FAIR)
+        all_pairs = ("--method", "ltc-compact", "--vpls", str(1 << bits))
         more = (*all_pairs, "--indirect-pairs", "8")
-        picture, ltc = bench.picture(scene, size, "--indirect", "ltc", *more, runs=6)
-        other, ggx = bench.picture(scene, size, "--indirect", "ggx", *more, runs=6)
-        noise = bench.exposed(bench.picture(scene, "480x270", "--indirect", "ltc", *more)[0],
-                              bench.picture(scene, "480x270", "--indirect", "ltc", *all_pairs, "--indirect-pairs", "0")[0])
+        picture, ltc = bench.picture(scene, size, *fair("ltc"), *more, runs=6)
+        other, ggx = bench.picture(scene, size, *fair("ggx"), *more, runs=6)
+        noise = bench.exposed(bench.picture(scene, "480x270", *fair("ltc"), *more)[0],
+                              bench.picture(scene, "480x270", *fair("ltc"), *all_pairs, "--indirect-pairs", "0")[0])
         a, b = ltc["cull"] + ltc["light"], ggx["cull"] + ggx["light"]
         rows.append((bits, a))
         print("| 2^%d | %.0f | %.0f | %.2f | %.4f | %.4f |" % (bits, a, b, b / a, bench.exposed(picture, other)[0], noise[1]))
@@ -110,7 +114,43 @@ def pictures(bench):
     bench.sheet("indirect-scenes", [[draw(n), draw(n, "--indirect", "ltc")] for n in ("gallery", "arcade")])
 
 
-EXPERIMENTS = {"scenes": scenes, "count": count, "truth": truth, "pictures": pictures}
+def modes(bench):
+    """Transformed cosines and GGX side by side, and eight times their difference, for three scenes with glossy things."""
+    rows = []
+    print("\n| scene, 640x360 | rmse | relative L2 | mean ratio |\n|---|---|---|---|")
+    for name in ("ring", "hall", "arcade"):
+        more = ("--method", "ltc-compact")
+        exr = {mode: bench.picture(bench.named(name), "640x360", *fair(mode), *more)[0] for mode in ("ltc", "ggx")}
+        print("| `%s` | %.4f | %.4f | %.4f |" % ((name,) + bench.exposed(exr["ltc"], exr["ggx"])))
+        row = [bench.picture(bench.named(name), "320x180", *fair(mode), *more, "--exposure", EXPOSURE[name], suffix=".png")[0]
+               for mode in ("ltc", "ggx")]
+        rows.append(row + [difference_of(bench, *row, 8)])
+    bench.sheet("indirect-modes", rows)
+
+
+EXPOSURE = {"ring": "0", "hall": "1", "arcade": "0"}
+
+
+def difference_of(bench, a, b, times):
+    """A picture of the bytes' difference, enlarged, about the middle grey."""
+    rows = [bytes(min(255, max(0, 128 + times * (x - y))) for x, y in zip(p, q))
+            for p, q in zip(ltc_experiments.read_png(a), ltc_experiments.read_png(b))]
+    bench.made += 1
+    path = os.path.join(bench.folder, "%d.png" % bench.made)
+    ltc_experiments.write_png(path, rows)
+    return path
+
+
+def lights(bench):
+    """The bounce of two scenes over the number of virtual lights, as points and at the same exposure."""
+    rows = []
+    for name in ("ring", "hall"):
+        rows.append([bench.picture(bench.named(name), "256x144", "--method", "ltc-compact", *fair("ltc"), "--vpls", str(1 << bits),
+                                   "--exposure", EXPOSURE[name], suffix=".png")[0] for bits in (8, 10, 14, 18)])
+    bench.sheet("indirect-lights", rows)
+
+
+EXPERIMENTS = {"scenes": scenes, "count": count, "truth": truth, "pictures": pictures, "modes": modes, "lights": lights}
 
 
 def main():
