@@ -1,7 +1,11 @@
 // plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
-// 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes.
+// 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
+// marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "benches.h"
@@ -62,6 +66,26 @@ Bench rays(const LightField& field) {
           }};
 }
 
+// At points of the frame, by a method that knows no range: the fewer the more pairs of light and box there are.
+Bench points(LightField field, const char* name, PlaneMethod method) {
+  const double pairs = static_cast<double>(field.lights) * field.boxes;
+  const auto count = static_cast<std::size_t>(std::clamp(3e6 / pairs, 2.0, 100.0));
+  const std::string bench = std::string("plane/") + name + "/" + suffix(field);
+  field.range = std::numeric_limits<double>::infinity();
+  auto world = std::make_shared<PlaneWorld>(make_light_field(field, kSeed));
+  Bench result{bench, count, "scalar", [world, field, method, count] {
+                 double sum = 0;
+                 for (std::size_t i = 0; i < count; ++i) {
+                   const Vec2d p{(static_cast<double>(i) + 0.5) * field.width / static_cast<double>(count),
+                                 std::fmod(static_cast<double>(i) * 0.6180339887498949, 1.0) * field.height};
+                   sum += world->query(p, method, {64, 1}).radiance.x;
+                 }
+                 keep(sum);
+               }};
+  result.once = pairs > 1e6;  // seconds a call
+  return result;
+}
+
 std::string suffix(const plane::Drawing& drawing) { return drawing.shape + "-" + drawing.emission; }
 
 Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
@@ -85,6 +109,8 @@ void add_plane(BenchList& list) {
     list.add("plane/frame/" + suffix(field), [field](const BenchOptions& o) { return cold(field, o); });
     list.add("plane/warm/" + suffix(field), [field](const BenchOptions& o) { return warm(field, o); });
     list.add("plane/rays/" + suffix(field), [field](const BenchOptions&) { return rays(field); });
+    list.add("plane/par/" + suffix(field), [field](const BenchOptions&) { return points(field, "par", PlaneMethod::par); });
+    list.add("plane/marched/" + suffix(field), [field](const BenchOptions&) { return points(field, "marched", PlaneMethod::marched); });
   }
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "bench/run.h"
 #include "core/float_mode.h"
 #include "bench/phong_plane.h"
+#include "studies/phong_baselines.h"
 
 namespace steradian::moment {
 namespace {
@@ -68,6 +70,31 @@ double scalar_ns(const PhongPlane& plane, const NamedLight& light, int n, const 
   return run_bench(body, bench).ns_per_item;
 }
 
+double baseline_ns(const PhongPlane& plane, const NamedLight& light, int n, const Baseline& baseline, const Table2Options& options) {
+  BenchOptions bench;
+  bench.min_time = options.min_time;
+  bench.min_runs = 5;
+  constexpr std::size_t kStep = 61;
+  const Bench body{"baseline", plane.count / kStep * light.edges, "scalar", [&] {
+                     double sum = 0;
+                     for (std::size_t i = 0; i < plane.count / kStep; ++i) sum += baseline.radiance(light.light, plane.at(i * kStep), n);
+                     keep(sum);
+                   }};
+  return run_bench(body, bench).ns_per_item;
+}
+
+// Errors of the answers at the plane's points, over the brightest.
+void judge(Table2Row& row, const std::vector<double>& exact, double all_pixels, const std::function<double(std::size_t)>& answer) {
+  const double brightest = *std::max_element(exact.begin(), exact.end());
+  double squares = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double error = std::fabs(answer(i) - exact[i]) / brightest;
+    squares += error * error;
+    row.largest = std::max(row.largest, error);
+  }
+  row.rmse = std::sqrt(squares / all_pixels);
+}
+
 std::string format(const char* pattern, double x) {
   char text[64];
   std::snprintf(text, sizeof text, pattern, x);
@@ -118,24 +145,20 @@ std::vector<Table2Row> measure_table2(const Table2Options& options) {
   for (const NamedLight& light : comparison_lights())
     for (const int n : kExponents) {
       const std::vector<double> exact = exact_picture(plane, light.light, n);
-      const double brightest = *std::max_element(exact.begin(), exact.end());
       for (const ComparedMethod& method : compared_methods()) {
         const std::vector<float> picture = picture_by(plane, light.light, n, method.options, options.simd);
-        Table2Row row;
-        row.light = light.name;
-        row.method = method.name;
-        row.exponent = n;
-        double squares = 0;
-        for (std::size_t i = 0; i < plane.count; ++i) {
-          const double error = std::fabs(static_cast<double>(picture[i]) - exact[i]) / brightest;
-          squares += error * error;
-          row.largest = std::max(row.largest, error);
-        }
-        row.rmse = std::sqrt(squares / all_pixels);
+        Table2Row row{.light = light.name, .method = method.name, .exponent = n};
+        judge(row, exact, all_pixels, [&](std::size_t i) { return static_cast<double>(picture[i]); });
         if (options.min_time > 0) {
           row.packs_ns = packs_ns(plane, light, n, method.options, options);
           row.scalar_ns = scalar_ns(plane, light, n, method.options, options);
         }
+        rows.push_back(row);
+      }
+      for (const Baseline& baseline : phong_baselines()) {
+        Table2Row row{.light = light.name, .method = baseline.name, .exponent = n};
+        judge(row, exact, all_pixels, [&](std::size_t i) { return baseline.radiance(light.light, plane.at(i), n); });
+        if (options.min_time > 0) row.scalar_ns = baseline_ns(plane, light, n, baseline, options);
         rows.push_back(row);
       }
     }
@@ -156,19 +179,21 @@ std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options&
       text += std::string(" ns scalar 100 | 500 | 5000 | ns ") + name_of(options.simd) + " 100 | 500 | 5000 | the paper's ms |";
     text += options.min_time > 0 ? "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
                                  : "\n|---|---|---|---|---|---|---|---|\n";
-    for (const ComparedMethod& method : compared_methods()) {
-      text += "| " + method.name + " |";
-      const Published* published = published_of(method.name);
-      cells(light.name, method.name, [](const Table2Row& r) { return format("%.1e", r.rmse); });
+    const auto add = [&](const std::string& method, bool in_packs) {
+      text += "| " + method + " |";
+      const Published* published = in_packs ? published_of(method) : nullptr;
+      cells(light.name, method, [](const Table2Row& r) { return format("%.1e", r.rmse); });
       text += std::string(" ") + (published != nullptr ? published->rmse : "") + " |";
-      cells(light.name, method.name, [](const Table2Row& r) { return format("%.1e", r.largest); });
+      cells(light.name, method, [](const Table2Row& r) { return format("%.1e", r.largest); });
       if (options.min_time > 0) {
-        cells(light.name, method.name, [](const Table2Row& r) { return format("%.0f", r.scalar_ns); });
-        cells(light.name, method.name, [](const Table2Row& r) { return format("%.1f", r.packs_ns); });
+        cells(light.name, method, [](const Table2Row& r) { return format("%.0f", r.scalar_ns); });
+        cells(light.name, method, [&](const Table2Row& r) { return in_packs ? format("%.1f", r.packs_ns) : std::string(); });
         text += std::string(" ") + (published != nullptr ? published->milliseconds : "") + " |";
       }
       text += "\n";
-    }
+    };
+    for (const ComparedMethod& method : compared_methods()) add(method.name, true);
+    for (const Baseline& baseline : phong_baselines()) add(baseline.name, false);
     text += "\n";
   }
   text +=

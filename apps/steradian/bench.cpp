@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/read_file.h"
 #include "fit/textured_error.h"
+#include "studies/plane_methods.h"
 #include "studies/table2.h"
 #include "steradian/error.h"
 #include "verbs.h"
@@ -25,7 +26,7 @@ struct Options {
   std::string filter, simd;
   double min_time = 0.5;
   bool json = false;
-  bool table2 = false, textured = false;
+  bool table2 = false, textured = false, plane = false;
   std::string figures, base;
   double slower = 0;
 };
@@ -149,6 +150,8 @@ void add_bench(CLI::App& app, Exit& exit) {
   verb->add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)")
       ->group("What");
   verb->add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)")->group("What");
+  verb->add_flag("--plane", options->plane, "Times and errors of the plane's methods over lights and occluders instead (docs/plane.md)")
+      ->group("What");
   verb->add_option("--figures", options->figures, "With --table2: write the page's figures into this folder")
       ->group("What")
       ->check(CLI::ExistingDirectory);
@@ -161,6 +164,7 @@ void add_bench(CLI::App& app, Exit& exit) {
   verb->callback([options, &exit] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);
+    if (options->plane) return fmt::print("{}", plane::plane_methods_text(plane::measure_plane_methods({})));
     if (options->textured) return fmt::print("{}", textured_error_text(measure_textured_error({})));
     const std::map<std::string, double> base = options->base.empty() ? std::map<std::string, double>{} : read_base(options->base);
     const std::vector<BenchResult> results = run(*options);

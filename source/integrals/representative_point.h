@@ -6,6 +6,9 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
+// How the lobe is widened: the kernel's way, or as published, without the factor 1/sqrt(v.h) and held to 1.
+enum class Widening { by_half_vectors, published };
+
 template <class S>
 class RepresentativePoint {
  public:
@@ -13,7 +16,7 @@ class RepresentativePoint {
   using K = Kernels<S>;
   using vec3 = typename K::vec3;
 
-  explicit RepresentativePoint(Real<S> alpha) : alpha_(alpha) {}
+  explicit RepresentativePoint(Real<S> alpha, Widening widening = Widening::by_half_vectors) : alpha_(alpha), widening_(widening) {}
   Mask<S> begin(const Shading<S>& shading) {
     view_ = shading.view;
     mirror_ = K().phong_mirror(view_);
@@ -29,8 +32,13 @@ class RepresentativePoint {
   }
   Part<S> finish(Mask<S> reversed) {
     const Real<S> solid_angle = K().solid_angle_finish(solid_angle_, reversed);
-    const Real<S> lobe = K().representative_radiance(walk_, view_, mirror_, solid_angle, alpha_, reversed);
+    Real<S> lobe = K().representative_radiance(walk_, view_, mirror_, solid_angle, alpha_, reversed);
     const Real<S> v_dot_h = K().representative_v_dot_h(walk_, view_, mirror_, reversed);
+    if (widening_ == Widening::published) {
+      const Real<S> half_radius = sqrt(solid_angle * Real<S>(0.0795774715459476679));  // over the distance
+      const Real<S> ours = alpha_ + half_radius / sqrt(max(v_dot_h, Real<S>(1e-6))), theirs = min(alpha_ + half_radius, Real<S>(1.0));
+      lobe = lobe * (ours * ours) / (theirs * theirs);
+    }
     return {lobe, lobe * K().fresnel_schlick(0.0, 1.0, v_dot_h)};
   }
 
@@ -43,6 +51,7 @@ class RepresentativePoint {
 
  private:
   Real<S> alpha_;
+  Widening widening_;
   vec3 view_, mirror_;
   typename K::RepresentativeWalk walk_;
   typename K::SolidAngleWalk solid_angle_;

@@ -96,7 +96,7 @@ bool blocks(const Tangents& light, const Tangents& body, Interval in_light, doub
 
 }  // namespace
 
-PlaneLight par_light(const World& world, Vec2d from) {
+PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps) {
   PlaneLight sum;
   std::vector<Vec2d> vertices;
   std::vector<std::pair<bool, Tangents>> bodies(world.scene.bodies.size());
@@ -122,7 +122,7 @@ PlaneLight par_light(const World& world, Vec2d from) {
     double dark = 0, reach = whole.begin;
     for (const Interval& b : blocked) {
       dark += std::max(b.end - std::max(b.begin, reach), 0.0);
-      reach = std::max(reach, b.end);
+      if (overlaps == ParOverlaps::merged) reach = std::max(reach, b.end);
     }
     const Vec3d radiance = light->gradient ? radiance_at(*light, (light->gradient->from + light->gradient->to) * 0.5) : light->radiance;
     sum.radiance += radiance * (std::max(whole.end - whole.begin - dark, 0.0) / (2 * pi));

@@ -56,7 +56,10 @@ PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& c
 PlaneLight envelope_light_of(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int only, EmissionParts parts);
 // Radiance within a light, where all that can be seen are these parts of other outlines, and the light between them.
 Vec3d light_between(const World& world, const std::vector<Curve>& parts, Vec2d from, int inside_light);
-PlaneLight par_light(const World& world, Vec2d from);
+// What becomes of directions that several occluders take: the paper merges their intervals; added, they count as often as they are
+// taken. For measurements of what merging is worth.
+enum class ParOverlaps { merged, added };
+PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps = ParOverlaps::merged);
 PlaneLight sampled_light(const World& world, Vec2d from, const PlaneSampling& sampling);
 PlaneLight marched_light(const World& world, Vec2d from, const PlaneSampling& sampling);
 
