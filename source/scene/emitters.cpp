@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "scene/closed_parts.h"
+#include "scene/fit_capsule.h"
 #include "scene/fit_ellipsoid.h"
 #include "scene/merge_polygons.h"
 
@@ -142,7 +142,7 @@ AreaLight to_light(const Scene& scene, const Mesh& mesh, MergedPolygon polygon) 
   return light;
 }
 
-AreaLight to_sphere(const Scene& scene, const Mesh& mesh, const Ellipsoid& shape, double area) {
+AreaLight to_round_light(const Scene& scene, const Mesh& mesh, const Shape& shape, double area) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   AreaLight light;
   light.name = mesh.name.empty() ? m.name : mesh.name;
@@ -209,16 +209,22 @@ double area_of(const std::vector<Triangle>& triangles, const MeshPart& part) {
   return area;
 }
 
-// A light for every part, where each of them stands for an ellipsoid that shines outwards; else none.
-std::vector<AreaLight> as_spheres(const Scene& scene, const Mesh& mesh, const std::vector<Triangle>& triangles,
-                                  const std::vector<MeshPart>& parts, const std::vector<Shines>& shines) {
+std::optional<Shape> fit_round(const std::vector<Triangle>& triangles, const MeshPart& part) {
+  if (const std::optional<Ellipsoid> ellipsoid = fit_ellipsoid(triangles, part.triangles)) return *ellipsoid;
+  if (const std::optional<Capsule> capsule = fit_capsule(triangles, part.triangles)) return *capsule;
+  return {};
+}
+
+// A light for every part, where each of them stands for an ellipsoid or a tube that shines outwards; else none.
+std::vector<AreaLight> as_round_lights(const Scene& scene, const Mesh& mesh, const std::vector<Triangle>& triangles,
+                                       const std::vector<MeshPart>& parts, const std::vector<Shines>& shines) {
   std::vector<AreaLight> lights;
   if (scene.materials[static_cast<std::size_t>(mesh.material)].emissive_texture.present()) return lights;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (shines[i] == Shines::as_the_file_says) return {};
-    const std::optional<Ellipsoid> shape = fit_ellipsoid(triangles, parts[i].triangles);
+    const std::optional<Shape> shape = fit_round(triangles, parts[i]);
     if (!shape) return {};
-    lights.push_back(to_sphere(scene, mesh, *shape, area_of(triangles, parts[i])));
+    lights.push_back(to_round_light(scene, mesh, *shape, area_of(triangles, parts[i])));
   }
   return lights;
 }
@@ -260,55 +266,18 @@ std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path) 
     const std::vector<MeshPart> parts = mesh_parts(triangles);
     std::vector<Shines> shines;
     for (const MeshPart& part : parts) shines.push_back(where_it_shines(m, part, others[index]));
-    std::vector<AreaLight> spheres = as_spheres(scene, mesh, triangles, parts, shines);
-    if (spheres.empty()) {
+    std::vector<AreaLight> round = as_round_lights(scene, mesh, triangles, parts, shines);
+    if (round.empty()) {
       without_area += add_polygons(scene, mesh, triangles, parts, shines);
       continue;
     }
-    mesh.casts_shadow = false;  // its facets lie on both sides of the sphere
+    mesh.casts_shadow = false;  // its facets lie on both sides of the light
     for (std::size_t i = 0; i < parts.size(); ++i) {
       for (const std::size_t t : parts[i].triangles) mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
-      scene.area_lights.push_back(std::move(spheres[i]));
+      scene.area_lights.push_back(std::move(round[i]));
     }
   }
   return without_area;
-}
-
-KeptLights keep_strongest(Scene& scene, std::size_t most) {
-  KeptLights result;
-  const std::size_t n = scene.area_lights.size();
-  std::vector<std::size_t> ranked(n);
-  std::iota(ranked.begin(), ranked.end(), std::size_t{0});
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [&](std::size_t a, std::size_t b) { return scene.area_lights[a].power > scene.area_lights[b].power; });
-  std::vector<bool> keep(n, false);
-  double all = 0, kept = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double power = scene.area_lights[ranked[i]].power;
-    all += power;
-    if (!(power > 0)) {
-      ++result.without_power;
-    } else if (i >= most) {
-      ++result.too_many;
-    } else {
-      keep[ranked[i]] = true;
-      kept += power;
-    }
-  }
-  result.share = all > 0 ? kept / all : 1;
-
-  std::vector<std::int32_t> renumbered(n, -1);
-  std::vector<AreaLight> lights;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!keep[i]) continue;
-    renumbered[i] = static_cast<std::int32_t>(lights.size());
-    lights.push_back(std::move(scene.area_lights[i]));
-  }
-  scene.area_lights = std::move(lights);
-  for (Mesh& mesh : scene.meshes)
-    for (std::int32_t& light : mesh.triangle_lights)
-      if (light >= 0) light = renumbered[static_cast<std::size_t>(light)];
-  return result;
 }
 
 }  // namespace steradian::scene

@@ -5,8 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/affine.h"
 #include "scene/framing.h"
+#include "scene/gltf_test_file.h"
+#include "scene/test_meshes.h"
+#include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
+#include "steradian/load_scene.h"
 
 namespace steradian::scene {
 namespace {
@@ -29,6 +34,46 @@ Mesh ball(int segments, int rings, Vec3d x, Vec3d y, Vec3d z, Vec3d center) {
       if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, c, d});
     }
   return mesh;
+}
+
+// A tube of segments, with rings at either end, about the y axis; flat: without the rings.
+Mesh tube(int segments, int rings, double radius, double half_length, bool flat) {
+  Mesh mesh;
+  struct Row {
+    double radius, y;
+  };
+  std::vector<Row> rows;
+  for (int j = 0; j <= rings; ++j) {
+    const double t = kPi / 2 * j / rings;
+    rows.push_back({radius * std::sin(t), flat ? half_length : half_length + radius * std::cos(t)});
+  }
+  for (std::size_t j = rows.size(); j-- > 0;) rows.push_back({rows[j].radius, -rows[j].y});
+  const auto corner = [&](std::size_t row, int segment) {
+    const double phi = 2 * kPi * (segment % segments) / segments;
+    mesh.positions.push_back(static_cast<Vec3f>(Vec3d{rows[row].radius * std::sin(phi), rows[row].y, rows[row].radius * std::cos(phi)}));
+    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  };
+  for (std::size_t j = 0; j + 1 < rows.size(); ++j)
+    for (int i = 0; i < segments; ++i) {
+      const std::uint32_t a = corner(j, i), b = corner(j + 1, i), c = corner(j + 1, i + 1), d = corner(j, i + 1);
+      if (j + 2 < rows.size()) mesh.indices.insert(mesh.indices.end(), {a, b, c});
+      if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, c, d});
+    }
+  return mesh;
+}
+
+// A file of one emissive mesh, turned and moved by its node.
+GltfTestFile file_of(const Mesh& mesh, const Affine& world) {
+  GltfTestFile f;
+  std::vector<float> positions;
+  for (const Vec3f& p : mesh.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+  const std::vector<std::uint16_t> indices(mesh.indices.begin(), mesh.indices.end());
+  f.add_mesh({{"POSITION", f.add_floats(positions, "VEC3")}}, f.add_indices(indices));
+  f.node()["matrix"] = {world.x.x, world.x.y, world.x.z, 0, world.y.x, world.y.y, world.y.z, 0,
+                        world.z.x, world.z.y, world.z.z, 0, world.t.x, world.t.y, world.t.z, 1};
+  f.material()["emissiveFactor"] = {1, 1, 1};
+  f.material()["doubleSided"] = true;
+  return f;
 }
 
 Mesh box(Vec3d low, Vec3d high) {
@@ -95,6 +140,53 @@ TEST(Emitters, ABallIsOneSphereOfItsAreaWhateverItsSidesAndAxes) {
   }
 }
 
+TEST(Emitters, ATubeInAFileIsOneCapsuleThatSendsWhatItsMeshDoes) {
+  constexpr int kSegments = 32;
+  const Frame frame = Frame::from_normal(normalized(Vec3d{0.3, 0.8, -0.5}));
+  const Affine world{frame.x, frame.y, frame.z, {0.5, 2, -1}};
+  for (const double radius : {0.2, 0.02}) {
+    const LoadedScene loaded = load_scene(file_of(tube(kSegments, 8, radius, 0.75, false), world).write());
+    ASSERT_EQ(loaded.scene.area_lights.size(), 1u) << radius;
+    const AreaLight& light = loaded.scene.area_lights[0];
+    const auto& capsule = std::get<Capsule>(light.shape);
+    EXPECT_NEAR(length(capsule.end_b - capsule.end_a), 1.5, 2e-6);
+    EXPECT_NEAR(light.power, 4 * kPi * capsule.radius * (capsule.radius + 0.75), 1e-6 * light.power);
+    EXPECT_FALSE(loaded.scene.meshes[0].casts_shadow);
+
+    // A fine mesh lies between the coarse one's inner and outer radius, as does the capsule: their outlines' widths differ by less than
+    // these do. Of the balls' rings, cosines of half a step both ways.
+    const double between = 1 / (std::cos(kPi / kSegments) * std::cos(kPi / 32)) - 1;
+    const Mesh mesh = tube(256, 64, radius, 0.75, false);
+    for (const Vec3d position : {Vec3d{0, 0, 0}, Vec3d{2.5, 1.8, -1.1}, Vec3d{0.9, 2.6, -0.4}}) {
+      const Vec3d normal = normalized(Vec3d{0.5, 2, -1} - position);
+      double sum = 0;
+      for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto at = [&](std::size_t c) { return world.point(static_cast<Vec3d>(mesh.positions[mesh.indices[i + c]])); };
+        const Vec3d a = at(0), b = at(1), c = at(2);
+        if (dot(cross(b - a, c - a), position - a) > 0) sum += polygon_irradiance(prepare_polygon({{a, b, c}, {}}), position, normal);
+      }
+      EXPECT_NEAR(capsule_irradiance(capsule, position, normal), sum, between * sum) << radius;
+    }
+  }
+}
+
+TEST(Emitters, ACylinderWithFlatEndsIsItsFacesAndTwoDisks) {
+  const Scene scene = emitting(tube(32, 1, 0.2, 0.75, true), true);
+  EXPECT_EQ(scene.area_lights.size(), 34u);
+  int disks = 0;
+  for (const AreaLight& light : scene.area_lights) {
+    disks += std::holds_alternative<Ellipse>(light.shape);
+    EXPECT_FALSE(light.two_sided);
+  }
+  EXPECT_EQ(disks, 2);
+}
+
+TEST(Emitters, ARoundBoxIsNoTube) {
+  Mesh mesh = tube(32, 8, 0.2, 0.75, false);
+  for (Vec3f& p : mesh.positions) p.x *= 1.001f;  // an ellipse across
+  EXPECT_GT(emitting(mesh, true).area_lights.size(), 1u);
+}
+
 TEST(Emitters, ACubeIsNoBall) {
   const Scene scene = emitting(box({-1, -1, -1}, {1, 1, 1}), true);
   EXPECT_EQ(scene.area_lights.size(), 6u);
@@ -158,21 +250,44 @@ TEST(Emitters, ARoundFlatPatchIsADisk) {
 TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
   Scene scene = emitting(box({-1, -1, -1}, {1, 1, 1}), false);
   measure_bounds(scene);
+  const Camera outside = framing_camera(scene, 1);
   for (AreaLight& light : scene.area_lights) light.power = 1e-6;
-  EXPECT_FALSE(wants_light(scene));  // placed by its author, however weak
+  EXPECT_FALSE(wants_light(scene, outside));  // placed by its author, however weak
   for (AreaLight& light : scene.area_lights) light.texture.emplace();
-  EXPECT_TRUE(wants_light(scene));
-  scene.meshes.push_back(box({-9, -9, -9}, {9, 9, 9}));  // a room that it would have to light: a lamp, then
-  EXPECT_FALSE(wants_light(scene));
+  EXPECT_TRUE(wants_light(scene, outside));
+  Mesh room = box({-9, -9, -9}, {9, 9, 9});  // that it lights: a lamp, then
+  turn(room);
+  scene.meshes.push_back(room);
+  Camera inside;
+  inside.position = {0, 2, 5};
+  EXPECT_FALSE(wants_light(scene, inside));
   scene.meshes.pop_back();
   scene.area_lights[0].power = default_light(scene).power;
-  EXPECT_FALSE(wants_light(scene));
+  EXPECT_FALSE(wants_light(scene, outside));
   scene.area_lights.clear();
-  EXPECT_TRUE(wants_light(scene));
+  EXPECT_TRUE(wants_light(scene, outside));
   add_lights(scene, {AddedLight::sun, AddedLight::studio});
   EXPECT_EQ(scene.punctual_lights.size(), 1u);
   EXPECT_EQ(scene.area_lights.size(), 3u);
-  EXPECT_FALSE(wants_light(scene));
+  EXPECT_FALSE(wants_light(scene, outside));
+}
+
+TEST(Framing, LabelsBehindWhatTheCameraSeesAreNoLight) {
+  // As bright as can be, and as large as the ball; it lights the ball's rim.
+  Scene scene = emitting(quad_mesh({-4, -1, 0}, {-2, -1, 0}, {-2, 1, 0}, {-4, 1, 0}, 0), false);
+  scene.area_lights[0].texture.emplace();
+  scene.materials.push_back({});
+  scene.meshes.push_back(ball(32, 16, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1.1}));
+  scene.meshes[1].material = 1;
+  measure_bounds(scene);
+  Camera camera;
+  camera.position = {0, 0, 10};
+  EXPECT_TRUE(wants_light(scene, camera));
+  camera.position = {-10, 0, 1.1};  // the side that it lights
+  EXPECT_FALSE(wants_light(scene, camera));
+  scene.area_lights[0].texture.reset();
+  camera.position = {0, 0, 10};
+  EXPECT_FALSE(wants_light(scene, camera));
 }
 
 }  // namespace

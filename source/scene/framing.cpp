@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace steradian::scene {
 namespace {
@@ -95,8 +97,78 @@ constexpr double kPi = 3.14159265358979324;
 
 AreaLight default_light(const Scene& scene) { return square_light(scene, "default", kTowardsKey, kPi); }
 
-bool wants_light(const Scene& scene) {
+namespace {
+
+struct SurfacePoint {
+  Vec3d position, normal;
+};
+
+// Points spread evenly over the triangles that face the camera and do not shine.
+std::vector<SurfacePoint> points_in_view(const Scene& scene, const Camera& camera, int count) {
+  struct Piece {
+    Vec3d corner, e1, e2, normal;
+    double area;
+  };
+  std::vector<Piece> pieces;
+  double total = 0;
+  for (const Mesh& mesh : scene.meshes)
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.is_emitter() && mesh.triangle_lights[t] >= 0) continue;
+      const auto at = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]); };
+      const Vec3d a = at(0), e1 = at(1) - a, e2 = at(2) - a, n = cross(e1, e2);
+      if (!(dot(n, camera.position - a) > 0)) continue;
+      pieces.push_back({a, e1, e2, normalized(n), length(n) / 2});
+      total += pieces.back().area;
+    }
+  std::vector<SurfacePoint> points;
+  double before = 0;
+  for (const Piece& piece : pieces) {
+    before += piece.area;
+    while (static_cast<int>(points.size()) < count && (static_cast<double>(points.size()) + 0.5) * total < before * count) {
+      // Even over the unit square, and folded into the triangle. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+      const auto i = static_cast<double>(points.size() + 1);
+      double u = 0.7548776662466927 * i, v = 0.5698402909980532 * i;
+      u -= std::floor(u);
+      v -= std::floor(v);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      points.push_back({piece.corner + piece.e1 * u + piece.e2 * v, piece.normal});
+    }
+  }
+  return points;
+}
+
+// Luminance of what the scene's flat lights send, without shadows, to half or more of what the camera may see.
+double median_irradiance(const Scene& scene, const Camera& camera) {
+  constexpr std::size_t kMostEdges = 1'000'000;  // to walk, some fifty milliseconds' worth
+  struct Light {
+    PreparedPolygon polygon;
+    double luminance;
+  };
+  std::vector<Light> lights;
+  std::size_t edges = 0;
+  for (const AreaLight& light : scene.area_lights) {
+    if (!light.is_flat()) continue;
+    lights.push_back({prepare_polygon(flat_polygon(light)), luminance(light.radiance)});
+    edges += lights.back().polygon.vertices.size();
+  }
+  const std::size_t count = std::clamp(kMostEdges / std::max(edges, std::size_t{1}), std::size_t{15}, std::size_t{255});
+  std::vector<double> values;
+  for (const SurfacePoint& p : points_in_view(scene, camera, static_cast<int>(count))) {
+    double sum = 0;
+    for (const Light& light : lights) sum += light.luminance * polygon_irradiance(light.polygon, p.position, p.normal);
+    values.push_back(sum);
+  }
+  if (values.empty()) return INFINITY;  // nothing to light
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+bool wants_light(const Scene& scene, const Camera& camera) {
   if (!scene.punctual_lights.empty()) return false;
+  if (scene.area_lights.empty()) return true;
   double power = 0;
   for (const AreaLight& light : scene.area_lights) {
     if (!light.texture) return false;
@@ -112,7 +184,8 @@ bool wants_light(const Scene& scene) {
     area += of_mesh;
     if (mesh.is_emitter()) emitting += of_mesh;
   }
-  return scene.area_lights.empty() || (power < default_light(scene).power / 30 && emitting > area / 2);
+  if (power < default_light(scene).power / 30 && emitting > area / 2) return true;
+  return median_irradiance(scene, camera) < kPi / 1000;
 }
 
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {

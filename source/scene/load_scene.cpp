@@ -12,6 +12,7 @@
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
+#include "scene/keep_strongest.h"
 
 namespace steradian::scene {
 namespace {
@@ -53,15 +54,22 @@ bool lets_light_through(const SurfaceMaterial& m) {
 
 std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f %%", 100 * share);
+  return text;
+}
+
 void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, const LoadOptions& options, Warnings& warnings) {
+  const std::string most = std::to_string(options.max_lights) + " are kept (max-lights)";
   if (without_area > 0) warnings.say(counted(without_area, "emissive triangle") + " without area dropped");
   if (kept.without_power > 0) warnings.say(counted(kept.without_power, "area light") + " without area or radiance dropped");
-  if (kept.too_many > 0) {
-    char share[32];
-    std::snprintf(share, sizeof share, "%.2f", 100 * (1 - kept.share));
-    warnings.say("the " + counted(kept.too_many, "weakest area light") + " dropped, " + share + " % of all their power; " +
-                 std::to_string(options.max_lights) + " are kept (max-lights)");
-  }
+  if (kept.merged > 0)
+    warnings.say(counted(kept.merged, "weak area light") + " of emissive meshes merged into the nearest that are kept of the same mesh, " +
+                 percent(kept.merged_share) + " of all power; " + most);
+  if (kept.dropped > 0)
+    warnings.say("the " + counted(kept.dropped, "weakest area light") + " dropped, " + percent(kept.dropped_share) + " of all power; " +
+                 most);
 }
 
 // What Blender's exporter multiplies punctual lights by, but not emission: lumens a watt.
@@ -110,7 +118,8 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   scene.environment = read_image_based_light(document, textures);
   add_area_lights(document, nodes, scene);
   const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
-  say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights)), without_area, options, warnings);
+  say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights), document.budget(), document.path), without_area,
+                       options, warnings);
 
   measure_bounds(scene);
   check_extent(scene, document.path);
@@ -123,17 +132,16 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
                    " that no radiance has (negative, infinite, none) made 0 or the largest of the others");
     scene.environment = std::make_shared<const Environment>(std::move(environment));
   }
-  if (!options.lights.empty()) {
-    add_lights(scene, options.lights);
-  } else if (!scene.environment && wants_light(scene)) {
-    warnings.say(scene.area_lights.empty()
-                     ? "the scene has no lights: a default area light shines from above"
-                     : "the scene's emissive textures are too weak to light it: a default area light shines from above");
-    scene.area_lights.push_back(default_light(scene));
-  }
   if (scene.cameras.empty()) {
     scene.cameras.push_back(framing_camera(scene, options.aspect));
     warnings.say("the scene has no camera: a default one frames it from the front");
+  }
+  if (!options.lights.empty()) {
+    add_lights(scene, options.lights);
+  } else if (!scene.environment && wants_light(scene, scene.cameras.front())) {
+    warnings.say(scene.area_lights.empty() ? "the scene has no lights: a default area light shines from above"
+                                           : "the scene's emissive textures do not light it: a default area light shines from above");
+    scene.area_lights.push_back(default_light(scene));
   }
   facts.not_supported = warnings.features();
   return {std::move(scene), std::move(facts), textures.decoding_ms(), warnings.sentences()};

@@ -392,7 +392,7 @@ TEST(LoadScene, KeepsTheStrongestLightsAndSaysWhatItDrops) {
   ASSERT_EQ(loaded.scene.area_lights.size(), 2u);
   EXPECT_EQ(loaded.scene.area_lights[0].radiance.x, 3);
   EXPECT_EQ(loaded.scene.area_lights[1].radiance.x, 2);
-  EXPECT_TRUE(warns(loaded, "1 weakest area light dropped, 16.67 %"));
+  EXPECT_TRUE(warns(loaded, "1 weakest area light dropped, 16.67 % of all power"));
   EXPECT_TRUE(warns(loaded, "1 area light without area"));
   EXPECT_EQ(loaded.scene.meshes[1].triangle_lights[0], -1);  // the weakest, still visible
   EXPECT_EQ(loaded.scene.meshes[2].triangle_lights[0], 0);

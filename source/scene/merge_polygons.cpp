@@ -23,6 +23,8 @@ constexpr double kThinnest = 1e-7;
 // prepare_polygon refuses 1e-5 of the light's size off the plane: half of it here, as the patch's plane may
 // tilt.
 constexpr double kOffPlane = 5e-6;
+// Cosine between a triangle and its patch: 2.6 degrees, since thin triangles' own planes are uncertain.
+constexpr double kFacesAlike = 0.999;
 
 struct Welded {
   std::vector<Vec3d> points;
@@ -69,16 +71,34 @@ bool has_area(const Triangle& t) {
   return length(face_vector(t)) > kThinnest * edge * edge;
 }
 
-bool coplanar(const Triangle& seed, const Triangle& other) {
-  const Vec3d n = normalized(face_vector(seed));
-  if (dot(n, normalized(face_vector(other))) < 0.999) return false;
-  const double size = std::max(longest_edge(seed), longest_edge(other));
-  for (const Vec3d& v : other) {
-    const double rounding = 1e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
-    if (std::fabs(dot(v - seed[0], n)) > kOffPlane * size + rounding) return false;
+// What grows from one triangle. Its plane is known the better the larger it is, whatever one triangle's corners were rounded to.
+struct Patch {
+  Vec3d point, area;  // of the plane; the sum of the face vectors
+  Vec3d low, high;    // bounds
+  std::vector<std::size_t> triangles;
+
+  explicit Patch(Vec3d corner) : point(corner), low(corner), high(corner) {}
+
+  void add(std::size_t index, const Triangle& t) {
+    triangles.push_back(index);
+    area += face_vector(t);
+    for (const Vec3d& v : t) {
+      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
   }
-  return true;
-}
+
+  bool takes(const Triangle& t) const {
+    const Vec3d n = normalized(area);
+    if (dot(n, normalized(face_vector(t))) < kFacesAlike) return false;
+    const double size = std::max(length(high - low), longest_edge(t));
+    for (const Vec3d& v : t) {
+      const double rounding = 1e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
+      if (std::fabs(dot(v - point, n)) > kOffPlane * size + rounding) return false;
+    }
+    return true;
+  }
+};
 
 // Corners that lie on the line between their neighbours are no corners.
 Contour without_straight_corners(const Contour& contour) {
@@ -178,25 +198,37 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std:
     }
   }
 
-  for (std::size_t seed = 0; seed < triangles.size(); ++seed) {
+  // From the largest triangles, whose planes are known best.
+  std::vector<std::size_t> seeds;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (!taken[t]) seeds.push_back(t);
+  std::vector<double> size(triangles.size());
+  for (const std::size_t t : seeds) size[t] = length(face_vector(triangles[t]));
+  std::stable_sort(seeds.begin(), seeds.end(), [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+  for (const std::size_t seed : seeds) {
     if (taken[seed]) continue;
     taken[seed] = true;
-    std::vector<std::size_t> patch{seed};
-    for (std::size_t i = 0; i < patch.size(); ++i)
+    Patch patch(triangles[seed][0]);
+    patch.add(seed, triangles[seed]);
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto across = owner.find(edge_key(mesh.corners[patch[i]][(c + 1) % 3], mesh.corners[patch[i]][c]));
+        const std::size_t from = patch.triangles[i];
+        const auto across = owner.find(edge_key(mesh.corners[from][(c + 1) % 3], mesh.corners[from][c]));
         if (across == owner.end() || across->second == kShared || taken[across->second]) continue;
         const std::size_t other = across->second;
-        if (!coplanar(triangles[seed], triangles[other]) || !may_join(seed, other)) continue;
+        if (!patch.takes(triangles[other]) || !may_join(seed, other)) continue;
         taken[other] = true;
-        patch.push_back(other);
+        patch.add(other, triangles[other]);
       }
-    if (auto polygon = to_polygon(mesh, triangles, patch)) {
+    if (auto polygon = to_polygon(mesh, triangles, patch.triangles)) {
       result.polygons.push_back(std::move(*polygon));
     } else {
-      for (const std::size_t t : patch) result.polygons.push_back({{triangles[t].begin(), triangles[t].end()}, {}, {t}});
+      for (const std::size_t t : patch.triangles) result.polygons.push_back({{triangles[t].begin(), triangles[t].end()}, {}, {t}});
     }
   }
+  std::stable_sort(result.polygons.begin(), result.polygons.end(), [](const MergedPolygon& a, const MergedPolygon& b) {
+    return *std::min_element(a.triangles.begin(), a.triangles.end()) < *std::min_element(b.triangles.begin(), b.triangles.end());
+  });
   return result;
 }
 

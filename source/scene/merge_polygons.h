@@ -16,7 +16,7 @@ using Triangle = std::array<Vec3d, 3>;
 struct MergedPolygon {
   std::vector<Vec3d> outline;  // counter-clockwise as seen from the triangles' front
   std::vector<std::vector<Vec3d>> holes;
-  std::vector<std::size_t> triangles;  // what it was made of
+  std::vector<std::size_t> triangles;  // what it was made of, the largest first
 };
 
 struct MergedPolygons {
@@ -24,8 +24,9 @@ struct MergedPolygons {
   std::size_t without_area = 0;         // triangles left out: thinner than the rounding of their coordinates
 };
 
-// Triangles are adjacent where two corners are equal to the last bit and they face alike. may_join(a, b):
-// whether adjacent coplanar triangles a and b belong together (the same texture map, say).
+// Triangles are adjacent where two corners are equal to the last bit. A patch grows from its largest triangle by those that face as it
+// does (to 2.6 degrees) and whose corners are off its plane by at most 5e-6 of its size and the rounding of single precision.
+// may_join(a, b): whether triangle b belongs to the patch that grows from a (the same texture map, say).
 //
 // A patch whose outline is ambiguous (it touches itself in a corner, overlaps itself, has an edge of three
 // triangles) stays triangles: more edges, the same light.

@@ -38,6 +38,24 @@ TEST(MergePolygons, MakesAGridOneRectangleWithFourCorners) {
   EXPECT_NEAR(area_of(merged.polygons[0]), 49, 1e-12);
 }
 
+TEST(MergePolygons, MakesATurnedFineGridOfSinglePrecisionOneRectangle) {
+  // A small triangle's own plane, known to a rounding of its corners over its size, misses the other end of the grid by more than a
+  // plane may be off: the plane is the patch's.
+  for (const int n : {16, 64, 200})
+    for (const double scale : {0.001, 1.0, 50.0}) {
+      const Frame frame = Frame::from_normal(normalized(Vec3d{0.3, 0.8, -0.5}));
+      std::vector<Triangle> turned = grid(n, [](int, int) { return false; });
+      for (Triangle& t : turned)
+        for (Vec3d& v : t) {
+          const Vec3d in_world = Vec3d{0.4, -1.7, 0.9} * scale + frame.to_world(v) * (scale / n);
+          v = static_cast<Vec3d>(static_cast<Vec3f>(in_world));
+        }
+      const auto merged = merge(turned);
+      ASSERT_EQ(merged.polygons.size(), 1u) << n << " " << scale;
+      EXPECT_NEAR(area_of(merged.polygons[0]), scale * scale, 1e-6 * scale * scale);
+    }
+}
+
 TEST(MergePolygons, KeepsHoles) {
   const auto merged = merge(grid(7, [](int i, int j) { return (i == 2 && j == 2) || (i >= 4 && i <= 5 && j == 4); }));
   ASSERT_EQ(merged.polygons.size(), 1u);
