@@ -103,9 +103,12 @@ class Points {
   std::map<std::pair<long long, long long>, int> numbers_;
 };
 
-// The common part of two filled outlines: all edges cut where they meet, and of the pieces those with the common inside on one
-// side only, that side to their left.
-std::vector<Contour> common(const PlaneBody& a, const PlaneBody& b, double grid, const std::function<void(std::uint64_t)>& spend) {
+enum class Keep { common, rest };
+
+// The common part of two filled outlines, or what of the first lies outside the second: all edges cut where they meet, and of the pieces
+// those with what is kept on one side only, that side to their left.
+std::vector<Contour> part_of(const PlaneBody& a, const PlaneBody& b, Keep keep, double grid,
+                             const std::function<void(std::uint64_t)>& spend) {
   std::vector<Edge> edges = edges_of(a.contours, true);
   const std::vector<Edge> others = edges_of(b.contours, true);
   edges.insert(edges.end(), others.begin(), others.end());
@@ -114,6 +117,7 @@ std::vector<Contour> common(const PlaneBody& a, const PlaneBody& b, double grid,
     if (at > 0 && at < 1) cuts[i].push_back(at);
   });
   const Shape in_a(a), in_b(b);
+  const auto kept = [&](Vec2d p) { return in_a.holds(p) && in_b.holds(p) == (keep == Keep::common); };
   Points points(grid);
   std::set<std::pair<int, int>> seen;
   std::map<int, std::vector<int>> next;
@@ -125,8 +129,7 @@ std::vector<Contour> common(const PlaneBody& a, const PlaneBody& b, double grid,
       const int from = points.number(place(cuts[i][k])), to = points.number(place(cuts[i][k + 1]));
       if (from == to || !seen.insert(std::minmax(from, to)).second) continue;
       const Vec2d middle = place(0.5 * (cuts[i][k] + cuts[i][k + 1]));
-      const bool in_left = in_a.holds(middle + left) && in_b.holds(middle + left);
-      const bool in_right = in_a.holds(middle - left) && in_b.holds(middle - left);
+      const bool in_left = kept(middle + left), in_right = kept(middle - left);
       if (in_left == in_right) continue;
       next[in_left ? from : to].push_back(in_left ? to : from);
     }
@@ -224,13 +227,32 @@ PlaneBody flattened(const PlaneBody& body, double tolerance) {
   return result;
 }
 
-PlaneBody clipped(const PlaneBody& body, const ClipRegion& region, double tolerance, const std::function<void(std::uint64_t)>& spend) {
-  const double grid = 1e-3 * tolerance;
-  const PlaneBody flat = flattened(body, tolerance);
+namespace {
+
+std::uint64_t count_points(const PlaneBody& body) {
   std::uint64_t points = 0;
-  for (const Contour& contour : flat.contours) points += contour.size();
-  for (const PlaneBody& part : region)
-    for (const Contour& contour : part.contours) points += contour.size();
+  for (const Contour& contour : body.contours) points += contour.size();
+  return points;
+}
+
+// Of what a curve may be off by: points nearer to each other are one.
+double grid_of(double tolerance) { return 1e-3 * tolerance; }
+
+}  // namespace
+
+PlaneBody without(const PlaneBody& body, const PlaneBody& part, double tolerance, const std::function<void(std::uint64_t)>& spend) {
+  spend(40 * (count_points(body) + count_points(part)));
+  PlaneBody result = body;
+  result.even_odd = false;
+  result.contours = part_of(body, part, Keep::rest, grid_of(tolerance), spend);
+  return result;
+}
+
+PlaneBody clipped(const PlaneBody& body, const ClipRegion& region, double tolerance, const std::function<void(std::uint64_t)>& spend) {
+  const double grid = grid_of(tolerance);
+  const PlaneBody flat = flattened(body, tolerance);
+  std::uint64_t points = count_points(flat);
+  for (const PlaneBody& part : region) points += count_points(part);
   spend(40 * points);
   for (const PlaneBody& part : region)
     if (lies_within(flat, part, grid, spend)) return body;
@@ -242,7 +264,7 @@ PlaneBody clipped(const PlaneBody& body, const ClipRegion& region, double tolera
   result.contours.clear();
   result.even_odd = false;
   for (const PlaneBody& part : region)
-    for (Contour& contour : common(flat, part, grid, spend)) result.contours.push_back(std::move(contour));
+    for (Contour& contour : part_of(flat, part, Keep::common, grid, spend)) result.contours.push_back(std::move(contour));
   return result;
 }
 

@@ -1,4 +1,4 @@
-// The part of an outline within others: clipPath.
+// The part of an outline within others, or outside: clipPath and mask.
 #pragma once
 
 #include <cstdint>
@@ -19,5 +19,8 @@ PlaneBody flattened(const PlaneBody& body, double tolerance);
 // The part of a body within the region: the body itself where all of it is, no contours where nothing is. `region` is
 // polygons; `spend` is told of the pairs of edges that are looked at.
 PlaneBody clipped(const PlaneBody& body, const ClipRegion& region, double tolerance, const std::function<void(std::uint64_t)>& spend);
+
+// What of a filled outline lies outside of another. Both are polygons, and so is the result, without contours where nothing is left.
+PlaneBody without(const PlaneBody& body, const PlaneBody& part, double tolerance, const std::function<void(std::uint64_t)>& spend);
 
 }  // namespace steradian::plane::svg

@@ -123,6 +123,7 @@ class Reader {
     Style style = styles_->inherit(n, outer);
     if (style.role == Role::ignore) return;
     if (!style.clip.empty()) clip(n, style, depth);
+    if (!style.mask.empty()) mask(n, style, depth);
     if (name == "g" || name == "a" || name == "switch") return children(n, style, depth + 1);
     if (name == "svg") return box(n, n, style, depth);
     if (name == "use") return use(n, style, depth);
@@ -144,30 +145,72 @@ class Reader {
     element(target, style, depth + 1);
   }
 
-  // Adds what the element's clip-path shows of it.
-  void clip(pugi::xml_node n, Style& style, int depth) {
-    const std::size_t hash = style.clip.find('#'), close = style.clip.find_first_of(")\"'", hash);
-    const pugi::xml_node node =
-        hash == std::string::npos ? pugi::xml_node() : document_.by_id(style.clip.substr(hash + 1, close - hash - 1));
-    if (std::string_view(node.name()) != "clipPath" || std::string_view(node.attribute("clipPathUnits").value()) == "objectBoundingBox") {
-      document_.ignored.insert("clip-path of a box, a shape or another file");
-      return;
-    }
+  // What url(#...) names, if it is such an element of this file.
+  pugi::xml_node named(const std::string& url, std::string_view kind) const {
+    const std::size_t hash = url.find('#'), close = url.find_first_of(")\"'", hash);
+    const pugi::xml_node node = hash == std::string::npos ? pugi::xml_node() : document_.by_id(url.substr(hash + 1, close - hash - 1));
+    return std::string_view(node.name()) == kind ? node : pugi::xml_node();
+  }
+
+  // The shapes of a clipPath or a mask, drawn as if they stood where they are used, in the order of the file.
+  std::vector<PlaneBody> shapes_of(pugi::xml_node node, pugi::xml_node user, const Style& style, Purpose purpose, int depth) {
     if (depth > kDeepest)
-      document_.fail(n, "elements nest deeper than " + std::to_string(kDeepest), "look for a clipPath that clips itself");
-    // Its shapes, drawn as if they stood here, for their outlines alone.
+      document_.fail(user, "elements nest deeper than " + std::to_string(kDeepest), "look for a clipPath or a mask that uses itself");
     Style plain;
     plain.transform = style.transform;
     plain.role = Role::occluder;
-    plain.for_outline = true;
+    plain.purpose = purpose;
     std::vector<PlaneBody> outside = std::exchange(result_.scene.bodies, {});
     plain = styles_->inherit(node, plain);
     if (!plain.clip.empty()) clip(node, plain, depth + 1);
+    if (!plain.mask.empty()) mask(node, plain, depth + 1);
     children(node, plain, depth + 1);
+    return std::exchange(result_.scene.bodies, std::move(outside));
+  }
+
+  // Adds what the element's clip-path shows of it.
+  void clip(pugi::xml_node n, Style& style, int depth) {
+    const pugi::xml_node node = named(style.clip, "clipPath");
+    if (!node || std::string_view(node.attribute("clipPathUnits").value()) == "objectBoundingBox") {
+      document_.ignored.insert("clip-path of a box, a shape or another file");
+      return;
+    }
     auto region = std::make_shared<ClipRegion>();
-    for (const PlaneBody& body : std::exchange(result_.scene.bodies, std::move(outside)))
+    for (const PlaneBody& body : shapes_of(node, n, style, Purpose::clip, depth))
       if (body.shape != PlaneBody::Shape::polyline) region->push_back(flattened(body, flatness()));
     style.clips.push_back(std::move(region));
+  }
+
+  // A mask of whites and blacks cuts as its whites do, less the blacks that are painted over them. Any other is left out.
+  void mask(pugi::xml_node n, Style& style, int depth) {
+    const pugi::xml_node node = named(style.mask, "mask");
+    const auto leave_out = [&] { document_.ignored.insert("mask (but of plain white and black shapes)"); };
+    if (!node || std::string_view(node.attribute("maskContentUnits").value()) == "objectBoundingBox") return leave_out();
+    const bool by_alpha = document_.property(node, "mask-type").value_or("luminance") == "alpha";
+    auto region = std::make_shared<ClipRegion>();
+    const auto spend_on = [&](std::uint64_t pairs) { spend(n, 20 * pairs, 0); };
+    for (const PlaneBody& body : shapes_of(node, n, style, Purpose::mask, depth)) {
+      const double y = 0.2126 * body.color.x + 0.7152 * body.color.y + 0.0722 * body.color.z;
+      const bool white = by_alpha ? y >= 0 : y > 0.99, black = !by_alpha && y >= 0 && y < 0.01;
+      if (!(white || black) || body.shape == PlaneBody::Shape::polyline) return leave_out();
+      PlaneBody flat = flattened(body, flatness());
+      if (white) {
+        region->push_back(std::move(flat));
+        continue;
+      }
+      for (PlaneBody& part : *region) part = without(part, flat, flatness(), spend_on);
+    }
+    style.clips.push_back(std::move(region));
+    // A mask's own room; that in shares of the shape's box, which is larger than the shape unless a file says otherwise, is left out.
+    if (std::string_view(node.attribute("maskUnits").value()) != "userSpaceOnUse" || !node.attribute("width")) return;
+    const double w = result_.scene.width, h = result_.scene.height;
+    const auto x_of = [&](const char* key) { return document_.length_attribute(node, key, w); };
+    const auto y_of = [&](const char* key) { return document_.length_attribute(node, key, h, h); };
+    Pen pen(style.transform, flatness(), {});
+    draw_rect(node, {x_of("x"), document_.length_attribute(node, "y", h)}, {x_of("width"), y_of("height")}, pen);
+    PlaneBody room;
+    room.contours = pen.finish().points;
+    style.clips.push_back(std::make_shared<ClipRegion>(ClipRegion{std::move(room)}));
   }
 
   // A nested <svg>, or a <symbol>, in the room that its own or the <use>'s width and height give.
@@ -209,10 +252,12 @@ class Reader {
 
   void shape(pugi::xml_node n, std::string_view name, const Style& style) {
     const double w = result_.scene.width, h = result_.scene.height;
-    const bool filled = (style.for_outline || (style.fill != "none" && style.fill_opacity > 0)) && name != "line";
-    const double opacity = style.for_outline ? 1 : style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
+    const bool outlined = style.purpose == Purpose::clip;
+    const bool filled = (outlined || (style.fill != "none" && style.fill_opacity > 0)) && name != "line";
+    const double opacity = outlined ? 1 : style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
     if (opacity == 0) return;
-    if (opacity < 1 && style.role != Role::light) document_.ignored.insert("opacity (what is not a light blocks wholly)");
+    if (opacity < 1 && style.role != Role::light && style.purpose == Purpose::picture)
+      document_.ignored.insert("opacity (what is not a light blocks wholly)");
     PlaneBody body;
     if (name == "circle" || name == "ellipse") {
       const bool round = name == "circle";
@@ -241,7 +286,7 @@ class Reader {
     if (filled) {
       for (auto& c : contours.points)
         if (c.size() > 2) body.contours.push_back(std::move(c));
-      body.even_odd = (style.for_outline ? style.clip_rule : style.rule) == "evenodd";
+      body.even_odd = (outlined ? style.clip_rule : style.rule) == "evenodd";
       if (body.contours.empty()) return;
       return add(n, std::move(body), style, true);
     }
@@ -311,8 +356,10 @@ class Reader {
     if (result_.scene.bodies.size() >= kMostBodies) document_.fail(n, "more than a million shapes", "split the scene");
     spend(n, 500, sizeof(PlaneBody) + 40);
     body.name = n.attribute("id").value();
-    if (style.role == Role::light) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    const bool shines = style.role == Role::light && style.purpose == Purpose::picture;
+    if (shines) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
     if (!body.light) body.color = color_of(document_, style, filled);
+    if (style.purpose == Purpose::mask && !is_plain(style, filled)) body.color = {-1, -1, -1};
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
     if (body.light && body.light->gradient)
       spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
@@ -321,6 +368,12 @@ class Reader {
       if (body.contours.empty() && body.shape != PlaneBody::Shape::ellipse) return;
     }
     result_.scene.bodies.push_back(std::move(body));
+  }
+
+  // One opaque colour.
+  static bool is_plain(const Style& style, bool filled) {
+    const double opacity = style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
+    return opacity == 1 && !(filled ? style.fill : style.stroke).starts_with("url(");
   }
 
   // A translucent light shines as much less.

@@ -281,6 +281,42 @@ TEST(LoadSvg, ClipPathsCutOutlines) {
   EXPECT_NEAR(line.contours[0].back().x, 50, 1e-9);
 }
 
+TEST(LoadSvg, MasksOfWhiteAndBlackCutOutlines) {
+  const std::string masks = R"~(<defs><mask id="m"><g class="light"><rect x="10" y="10" width="40" height="40" fill="white"/></g></mask>
+      <mask id="hole" fill="#fff"><rect x="10" y="10" width="40" height="40"/><circle cx="30" cy="30" r="10" fill="black"/>
+        <rect x="28" y="28" width="4" height="4"/></mask>
+      <mask id="knife" fill="#fff"><rect x="10" y="10" width="40" height="40"/><path d="M0 20H100V30H0Z" fill="#000"/></mask>
+      <mask id="alpha" mask-type="alpha"><rect x="10" y="10" width="40" height="40" fill="#123"/></mask>
+      <mask id="room" maskUnits="userSpaceOnUse" x="10" y="10" width="40" height="40"><path d="M0 0H100V100H0Z" fill="white"/></mask>
+      <mask id="none"/></defs>)~";
+  const auto read = [&](const std::string& name) { return load(masks + "<rect width='30' height='100' mask='url(#" + name + ")'/>"); };
+  for (const char* name : {"m", "alpha", "room"}) {
+    const PlaneSvg svg = read(name);
+    ASSERT_EQ(svg.scene.bodies.size(), 1u) << name;
+    EXPECT_NEAR(area_of(svg.scene.bodies[0]), 20 * 40, 1e-6) << name;
+    EXPECT_TRUE(svg.ignored.empty()) << name;
+  }
+  const PlaneBody hole = read("hole").scene.bodies.at(0);
+  EXPECT_NEAR(area_of(hole), 20 * 40 - 0.5 * M_PI * 100 + 2 * 4, 0.1);
+  EXPECT_FALSE(plane::contains(hole, {25, 30}));
+  EXPECT_TRUE(plane::contains(hole, {29, 29})) << "white again, over the black";
+  const PlaneBody knife = read("knife").scene.bodies.at(0);
+  EXPECT_NEAR(area_of(knife), 20 * 30, 1e-6);
+  EXPECT_EQ(knife.contours.size(), 2u);
+  EXPECT_TRUE(read("none").scene.bodies.empty()) << "an empty mask shows nothing";
+}
+
+TEST(LoadSvg, OtherMasksAreNamedAndLeftOut) {
+  for (const std::string inside :
+       {R"~(<rect width="9" height="9" fill="#888"/>)~", R"~(<rect width="9" height="9" fill="#fff" opacity="0.5"/>)~",
+        R"~(<path d="M0 0H9" stroke="#fff" fill="none"/>)~"}) {
+    const PlaneSvg svg = load("<mask id='m'>" + inside + "</mask><rect width='30' height='100' mask='url(#m)'/>");
+    ASSERT_EQ(svg.scene.bodies.size(), 1u) << inside;
+    EXPECT_NEAR(area_of(svg.scene.bodies[0]), 3000, 1e-6);
+    EXPECT_EQ(svg.ignored, (std::vector<std::string>{"mask (but of plain white and black shapes)"})) << inside;
+  }
+}
+
 TEST(LoadSvg, OccludersKeepTheirColour) {
   const PlaneSvg svg =
       load(R"~(<defs><linearGradient id="g"><stop stop-color="#000"/><stop offset="1" stop-color="#fff"/></linearGradient></defs>
@@ -387,14 +423,14 @@ TEST(LoadSvg, WrittenScenesReadBackAsTheSame) {
   }
 }
 
-// Whatever the bytes: a scene, or an Error; and no scene makes the exact method return what is not a number.
-TEST(LoadSvg, RefusesClipsOfThemselves) {
-  expect_refusal(
-      "<clipPath id='c'><use href='#s' clip-path='url(#c)'/></clipPath><rect id='s' width='9' height='9'/><use href='#s' "
-      "clip-path='url(#c)'/>",
-      "2", "nest deeper");
+TEST(LoadSvg, RefusesClipsAndMasksOfThemselves) {
+  for (const std::string kind : {"clip-path", "mask"}) {
+    const std::string name = kind == "mask" ? "mask" : "clipPath", use = "<use href='#s' " + kind + "='url(#c)'/>";
+    expect_refusal("<" + name + " id='c'>" + use + "</" + name + "><rect id='s' width='9' height='9'/>" + use, "2", "nest deeper");
+  }
 }
 
+// Whatever the bytes: a scene, or an Error; and no scene makes the exact method return what is not a number.
 TEST(LoadSvg, SurvivesMutations) {
   const std::string seed =
       R"~(<svg viewBox="0 0 64 64"><defs><linearGradient id="g" x1="0" y1="0" x2="1" y2="1" gradientTransform="rotate(10)">

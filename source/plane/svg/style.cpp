@@ -82,8 +82,8 @@ void Styles::read_declared(pugi::xml_node n, Declared& d) {
   }
   if (d.role == Role::ignore) return;
   if (auto clip = document_.property(n, "clip-path"); clip && *clip != "none") d.clip = std::move(clip);
-  for (const char* unsupported : {"mask", "filter"})
-    if (const auto p = document_.property(n, unsupported); p && *p != "none") document_.ignored.insert(unsupported);
+  if (auto mask = document_.property(n, "mask"); mask && *mask != "none") d.mask = std::move(mask);
+  if (const auto filter = document_.property(n, "filter"); filter && *filter != "none") document_.ignored.insert("filter");
 }
 
 Style Styles::inherit(pugi::xml_node n, Style style) {
@@ -96,6 +96,7 @@ Style Styles::inherit(pugi::xml_node n, Style style) {
     if (*own) *value = **own;
   if (d.font_size) style.font_size = font_size_of(*d.font_size, style.font_size);
   style.clip = d.clip.value_or("");
+  style.mask = d.mask.value_or("");
   style.stroke_width = d.stroke_width.value_or(style.stroke_width);
   style.intensity = d.intensity.value_or(style.intensity);
   style.range = d.range.value_or(style.range);

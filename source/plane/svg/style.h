@@ -16,6 +16,10 @@
 
 namespace steradian::plane::svg {
 
+// What elements are read for: the picture, the outline of a clipPath (by clip-rule, whatever their paint), or the whites and
+// blacks of a mask.
+enum class Purpose { picture, clip, mask };
+
 enum class Role { by_shape, light, occluder, ignore };
 
 // What elements inherit.
@@ -32,8 +36,8 @@ struct Style {
   Vec2d spot_axis;
   double spot_half_angle = 0;
   Transform transform;
-  bool for_outline = false;                              // within a clipPath: only outlines count, by clip-rule, whatever their paint
-  std::string clip;                                      // of the element itself; empty: none
+  Purpose purpose = Purpose::picture;
+  std::string clip, mask;                                // of the element itself; empty: none
   std::vector<std::shared_ptr<const ClipRegion>> clips;  // of the element and those around it, in the scene's coordinates
 };
 
@@ -48,7 +52,7 @@ class Styles {
  private:
   // What one element says of itself.
   struct Declared {
-    std::optional<std::string> fill, stroke, color, cap, rule, clip_rule, family, font_size, weight, slant, anchor, clip;
+    std::optional<std::string> fill, stroke, color, cap, rule, clip_rule, family, font_size, weight, slant, anchor, clip, mask;
     std::optional<double> stroke_width, intensity, range, fill_opacity, stroke_opacity;
     double opacity = 1;          // of the whole element
     Role role = Role::by_shape;  // by_shape: says nothing
