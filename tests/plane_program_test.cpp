@@ -73,6 +73,14 @@ TEST_F(Program, RenderOfAPlaneLeavesOccludersClear) {
   const Outcome r = run({"render", svg, "-o", png, "--occluders", "clear"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(contents(png).at(25), 6) << "PNG's colour type: red, green, blue and alpha";
+  const std::string exr = folder / "a.exr";
+  ASSERT_EQ(run({"render", svg, "-o", exr, "--occluders", "clear"}).status, 0);
+  const std::vector<Vec3f> alpha = read_picture(exr).layers.at("alpha");
+  EXPECT_EQ(alpha.front(), (Vec3f{1, 1, 1}));
+  EXPECT_NE(std::find(alpha.begin(), alpha.end(), Vec3f{}), alpha.end());
+  const Outcome same = run({"diff", exr, exr});
+  EXPECT_NE(same.out.find("alpha max    0"), std::string::npos) << same.out;
+  EXPECT_EQ(same.err, "");
   const Outcome in_space = run({"render", "no.gltf", "-o", png, "--occluders", "clear"});
   EXPECT_EQ(in_space.status, 2) << in_space.err;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,21 @@ Limit parse_limit(const std::string& text) {
   throw CLI::ValidationError("--fail-above", "'" + text + "' is not METRIC=VALUE with rmse, relative_l2 or max");
 }
 
-// The pictures alone are compared, not what else their files hold.
-void say_what_is_left_out(const std::string& path, const Picture& picture) {
+// The largest difference of alpha, where both pictures have it.
+std::optional<double> largest_of_alpha(const Picture& a, const Picture& b) {
+  const auto of_a = a.layers.find("alpha"), of_b = b.layers.find("alpha");
+  if (of_a == a.layers.end() || of_b == b.layers.end()) return {};
+  double largest = 0;
+  for (std::size_t i = 0; i < of_a->second.size(); ++i)
+    largest = std::max(largest, std::fabs(static_cast<double>(of_a->second[i].x) - static_cast<double>(of_b->second[i].x)));
+  return largest;
+}
+
+// Pixels and alpha are compared, not what else the files hold.
+void say_what_is_left_out(const std::string& path, const Picture& picture, bool with_alpha) {
   std::vector<std::string> names = picture.unread;
-  for (const auto& [layer, pixels] : picture.layers) names.push_back("layer " + layer);
+  for (const auto& [layer, pixels] : picture.layers)
+    if (!with_alpha || layer != "alpha") names.push_back("layer " + layer);
   if (!names.empty()) fmt::print(stderr, "warning: {}: not compared: {}\n", path, fmt::join(names, ", "));
 }
 
@@ -54,17 +66,20 @@ void run(const Options& options, Exit& exit) {
   for (const std::string& text : options.fail_above) limits.push_back(parse_limit(text));
   const Picture reference = read_picture(options.b, options.limits);
   const Picture picture = read_picture(options.a, options.limits);
-  say_what_is_left_out(options.a, picture);
-  say_what_is_left_out(options.b, reference);
   const Difference d = difference(picture, reference);
+  const std::optional<double> alpha = largest_of_alpha(picture, reference);
+  say_what_is_left_out(options.a, picture, alpha.has_value());
+  say_what_is_left_out(options.b, reference, alpha.has_value());
   const double white = white_of(reference);
   if (options.json) {
     nlohmann::ordered_json j = {
         {"rmse", d.rmse}, {"relative_l2", d.relative_l2}, {"max", d.max}, {"mean_ratio", d.mean_ratio}, {"white", white}};
+    if (alpha) j["alpha_max"] = *alpha;
     fmt::print("{}\n", j.dump());
   } else {
     fmt::print("rmse         {:.6g}\nrelative L2  {:.6g}\nmax          {:.6g} at ({}, {})\nmean ratio   {:.6g}\nwhite        {:.6g}\n",
                d.rmse, d.relative_l2, d.max, d.max_x, d.max_y, d.mean_ratio, white);
+    if (alpha) fmt::print("alpha max    {:.6g}\n", *alpha);
   }
   for (const Limit& limit : limits) {
     const double value = limit.metric == "rmse" ? d.rmse : limit.metric == "max" ? d.max : d.relative_l2;

@@ -16,7 +16,7 @@ struct Picture {
   std::map<std::string, std::vector<Vec3f>> layers;  // e.g. "variance": stored as variance.R, .G, .B
   // The layer "alpha" is coverage, by which the pixels are already multiplied: stored as A, in .png as its alpha channel.
   std::map<std::string, std::string> metadata;  // settings; EXR attributes, PNG text
-  std::vector<std::string> unread;              // channels of the file that was read that are no R, G, B or Y
+  std::vector<std::string> unread;              // channels of the file that was read that are no R, G, B, Y or A
 
   Picture() = default;
   Picture(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}

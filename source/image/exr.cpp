@@ -132,6 +132,7 @@ Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budge
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels) {
     const auto [layer, suffix] = layer_and_suffix(c.name());
     if (suffix < 3) layers.insert(layer);
+    if (std::string(c.name()) == "A") layers.insert("alpha");
   }
   const auto pixels = static_cast<std::uint64_t>(width * height);
   const std::uint64_t lines = header.hasTileDescription() ? header.tileDescription().ySize : kLinesInBlock;
@@ -152,8 +153,15 @@ Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window, const std:
     return s;
   };
   const Imf::ChannelList& channels = file.header().channels();
+  std::vector<Vec3f>* alpha = nullptr;
   for (auto c = channels.begin(); c != channels.end(); ++c) {
     const auto [layer, suffix] = layer_and_suffix(c.name());
+    if (std::string(c.name()) == "A") {
+      alpha = &picture.layers["alpha"];
+      alpha->resize(picture.pixels.size());
+      frame.insert("A", shifted(*alpha, 0));
+      continue;
+    }
     if (suffix == 3) {
       if (std::string(c.name()) != "Y") picture.unread.push_back(c.name());
       continue;
@@ -176,6 +184,8 @@ Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window, const std:
   file.readPixels(window.min.y, window.max.y);
   if (grey)
     for (Vec3f& p : picture.pixels) p.y = p.z = p.x;
+  if (alpha != nullptr)
+    for (Vec3f& p : *alpha) p.y = p.z = p.x;
   for (auto a = file.header().begin(); a != file.header().end(); ++a)
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute())) picture.metadata[a.name()] = text->value();
   return picture;

@@ -46,6 +46,20 @@ TEST(Picture, ExrKeepsEveryBitLayersAndMetadata) {
   std::filesystem::remove(path);
 }
 
+TEST(Picture, ExrKeepsAlpha) {
+  const std::string path = temporary("_alpha.exr");
+  Picture a = test_picture();
+  for (int i = 0; i < 35; ++i) {
+    const float alpha = static_cast<float>(i) / 34;
+    a.layers["alpha"].push_back({alpha, alpha, alpha});
+  }
+  write_picture(a, path);
+  const Picture b = read_picture(path);
+  EXPECT_EQ(a.layers, b.layers);
+  EXPECT_TRUE(b.unread.empty());
+  std::filesystem::remove(path);
+}
+
 TEST(Picture, PngIsToneMappedAndCarriesText) {
   const std::string path = temporary(".png");
   Picture a(2, 1);
