@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/frame/runs.h"
+
 namespace steradian::plane {
 namespace {
 
@@ -48,7 +50,7 @@ class Taking {
     for (std::size_t c = world_.first_curve[body_]; c < world_.first_curve[body_ + 1]; ++c) {
       const Curve& curve = world_.curves[c];
       if (curve.kind == Curve::Kind::segment) {
-        add_edges(curve);
+        add_edges(c, false);
       } else if (is_full_circle(curve) && plain) {
         Emitter e;
         e.a = e.b = curve.ellipse.center;
@@ -59,7 +61,9 @@ class Taking {
         add_arcs(curve);
       }
     }
-    return std::move(result_);
+    for (std::size_t c = world_.first_curve[body_ + 1]; c-- > world_.first_curve[body_];)
+      if (world_.curves[c].kind == Curve::Kind::segment && world_.curves[c].two_sided) add_edges(c, true);
+    return with_runs(result_);
   }
 
  private:
@@ -68,20 +72,19 @@ class Taking {
   }
 
   // Cut where the gradient has a stop, so that radiance is linear on each.
-  void add_edges(const Curve& curve) {
+  void add_edges(std::size_t index, bool other_side) {
+    const Curve& curve = world_.curves[index];
     const std::vector<double> cuts = cuts_of(curve);
-    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      const std::size_t k = other_side ? cuts.size() - 2 - i : i;
       const Curve part = part_of(curve, cuts[k], cuts[k + 1]);
       if (part.a == part.b) continue;
       Emitter e;
       e.kind = Emitter::Kind::edge;
-      e.a = part.a;
-      e.b = part.b;
+      e.a = other_side ? part.b : part.a;
+      e.b = other_side ? part.a : part.b;
+      e.curve = index;
       e.radiance = radiance_ends(light_, e.a, e.b);
-      add(e);
-      if (!curve.two_sided) continue;
-      std::swap(e.a, e.b);
-      std::swap(e.radiance.a, e.radiance.b);
       add(e);
     }
   }

@@ -8,8 +8,8 @@
 
 namespace steradian::plane {
 
-// Emitters of a light, each with a radiance that is linear in the place on it. Nothing for ellipses so thin that packs
-// would lose them in rounding.
+// Emitters of a light, each with a radiance that is linear in the place on it, and the runs of its edges (runs.h). Nothing for ellipses so
+// thin that packs would lose them in rounding.
 std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t body);
 
 bool is_round(const Ellipse& e);

@@ -73,6 +73,47 @@ TEST(PlaneFrame, EqualsTheQueryInEveryInstructionSet) {
   }
 }
 
+// Bowls and bulges with something in them, on them and across them, outlines that cross themselves, lines lit from both sides.
+TEST(PlaneFrame, EqualsTheQueryAroundCurvedLights) {
+  const std::string shapes[] = {
+      R"~(<path d="M40 30C40 110 120 110 120 30L110 30C110 95 50 95 50 30Z" {}/><circle cx="80" cy="60" r="12"/><rect x="60" y="84" width="8" height="6"/>)~",
+      R"~(<path d="M30 75C60 20 140 20 170 75C140 40 60 40 30 75Z" {}/><path d="M100 34V10" stroke="#000"/><circle cx="60" cy="30" r="9"/>)~",
+      R"~(<path d="M40 60C160 0 160 150 40 90C120 120 120 30 40 60Z" {}/><rect x="70" y="72" width="30" height="6" transform="rotate(20 80 75)"/>)~",
+      R"~(<path d="M40 40C200 160 0 160 150 40L140 40C20 130 180 140 50 40Z" {}/><circle cx="100" cy="100" r="8"/>)~",
+      R"~(<path d="M30 100Q70 20 110 100T180 60" {} style="fill:none;stroke:#fff"/><circle cx="70" cy="80" r="7"/><rect x="120" y="100" width="14" height="20"/>)~",
+      R"~(<path d="M30 100Q70 20 110 100T180 60" {} style="fill:none;stroke:#fff;stroke-width:9;stroke-linecap:round"/><path d="M60 40L90 90" stroke="#000" stroke-width="4" stroke-linecap="round"/>)~"};
+  const std::string emissions[] = {R"~(fill="#fff")~",
+                                   R"~(fill="#fff" data-range="90")~",
+                                   R"~(fill="#fff" data-profile="lambert")~",
+                                   R"~(fill="#fff" data-profile="inverse")~",
+                                   R"~(fill="#fff" data-spot="-60 50")~",
+                                   R"~(fill="url(#g)")~"};
+  for (std::size_t s = 0; s < std::size(shapes); ++s)
+    for (std::size_t e = 0; e < std::size(emissions); ++e) {
+      std::string svg = shapes[s];
+      svg.replace(svg.find("{}"), 2, "class=\"light\" " + emissions[e]);
+      svg =
+          R"~(<svg viewBox="0.17 0.08 200 150"><linearGradient id="g" x2="1" y2="0.7"><stop stop-color="#f80"/><stop offset="0.4" stop-color="#08f"/>)~"
+          R"~(<stop offset="1" stop-color="#fff"/></linearGradient>)~" +
+          svg + "</svg>";
+      const PlaneScene scene = load_plane_scene_from_text(svg, "curved").scene;
+      expect_query(scene, 200, 150, 17, "curved " + std::to_string(s) + ", " + std::to_string(e), e == 3 ? 3e-5 : 1e-5);
+    }
+}
+
+// A light of hundreds of edges is looked at by its runs: half as many as it has edges would face a tile.
+TEST(PlaneFrame, TakesCurvesByRuns) {
+  const PlaneScene scene = make_drawing({"stroke", "uniform"});
+  const PlaneWorld world(scene);
+  PlaneFrameOptions options;
+  options.width = 640;
+  options.height = 360;
+  PlaneFrameStats stats;
+  render_plane(world, options, &stats);
+  const std::uint64_t tiles = 40 * 23;
+  EXPECT_LT(stats.tile_lights, 60 * tiles);
+}
+
 TEST(PlaneFrame, EqualsTheQueryInLightFieldsOfTheBench) {
   for (LightField field : kLightFields) {
     // The bench's scenes on a quarter of their area, as dense.

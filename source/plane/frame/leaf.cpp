@@ -336,6 +336,17 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
   return light;
 }
 
+void LeafBuilder::add_parts(const Emitter& run) {
+  parts_.clear();
+  for (const Emitter* e = &run + 1; e < &run + run.group; ++e) {
+    if (is_run(*e)) continue;
+    const Vec2d a = e->a - tile_.center, b = e->b - tile_.center, n = e->normal, t{n.y, -n.x};
+    const Vec3d from = e->radiance.b, slope = (e->radiance.a - e->radiance.b) / length(e->b - e->a);
+    parts_.push_back(
+        {f(a.x), f(a.y), f(n.x), f(n.y), f(dot(b, t)), f(dot(a, t)), f(from.x), f(from.y), f(from.z), f(slope.x), f(slope.y), f(slope.z)});
+  }
+}
+
 LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, std::size_t count) {
   light_ = {e.a - tile_.center, e.b - tile_.center, e.center - tile_.center, e.radius, e.bound, {}};
   if (e.kind != Emitter::Kind::edge) {
@@ -353,6 +364,15 @@ LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, st
   if (shadows_.hidden()) return {{}, false};
   TileLight light = light_of(e);
   shadows_.write(light);
+  if (is_run(e)) {
+    const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
+    light.linear = emission.gradient.has_value();
+    if (light.linear || light.profile != 0 || light.inverse_range > 0) {
+      add_parts(e);
+      light.parts = parts_.data();
+      light.part_count = static_cast<int>(parts_.size());
+    }
+  }
   const std::size_t needed = 32 * shadows_.intervals();
   if (scratch_.size() < needed) scratch_.resize(2 * needed);
   light.scratch = scratch_.data();

@@ -54,6 +54,7 @@ class LeafBuilder {
   TileRound round_of(const Ellipse& e) const;
   TileLight light_of(const Emitter& e) const;
   TileArc arc_of(const Emitter& e) const;
+  void add_parts(const Emitter& run);
 
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());
@@ -65,6 +66,7 @@ class LeafBuilder {
   Light light_;
   SeenLight seen_;
   ShadowEnds shadows_;
+  std::vector<TilePart> parts_;  // of a run
   std::vector<float> scratch_;
 };
 

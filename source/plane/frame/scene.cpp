@@ -11,6 +11,7 @@
 #include "plane/frame/chains.h"
 #include "plane/frame/emitters.h"
 #include "plane/frame/overlap.h"
+#include "plane/frame/runs.h"
 
 namespace steradian::plane {
 namespace {
@@ -52,8 +53,10 @@ class Preparation {
     check_general();
     interior();
     frame_.first_nearby.push_back(0);
+    frame_.whole_run.assign(frame_.emitters.size(), 0);
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
-      find_nearby(e);
+      frame_.whole_run[e] = is_run(frame_.emitters[e]) && is_clear(&frame_.emitters[e]);
+      if (frame_.whole_run[e] != 0 || !is_run(frame_.emitters[e])) find_nearby(e);
       frame_.first_nearby.push_back(frame_.nearby.size);
     }
     spend(0);
@@ -326,9 +329,60 @@ class Preparation {
       if (chain.body == e.body && low < 0) return ChainView::edge_by_edge;
     }
     const bool near = length(e.center - chain.center) < e.bound + chain.bound + kApart;
-    return near && comes_within(kApart, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;
+    const double gap = is_run(e) ? e.radius + kApart : kApart;
+    return near && comes_within(gap, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;
   }
   static constexpr double kApart = 1e-6;
+
+  // Does nothing else come near a run, and none of its own outline between its edges and its chord?
+  bool is_clear(const Emitter* run) {
+    bool clear = true;
+    std::size_t first = run->curve, last = run->curve;
+    for (std::size_t k = 1; k < run->group; ++k) {
+      first = std::min(first, run[k].curve);
+      last = std::max(last, run[k].curve);
+    }
+    const auto comes_near = [&](const Blocker& b) {
+      if (length(run->center - b.center) >= run->bound + b.bound + kApart) return false;
+      if (b.kind == Blocker::Kind::convex) return comes_within(run->radius + kApart, *run, &frame_.vertices[b.first], b.count);
+      const Vec2d along = run->b - run->a, to = b.center - run->a;
+      return length(to - along * std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0)) < run->radius + b.bound + kApart;
+    };
+    bins_.for_each_within(frame_.blockers, run->center, run->bound + kApart, [&](int k) {
+      const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
+      if (!clear) return;
+      spend(10);
+      if (b.body != run->body) {
+        // Of a chain that comes near, its edges may not.
+        if (!comes_near(b)) return;
+        if (b.edges == 0) clear = false;
+        for (int edge = b.first_edge; edge < b.first_edge + b.edges; ++edge)
+          clear = clear && !comes_near(frame_.blockers[static_cast<std::size_t>(edge)]);
+        return;
+      }
+      const auto own = [&](int edge) {
+        const Blocker& e = frame_.blockers[static_cast<std::size_t>(edge)];
+        const std::size_t curve = world_.first_curve[static_cast<std::size_t>(b.body)] + static_cast<std::size_t>(edge) -
+                                  first_blocker_[static_cast<std::size_t>(b.body)];
+        if (e.count != 2 || (curve >= first && curve <= last) || length(run->center - e.center) >= run->bound + e.bound) return;
+        spend(20 * run->group);
+        clear = clear && !crosses_run(run, frame_.vertices[e.first], frame_.vertices[e.first + 1]);
+      };
+      if (b.edges == 0) return own(k);
+      for (int edge = b.first_edge; edge < b.first_edge + b.edges; ++edge) own(edge);
+    });
+    return clear;
+  }
+
+  // Is a blocker one of a run's own edges?
+  bool is_of_run(std::size_t run, int blocker) const {
+    const Emitter* e = &frame_.emitters[run];
+    const auto body = static_cast<std::size_t>(e->body);
+    const std::size_t curve = world_.first_curve[body] + static_cast<std::size_t>(blocker) - first_blocker_[body];
+    for (std::size_t k = 1; k < e->group; ++k)
+      if (!is_run(e[k]) && e[k].curve == curve) return true;
+    return false;
+  }
 
   void find_nearby(std::size_t index) {
     Emitter& e = frame_.emitters[index];
@@ -337,9 +391,11 @@ class Preparation {
       const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       if (b.body == e.body) {
         // The rest of a concave light blocks its own edges; a convex one lies behind them.
-        if (e.kind == Emitter::Kind::edge && b.count == 2) own_edge(e, k, list);
+        if (e.kind == Emitter::Kind::edge && b.count == 2 && !(is_run(e) && is_of_run(index, k))) own_edge(e, k, list);
         return;
       }
+      // Nothing else overlaps a run: is_clear.
+      if (is_run(e)) return list.push_back(k);
       const bool near = length(e.center - b.center) < e.bound + b.bound;
       if (near && (b.kind != Blocker::Kind::convex || overlaps(e, &frame_.vertices[b.first], b.count)))
         overlapping.push_back(k);

@@ -1,8 +1,8 @@
 // What a frame needs of a scene: lights taken apart into emitters, bodies into convex blockers.
 //
-// An emitter is a disk, one side of a segment, or an arc. Against a convex blocker that does not overlap it, a separating line
-// says which is nearer, for all directions at once; a blocker that does overlap it is replaced, for this emitter only,
-// by pieces that do not: the parts of its edges outside the emitter, or the lens rule for what is round.
+// An emitter is a disk, one side of a segment, a run of such sides, or an arc. Against a convex blocker that does not overlap it, a
+// separating line says which is nearer, for all directions at once; a blocker that does overlap it is replaced, for this emitter only, by
+// pieces that do not: the parts of its edges outside the emitter, or the lens rule for what is round.
 #pragma once
 
 #include <vector>
@@ -20,19 +20,24 @@ struct Emitter {
   Kind kind = Kind::disk;
   int body = 0;
   Vec2d a, b;             // an edge's ends, lit side to the right of a -> b; a disk's or an ellipse's centre, twice
-  double radius = 0;      // disk; of an arc's ellipse, about its centre
+  double radius = 0;      // disk; of an arc's ellipse, about its centre; of a run, how far from the chord a -> b it reaches
   RadianceEnds radiance;  // of an edge; linear between. Of an arc: a + b dot(ramp, p - centre)
   Vec2d ramp;
   Ellipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
   double tau0 = 0, tau_span = 0;
   bool whole = false;
-  bool hidden = false;  // all of it lies within a blocker: not seen from outside
+  bool hidden = false;    // all of it lies within a blocker: not seen from outside
+  std::size_t group = 1;  // of a run: with the emitters that it stands for, shorter runs and edges, which follow it
+  std::size_t curve = 0;  // of an edge: in World::curves
 
   Vec2d center;  // of a bounding circle
   double bound = 0;
   Vec2d normal;  // edge: unit, to the lit side
   double range = 0;
 };
+
+// Does it stand for several edges of an outline, one after another?
+inline bool is_run(const Emitter& e) { return e.group > 1; }
 
 struct DividingLine {
   Vec2d normal;  // unit, towards the blocker
@@ -78,6 +83,7 @@ struct FrameScene {
   std::vector<PaddedOutline> outlines;    // of convex blockers, by Blocker::outline
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
   std::vector<std::size_t> first_nearby;  // by emitter, and one more
+  std::vector<char> whole_run;            // by emitter: a run of which nothing else comes between edges and chord
   std::vector<LightInterior> interior;    // by body, for lights
   std::vector<char> convex;               // by body: all of a row within it is one run
 };

@@ -65,6 +65,14 @@ struct TileArc {
   float ramp_x, ramp_y;          // radiance at p: red + red_slope dot(ramp, p - centre), ...
 };
 
+// One edge of a run.
+struct TilePart {
+  float x, y;                                // a point of its line,
+  float nx, ny, begin, end;                  // as of an edge
+  float red, green, blue;                    // at `begin` ...
+  float red_slope, green_slope, blue_slope;  // ... and their change per distance along it
+};
+
 // Directions in which a spot's light arrives: counter-clockwise from low to high.
 struct TileSpot {
   bool present, wide;  // wide: more than half a turn
@@ -87,6 +95,8 @@ struct TileLight {
   int profile;                               // PlaneProfile as int
   bool linear;
 
+  const TilePart* parts;  // of a run whose chord's own integral is not its light
+  int part_count;
   const TileVertex* lows;  // ends of blockers that begin before the light
   int low_count;
   const TileVertex* highs;  // begins of blockers that end behind it

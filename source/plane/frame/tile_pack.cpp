@@ -136,6 +136,76 @@ STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) 
   add_colour(light, tile, i, sum);
 }
 
+// What an edge of a run sends from [from, to] of the run's slopes.
+class PartIntegral {
+ public:
+  STERADIAN_INLINE PartIntegral(const TileLight& light, const TilePart& part, const Axis& run) : light_(light), part_(part) {
+    axis_.px = run.px;
+    axis_.py = run.py;
+    axis_.x = broadcast(-part.nx);
+    axis_.y = broadcast(-part.ny);
+    // Of the run's axis, seen from this one: a slope m of the run is the direction axis + m across.
+    cosine_ = axis_.w(run.x, run.y);
+    sine_ = axis_.t(run.x, run.y);
+    d_ = max(axis_.w(broadcast(part.x) - axis_.px, broadcast(part.y) - axis_.py), PackReal(1e-6));
+    inverse_d_ = PackReal(1.0) / d_;
+    foot_ = axis_.t(axis_.px, axis_.py);
+    low_ = clamp((broadcast(part.begin) - foot_) * inverse_d_, PackReal(-kBeyond), PackReal(kBeyond));
+    high_ = clamp((broadcast(part.end) - foot_) * inverse_d_, PackReal(-kBeyond), PackReal(kBeyond));
+    q_ = d_ * d_ * broadcast(light.inverse_range * light.inverse_range);
+    if (light.inverse_range > 0.0f) {
+      const PackReal reach = sqrt(max(PackReal(1.0) / max(q_, PackReal(1e-30)) - PackReal(1.0), PackReal(0.0)));
+      low_ = max(low_, -reach);
+      high_ = min(high_, reach);
+    }
+  }
+
+  STERADIAN_INLINE void add(PackReal from, PackReal to) {
+    from = max(own(from), low_);
+    to = min(own(to), high_);
+    if (!any_lane(to > from)) return;
+    to = max(to, from);
+    PackKernels k;
+    const int power = light_.profile == 0 ? 0 : 1;
+    const PackReal f0 = k.trig_atan2(from, PackReal(1.0)), f1 = k.trig_atan2(to, PackReal(1.0));
+    constant_ += k.plane_edge_integral(0, power, to, f1, q_) - k.plane_edge_integral(0, power, from, f0, q_);
+    if (light_.linear) slope_ += k.plane_edge_integral(1, power, to, f1, q_) - k.plane_edge_integral(1, power, from, f0, q_);
+  }
+
+  STERADIAN_INLINE void add_to(PackReal& red, PackReal& green, PackReal& blue) const {
+    PackReal scale(0.159154943091895336);
+    if (light_.profile == 2) scale *= inverse_d_;
+    const PackReal constant = constant_ * scale, at_foot = (foot_ - broadcast(part_.begin)) * constant + slope_ * scale * d_;
+    red += broadcast(part_.red) * constant + broadcast(part_.red_slope) * at_foot;
+    green += broadcast(part_.green) * constant + broadcast(part_.green_slope) * at_foot;
+    blue += broadcast(part_.blue) * constant + broadcast(part_.blue_slope) * at_foot;
+  }
+
+ private:
+  STERADIAN_INLINE PackReal own(PackReal m) const {
+    const PackReal w = cosine_ - m * sine_, t = sine_ + m * cosine_;
+    return slope(w, t, select(t > PackReal(0.0), PackReal(kBeyond), PackReal(-kBeyond)));
+  }
+
+  const TileLight& light_;
+  const TilePart& part_;
+  Axis axis_;
+  PackReal cosine_, sine_, d_, inverse_d_, foot_, low_, high_, q_;
+  PackReal constant_{0.0}, slope_{0.0};
+};
+
+STERADIAN_INLINE void add_parts(const TileLight& light, TileBuffer& tile, int i, const Axis& axis, const Cut& cut) {
+  PackReal red(0.0), green(0.0), blue(0.0);
+  for (int n = 0; n < light.part_count; ++n) {
+    PartIntegral part(light, light.parts[n], axis);
+    cut.for_each_gap([&](PackReal from, PackReal to) { part.add(from, to); });
+    part.add_to(red, green, blue);
+  }
+  add(tile.red + i, red);
+  add(tile.green + i, green);
+  add(tile.blue + i, blue);
+}
+
 STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) {
   PackKernels k;
   Axis axis;
@@ -154,13 +224,14 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
   cut.low = clamp((broadcast(light.begin) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
   cut.high = clamp((broadcast(light.end) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
   const PackReal q = d * d * broadcast(light.inverse_range * light.inverse_range);
-  if (light.inverse_range > 0.0f) {
+  if (light.inverse_range > 0.0f && light.part_count == 0) {
     const PackReal reach = sqrt(max(PackReal(1.0) / max(q, PackReal(1e-30)) - PackReal(1.0), PackReal(0.0)));
     cut.low = max(cut.low, -reach);
     cut.high = min(cut.high, reach);
   }
   cut.high = select(lit, cut.high, cut.low);
   if (cut.dark() || !cut_blockers(light, axis, cut)) return;
+  if (light.part_count > 0) return add_parts(light, tile, i, axis, cut);
 
   const int power = light.profile == 0 ? 0 : 1;
   PackReal constant(0.0), slope(0.0);

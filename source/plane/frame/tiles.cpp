@@ -11,6 +11,7 @@
 
 #include "core/float_mode.h"
 #include "plane/frame/leaf.h"
+#include "plane/frame/runs.h"
 
 namespace steradian::plane {
 namespace {
@@ -50,6 +51,7 @@ bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const TileArea& 
 struct Entry {
   int emitter;
   std::size_t begin, end;  // its blockers in the level's list
+  std::size_t group = 1;   // with the entries of what it stands for, which follow it; a run without them faces all of the tile
 };
 
 struct Level {
@@ -84,10 +86,10 @@ class Worker {
       if (frame_.general[i] != 0 && in_range(i, tile)) top.general.push_back(static_cast<int>(i));
     }
     if (stays_dark(top, x, y, kSides[0])) return;
-    for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
+    for (std::size_t e = 0; e < frame_.emitters.size();) {
       const Emitter& emitter = frame_.emitters[e];
-      if (frame_.general[static_cast<std::size_t>(emitter.body)] != 0) continue;
-      filter(static_cast<int>(e), frame_.nearby, frame_.first_nearby[e], frame_.first_nearby[e + 1], tile, top);
+      if (frame_.general[static_cast<std::size_t>(emitter.body)] == 0) take_first(e, tile, top);
+      e += emitter.group;
     }
     descend(0, x, y);
   }
@@ -110,17 +112,52 @@ class Worker {
     return length(gap) < world_.scene.bodies[body].light->range;
   }
 
-  // Appends the emitter with those of from[begin, end) that touch the hull of it and the tile, unless it cannot be seen.
-  void filter(int index, const BlockerList& from, std::size_t begin, std::size_t end, const TileArea& tile, Level& to) {
+  // Appends an emitter; of a run that does not face all of the tile, what it stands for, too.
+  void take_first(std::size_t index, const TileArea& tile, Level& to) {
+    const Emitter& e = frame_.emitters[index];
+    const bool whole = frame_.whole_run[index] != 0;
+    const Facing faces = is_run(e) ? facing(&e, tile) : Facing::all;
+    if (faces == Facing::none) return;
+    const std::size_t at = to.entries.size();
+    if (!is_run(e) || whole) {
+      if (!filter(static_cast<int>(index), frame_.nearby, frame_.first_nearby[index], frame_.first_nearby[index + 1], tile, to)) return;
+      if (faces == Facing::all) return;
+    }
+    for (std::size_t k = index + 1; k < index + e.group; k += frame_.emitters[k].group) take_first(k, tile, to);
+    if (whole) close_group(at, to);
+  }
+
+  // The same of entries of the level above, the first one and what it stands for.
+  void take(const Level& from, std::size_t first, const TileArea& tile, Level& to) {
+    const Entry& entry = from.entries[first];
+    const Facing faces = entry.group > 1 ? facing(&frame_.emitters[static_cast<std::size_t>(entry.emitter)], tile) : Facing::all;
+    if (faces == Facing::none) return;
+    const std::size_t at = to.entries.size();
+    if (!filter(entry.emitter, from.blockers, entry.begin, entry.end, tile, to) || faces == Facing::all) return;
+    for (std::size_t k = first + 1; k < first + entry.group; k += from.entries[k].group) take(from, k, tile, to);
+    close_group(at, to);
+  }
+
+  // A run of which nothing else is left goes, too.
+  static void close_group(std::size_t at, Level& to) {
+    const std::size_t group = to.entries.size() - at;
+    if (group == 1)
+      to.entries.pop_back();
+    else
+      to.entries[at].group = group;
+  }
+
+  // Appends the emitter with those of from[begin, end) that touch the hull of it and the tile, unless it cannot be seen: then false.
+  bool filter(int index, const BlockerList& from, std::size_t begin, std::size_t end, const TileArea& tile, Level& to) {
     const Emitter& e = frame_.emitters[static_cast<std::size_t>(index)];
     const double half = tile.radius, bound = e.bound;
     const Vec2d axis = e.center - tile.center;
     const double length2 = dot(axis, axis), reach = e.range + bound + half;
-    if (e.hidden || length2 >= reach * reach) return;
-    if (e.kind == Emitter::Kind::arc && !e.whole && faces_away(e, tile)) return;
-    if (e.kind == Emitter::Kind::edge) {
+    if (e.hidden || length2 >= reach * reach) return false;
+    if (e.kind == Emitter::Kind::arc && !e.whole && faces_away(e, tile)) return false;
+    if (e.kind == Emitter::Kind::edge && !is_run(e)) {
       const Vec2d n = e.normal;
-      if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return;
+      if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return false;
     }
     // The hull's slanted sides are (half + t growth) over the cosine of their slope away from the axis, and a circle's
     // distance to them shrinks by that cosine too. Where one circle nearly holds the other: the larger one's width.
@@ -143,9 +180,10 @@ class Worker {
     for (std::size_t i = 0; i < hiders; ++i)
       if (hides(hiders_[i], e, tile)) {
         to.blockers.size = first;
-        return;
+        return false;
       }
     to.entries.push_back({index, first, to.blockers.size});
+    return true;
   }
 
   // Is the arc on the far side of its ellipse for all of the tile? Seen are the places n of the unit circle with n . p > 1:
@@ -200,7 +238,7 @@ class Worker {
         for (int i : from.bodies)
           if (touches(world_.boxes[static_cast<std::size_t>(i)], tile)) to.bodies.push_back(i);
         if (stays_dark(to, x + dx, y + dy, side)) continue;
-        for (const Entry& e : from.entries) filter(e.emitter, from.blockers, e.begin, e.end, tile, to);
+        for (std::size_t e = 0; e < from.entries.size(); e += from.entries[e].group) take(from, e, tile, to);
         for (int i : from.general)
           if (in_range(static_cast<std::size_t>(i), tile)) to.general.push_back(i);
         descend(level + 1, x + dx, y + dy);
@@ -221,6 +259,7 @@ class Worker {
         marked_.size() == static_cast<std::size_t>(std::min(kTileSide, grid_.width - x0) * std::min(kTileSide, grid_.height - y0));
     for (const Entry& e : level.entries) {
       if (filled) break;
+      if (e.group > 1) continue;  // some of its edges face away: they follow one by one
       const auto [light, visible] =
           leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
