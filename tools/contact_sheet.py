@@ -1,12 +1,18 @@
 #!/usr/bin/env python3
-"""Renders every glTF file of some folders and puts the pictures on one sheet.
+"""Renders every scene of some folders, glTF and SVG, and puts the pictures on one sheet.
 
-    tools/contact_sheet.py PROGRAM SHEET.png FOLDER_OR_FILE ... [-- OPTIONS OF RENDER ...]
+    tools/contact_sheet.py PROGRAM SHEET.png [--size WxH] [--most SECONDS] [--shine] FOLDER_OR_FILE ... [-- OPTIONS OF RENDER ...]
+
+    --size WxH      of the pictures (160x120); the sheet shows them at 160x120
+    --most SECONDS  that a picture may take
+    --shine         makes every shape of an SVG a light: drawings that know nothing of us are black otherwise
 
 Prints a line a file: its place on the sheet (row, column), the exit status, seconds, how bright the picture is, the name, and what
-the program said. A file that is refused leaves a grey field; a crash (a status that is neither 0 nor 1) or a black picture of a file
-with triangles ends with exit status 1. Python's standard library alone.
+the program said. A file that is refused leaves a grey field. Crashes (a status that is neither 0 nor 1), pictures that took too long, and
+black pictures of files with triangles, or of drawings made to shine, end with exit status 1. Python's standard library alone.
 """
+import argparse
+import re
 import struct
 import subprocess
 import sys
@@ -15,7 +21,7 @@ import time
 import zlib
 from pathlib import Path
 
-WIDTH, HEIGHT, COLUMNS = 160, 120, 8
+WIDTH, HEIGHT, COLUMNS = 160, 120, 8  # of a field of the sheet
 GREY = bytes([90, 90, 90]) * WIDTH
 
 
@@ -53,13 +59,43 @@ def write_png(path, rows):
     Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", body) + chunk(b"IEND", b""))
 
 
-def render(program, scene, options):
+def shrunk(rows):
+    """The picture at the sheet's size: means of blocks."""
+    width, height = len(rows[0]) // 3, len(rows)
+    if (width, height) == (WIDTH, HEIGHT):
+        return rows
+    result = []
+    for y in range(HEIGHT):
+        block = rows[y * height // HEIGHT : max((y + 1) * height // HEIGHT, y * height // HEIGHT + 1)]
+        line = bytearray()
+        for x in range(WIDTH):
+            begin, end = x * width // WIDTH, max((x + 1) * width // WIDTH, x * width // WIDTH + 1)
+            for c in range(3):
+                values = [v for row in block for v in row[3 * begin + c : 3 * end : 3]]
+                line.append(sum(values) // len(values))
+        result.append(bytes(line))
+    return result
+
+
+def shining(svg, folder):
+    """A copy of a drawing whose every shape is a light."""
+    text = svg.read_text(errors="replace")
+    copy = Path(folder) / svg.name
+    copy.write_text(re.sub(r"<svg\b", '<svg data-steradian="light"', text, count=1))
+    return copy
+
+
+def render(program, scene, size, shine, options):
     """Exit status, seconds, what was said, and the picture's rows, or none."""
     with tempfile.TemporaryDirectory() as folder:
         picture = Path(folder) / "picture.png"
+        if scene.suffix == ".svg":
+            scene = shining(scene, folder) if shine else scene
+        else:
+            options = ["--aa", "4", *options]
         start = time.monotonic()
         done = subprocess.run(
-            [program, "render", scene, "-o", picture, "--size", f"{WIDTH}x{HEIGHT}", "--aa", "4", *options],
+            [program, "render", scene, "-o", picture, "--size", size, *options],
             capture_output=True,
             text=True,
             errors="replace",
@@ -69,33 +105,45 @@ def render(program, scene, options):
         return done.returncode, seconds, done.stderr.strip(), read_png(picture) if picture.exists() else None
 
 
-def main():
-    arguments = sys.argv[1:]
-    options = arguments[arguments.index("--") + 1 :] if "--" in arguments else []
-    arguments = arguments[: arguments.index("--")] if "--" in arguments else arguments
-    if len(arguments) < 3:
-        sys.exit(__doc__)
-    program, sheet, files = arguments[0], arguments[1], []
-    for name in map(Path, arguments[2:]):
-        files += sorted(f for f in name.rglob("*") if f.suffix in (".gltf", ".glb")) if name.is_dir() else [name]
+def arguments():
+    words = sys.argv[1:]
+    at = words.index("--") if "--" in words else len(words)
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("sheet")
+    parser.add_argument("names", nargs="+", type=Path)
+    parser.add_argument("--size", default=f"{WIDTH}x{HEIGHT}")
+    parser.add_argument("--most", type=float, default=600)
+    parser.add_argument("--shine", action="store_true")
+    return parser.parse_intermixed_args(words[:at]), words[at + 1 :]
 
-    rows, wrong = [], 0
+
+def main():
+    given, options = arguments()
+    files = []
+    for name in given.names:
+        files += sorted(f for f in name.rglob("*") if f.suffix in (".gltf", ".glb", ".svg")) if name.is_dir() else [name]
+
+    rows, wrong, slowest = [], 0, 0
     for i, file in enumerate(files):
-        status, seconds, said, picture = render(program, file, options)
+        status, seconds, said, picture = render(given.program, file, given.size, given.shine, options)
         bright = max((max(row) for row in picture), default=0) if picture else 0
-        black = picture is not None and bright < 8 and "has no triangles" not in said  # which is reason enough
-        crashed = status not in (0, 1)
-        wrong += black or crashed
+        expected = given.shine if file.suffix == ".svg" else "has no triangles" not in said  # which is reason enough
+        black = picture is not None and bright < 8 and expected
+        crashed, late = status not in (0, 1), seconds > given.most
+        wrong += black or crashed or late
+        slowest = max(slowest, seconds)
         if i % COLUMNS == 0:
             rows += [b""] * HEIGHT
+        field = shrunk(picture) if picture else [GREY] * HEIGHT
         for y in range(HEIGHT):
-            rows[i // COLUMNS * HEIGHT + y] += picture[y] if picture else GREY
-        note = " CRASH" if crashed else " BLACK" if black else ""
+            rows[i // COLUMNS * HEIGHT + y] += field[y]
+        note = " CRASH" if crashed else " BLACK" if black else " LATE" if late else ""
         said = " | ".join(line for line in said.splitlines() if "(auto)" not in line and "no camera" not in line)
         print(f"{i // COLUMNS},{i % COLUMNS}{note} status {status} {seconds:.2f} s max {bright}: {file}: {said}", flush=True)
     longest = max(map(len, rows))
-    write_png(sheet, [row + b"\0" * (longest - len(row)) for row in rows])
-    print(f"{len(files)} files, {wrong} black or crashed: {sheet}")
+    write_png(given.sheet, [row + b"\0" * (longest - len(row)) for row in rows])
+    print(f"{len(files)} files, {wrong} black, late or crashed, the slowest {slowest:.2f} s: {given.sheet}")
     sys.exit(1 if wrong else 0)
 
 
