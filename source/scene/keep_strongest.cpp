@@ -40,8 +40,8 @@ std::vector<std::size_t> sources(const Scene& scene) {
   return source;
 }
 
-// Which lights of one source to keep, `count` of them: those that hold the middles of as many equal parts of its power, in the file's order,
-// which mostly is an order in space; then the strongest of the others.
+// Which lights of one source to keep, `count` of them: those that hold the middles of as many equal parts of its power, in the file's
+// order, which mostly is an order in space; then the strongest of the others.
 void keep_of_source(const std::vector<AreaLight>& lights, const std::vector<std::size_t>& of_source, std::size_t count,
                     std::vector<bool>& keep) {
   double power = 0, before = 0;
@@ -78,7 +78,8 @@ std::vector<bool> choose(const std::vector<AreaLight>& lights, const std::vector
   std::vector<Claim> claims;
   for (std::size_t s = 0; s < source_count; ++s)
     for (std::size_t k = 1; k <= of_source[s].size(); ++k) claims.push_back({k == 1, power[s] / static_cast<double>(k), s});
-  std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) { return a.first != b.first ? a.first : a.worth > b.worth; });
+  std::stable_sort(claims.begin(), claims.end(),
+                   [](const Claim& a, const Claim& b) { return a.first != b.first ? a.first : a.worth > b.worth; });
   std::vector<std::size_t> places(source_count, 0);
   for (std::size_t i = 0; i < std::min(most, claims.size()); ++i) ++places[claims[i].source];
   std::vector<bool> keep(lights.size(), false);

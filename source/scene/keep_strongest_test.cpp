@@ -124,7 +124,8 @@ TEST(KeepStrongest, IsSaidOfAFile) {
   f.material()["emissiveFactor"] = {1, 1, 1};
   const LoadedScene loaded = load_scene(f.write(), {.max_lights = 60});
   ASSERT_FALSE(loaded.warnings.empty());
-  EXPECT_NE(loaded.warnings[0].find("60 weak area lights of emissive meshes merged into the nearest"), std::string::npos) << loaded.warnings[0];
+  EXPECT_NE(loaded.warnings[0].find("60 weak area lights of emissive meshes merged into the nearest"), std::string::npos)
+      << loaded.warnings[0];
 }
 
 }  // namespace
