@@ -252,12 +252,10 @@ double by_peak_fit_with_table(Method method, const PreparedPolygon& light, const
 }
 
 const std::vector<Baseline>& phong_baselines() {
-  static const std::vector<Baseline> baselines = {{"lorentzian, x_w by table", by_table<Method::lorentzian>},
-                                                  {"pearson, x_w by table", by_table<Method::pearson>},
-                                                  {"ellipsoid, x_w by table", by_table<Method::ellipsoid>},
-                                                  {"spherical Gaussian", by_spherical_gaussian},
-                                                  {"anisotropic Gaussian", by_anisotropic_gaussian},
-                                                  {"representative point", by_representative_point}};
+  static const std::vector<Baseline> baselines = {
+      {"lorentzian, x_w by table", by_table<Method::lorentzian>}, {"pearson, x_w by table", by_table<Method::pearson>},
+      {"ellipsoid, x_w by table", by_table<Method::ellipsoid>},   {"spherical Gaussian", by_spherical_gaussian},
+      {"anisotropic Gaussian", by_anisotropic_gaussian},          {"representative point", by_representative_point}};
   return baselines;
 }
 

@@ -25,15 +25,15 @@ const std::vector<NamedMethod>& methods() {
   const auto query = [](PlaneMethod method) {
     return [method](const PlaneWorld& world, Vec2d p) { return world.query(p, method, {64, 1}).radiance; };
   };
-  static const std::vector<NamedMethod> all = {
-      {"exact", query(PlaneMethod::exact)},
-      {"par", query(PlaneMethod::par)},
-      {"par, intervals added", [](const PlaneWorld& world, Vec2d p) {
-         const double scale = world.impl().scale;
-         return par_light(world.impl(), p * scale, ParOverlaps::added).radiance;
-       }},
-      {"sampled, 64 rays", query(PlaneMethod::sampled)},
-      {"marched, 64 rays", query(PlaneMethod::marched)}};
+  static const std::vector<NamedMethod> all = {{"exact", query(PlaneMethod::exact)},
+                                               {"par", query(PlaneMethod::par)},
+                                               {"par, intervals added",
+                                                [](const PlaneWorld& world, Vec2d p) {
+                                                  const double scale = world.impl().scale;
+                                                  return par_light(world.impl(), p * scale, ParOverlaps::added).radiance;
+                                                }},
+                                               {"sampled, 64 rays", query(PlaneMethod::sampled)},
+                                               {"marched, 64 rays", query(PlaneMethod::marched)}};
   return all;
 }
 
@@ -94,7 +94,8 @@ std::string plane_methods_text(const std::vector<MethodCost>& costs) {
   };
   table("lights, among " + std::to_string(kOccludersAmongLights) + " boxes", kLights,
         [](int n) { return std::pair(n, kOccludersAmongLights); });
-  table("boxes, " + std::to_string(kLightsAmongOccluders) + " lights", kOccluders, [](int n) { return std::pair(kLightsAmongOccluders, n); });
+  table("boxes, " + std::to_string(kLightsAmongOccluders) + " lights", kOccluders,
+        [](int n) { return std::pair(kLightsAmongOccluders, n); });
   return text;
 }
 

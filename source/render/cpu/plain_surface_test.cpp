@@ -50,8 +50,9 @@ std::unique_ptr<TileHits> any_hits(Random& random) {
   auto hits = std::make_unique<TileHits>();
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     const std::size_t block = i / 16 % 8, first = i / 16 * 16;
-    hits->geometry[i] = block < 2 || (block == 2 && i > first) ? (i == first ? static_cast<unsigned>(random.uniform(0, 3.999)) : hits->geometry[first])
-                                                               : static_cast<unsigned>(random.uniform(0, 3.999));
+    hits->geometry[i] = block < 2 || (block == 2 && i > first)
+                            ? (i == first ? static_cast<unsigned>(random.uniform(0, 3.999)) : hits->geometry[first])
+                            : static_cast<unsigned>(random.uniform(0, 3.999));
     hits->triangle[i] = block == 0 && i > first ? hits->triangle[first] : static_cast<unsigned>(random.uniform(0, 199.999));
     if (block == 4 || (block == 5 && random.uniform(0, 1) < 0.5)) hits->geometry[i] = RTC_INVALID_GEOMETRY_ID;
     hits->u[i] = any(random, 0, 1);
@@ -87,8 +88,7 @@ TEST(PlainSurface, PacksFollowTheSurfaceOfEverySlot) {
           continue;
         }
         const Vec3f view{-hits->direction.x[i], -hits->direction.y[i], -hits->direction.z[i]};
-        const Surface truth =
-            surface_at(scene, scene.meshes[hits->geometry[i]], hits->triangle[i], hits->u[i], hits->v[i], view);
+        const Surface truth = surface_at(scene, scene.meshes[hits->geometry[i]], hits->triangle[i], hits->u[i], hits->v[i], view);
         const Surface found = surface_in(*tile, i);
         const auto off = [&](Vec3f a, Vec3f b) { worst = std::max(worst, static_cast<double>(length(a - b))); };
         off(found.position, truth.position);
