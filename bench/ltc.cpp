@@ -1,5 +1,5 @@
-// kernel/ltc/quad, kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of a floor that gets rougher away
-// from the eye, decoding included; most pixels see the whole quad. fit/ggx/64: the fitter.
+// kernel/ltc/quad, kernel/ltc-high/quad (Fresnel by a lobe of its own), kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of
+// a floor that gets rougher away from the eye, decoding included; most pixels see the whole quad. fit/ggx/64: the fitter.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -87,6 +87,7 @@ Bench make_fit(int threads) {
 
 void add_ltc(BenchList& list) {
   add(list, "kernel/ltc/quad", &LtcPackTable::classic, ltc_classic_pack_tables);
+  add(list, "kernel/ltc-high/quad", &LtcPackTable::classic, ltc_fresnel_pack_tables);
   add(list, "kernel/ltc-compact/quad", &LtcPackTable::compact, ltc_compact_pack_tables);
   list.add("fit/ggx/64", [](const BenchOptions&) { return make_fit(1); });
   list.add("fit/ggx/64/threads=all", [](const BenchOptions&) { return make_fit(0); });

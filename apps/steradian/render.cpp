@@ -290,7 +290,7 @@ void add_render(CLI::App& app, Exit&) {
       ->group("Light");
   verb->add_option("--table", r.table, "of ltc: a fitted table (fit --layout classic -o FILE.json) in place of GGX's, under area lights")
       ->group("Light");
-  verb->add_option("--quality", options->quality, "of closed-form, half-vector and series; of auto: draft takes ltc-compact for GGX")
+  verb->add_option("--quality", options->quality, "of closed-form, half-vector, ltc and series; of auto: draft takes ltc-compact for GGX")
       ->check(CLI::IsMember({"draft", "normal", "high"}))
       ->group("Light");
   verb->add_option("--shadows", options->shadows, "of direct light; on: by rays where a point sees over 512 edges, exact: never by rays")

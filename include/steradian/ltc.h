@@ -8,15 +8,16 @@
 namespace steradian {
 
 // classic      two 64 x 64 tables, as engines sample them                                          "ltc"
+// fresnel      classic, and two tables more for the lobe times (1 - v.h)^5: a second walk, for dielectrics   "ltc", quality high
 // compact      3984 bytes of plain arrays, the matrix about the mirror direction                   "ltc-compact"
 // clipless     for comparison: classic, a sphere's form factor in place of clipping                "ltc-clipless"
 // representative_point   for comparison: Karis 2013, no table at all                               "representative-point"
-enum class LtcMethod { classic, compact, clipless, representative_point };
+enum class LtcMethod { classic, fresnel, compact, clipless, representative_point };
 
 // Whether a method serves a material: isotropic GGX with shadowing.
 bool serves(LtcMethod method, const Material& material);
 
-// Radiance towards the view from a light of its radiance, Fresnel by the split into n_A and f_A.
+// Radiance towards the view from a light of its radiance, Fresnel by the split into n_A and f_A (not by fresnel).
 // 0 for a view below the surface, exactly 0 for a light wholly below the horizon (not by clipless), 0 from behind.
 // Precondition: serves(method, material). Error against GGX: docs/ltc.md.
 Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
@@ -32,6 +33,9 @@ struct LtcTableView {
   const float* shapes;  // shape_size^2 times 4: what ltc_from_compact takes
   int magnitude_size;
   const float* magnitudes;  // magnitude_size^2 times 2: n_A, f_A
+  // Of the lobe times (1 - v.h)^5, as the classic ones: what n_A is there, F90 - F0 multiplies.
+  const float* fresnel_matrix;
+  const float* fresnel_magnitude;
 };
 LtcTableView ltc_ggx_tables();
 

@@ -53,8 +53,10 @@ TEST(LtcFiles, DdsHoldsThePairInHalfFloats) {
 TEST(LtcFiles, ShippedHeadersAreWhatTheWriterWrites) {
   // From tables that were read from the headers, the same text again: nothing is lost on the way.
   const auto again = classic_files(ggx_classic_table(), "ggx", "x.h");
+  const auto fresnel = classic_files(ggx_fresnel_table(), "ggx-fresnel", "x.h");
   const auto compact = compact_files(ggx_compact_table(), "ggx", "x.h");
-  for (const auto& [name, text] : {std::pair{"ggx_classic.h", again[0].bytes}, {"ggx_compact.h", compact[0].bytes}}) {
+  for (const auto& [name, text] :
+       {std::pair{"ggx_classic.h", again[0].bytes}, {"ggx_fresnel.h", fresnel[0].bytes}, {"ggx_compact.h", compact[0].bytes}}) {
     const std::string path = test::kSourceDir + "/tables/" + name;
     std::FILE* file = std::fopen(path.c_str(), "rb");
     ASSERT_NE(file, nullptr) << path;

@@ -258,7 +258,7 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
 RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& stored, const ShadingPoint& at,
                                              const Material& material) {
   const Material m = with_multiple_scattering(material, at);
-  if (method != LtcMethod::classic && method != LtcMethod::compact)
+  if (method != LtcMethod::classic && method != LtcMethod::compact && method != LtcMethod::fresnel)
     throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
   if (!serves(method, m) || m.brdf != Brdf::ggx)
     throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
@@ -269,9 +269,14 @@ RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLigh
   const double alpha = std::max(m.alpha_x, kSmallestAlpha);
   // The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
   const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-    integrals::Ltc<S> ltc(method == LtcMethod::classic ? classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z)
-                                                       : compact_lobe<S>(ggx_compact_table(), alpha, shading.view.z, shading.view));
-    return integrate(outline, shading, ltc);
+    integrals::Ltc<S> ltc(method == LtcMethod::compact ? compact_lobe<S>(ggx_compact_table(), alpha, shading.view.z, shading.view)
+                                                       : classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z));
+    auto part = integrate(outline, shading, ltc);
+    if (method == LtcMethod::fresnel) {
+      integrals::Ltc<S> grazing(classic_lobe<S>(ggx_fresnel_table(), alpha, shading.view.z));
+      part.y = integrate(outline, shading, grazing).x;
+    }
+    return part;
   };
   const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
   return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, view, integral),

@@ -72,6 +72,7 @@ std::vector<Method> methods() {
           {"closed-form, draft", closed(Quality::draft)},
           {"closed-form, normal, float", [](const Case& c) { return closed_form_radiance_float(c.light, c.at, c.material).x; }},
           {"ltc", ltc(LtcMethod::classic)},
+          {"ltc, high", ltc(LtcMethod::fresnel)},
           {"ltc-compact", ltc(LtcMethod::compact)},
           {"representative-point", ltc(LtcMethod::representative_point)},
           {"representative-point, lobe widened as published", karis}};
@@ -157,7 +158,7 @@ void write_ggx(std::ostream& out) {
          "figures.\n\n"
          "![Maps of the relative RMSE of GGX's methods](images/accuracy-ggx.svg)\n";
   for (const char* name :
-       {"closed-form, draft", "closed-form, normal", "closed-form, high", "ltc", "ltc-compact", "representative-point"}) {
+       {"closed-form, draft", "closed-form, normal", "closed-form, high", "ltc", "ltc, high", "ltc-compact", "representative-point"}) {
     write_map(out, fmt::format("`{}`, F0 = 1:", name).c_str(), map_of(metal, by_name(name)));
     write_map(out, fmt::format("`{}`, F0 = 0.04:", name).c_str(), map_of(dielectric, by_name(name)));
   }

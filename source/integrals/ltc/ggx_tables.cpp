@@ -4,11 +4,13 @@
 #include "steradian/ltc.h"
 
 // steradian fit --lobe ggx --layout classic -o tables/ggx_classic.h
+// steradian fit --lobe ggx --layout classic --fresnel-lobe -o tables/ggx_classic.h, moved from tables/ggx_classic_fresnel.h
 // steradian fit --lobe ggx --layout compact -o tables/ggx_compact.h
 // steradian fit --lobe charlie --layout compact -o tables/charlie_compact.h
 #include "tables/ggx_classic.h"
 #include "tables/charlie_compact.h"
 #include "tables/ggx_compact.h"
+#include "tables/ggx_fresnel.h"
 
 namespace steradian {
 namespace {
@@ -40,6 +42,13 @@ const ClassicTable& ggx_classic_table() {
   return table;
 }
 
+const ClassicTable& ggx_fresnel_table() {
+  constexpr std::size_t kNodes = ltc_ggx_fresnel_size * ltc_ggx_fresnel_size;
+  static const ClassicTable table = {ltc_ggx_fresnel_size, grouped<4>(ltc_ggx_fresnel_matrix, kNodes),
+                                     grouped<4>(ltc_ggx_fresnel_magnitude, kNodes), ClassicNormalisation::middle};
+  return table;
+}
+
 const CompactTable& ggx_compact_table() {
   static const CompactTable table = {
       LobeFrame::mirror, ltc_ggx_shape_size, ltc_ggx_compact_magnitude_size,
@@ -64,7 +73,9 @@ LtcTableView ltc_ggx_tables() {
           compact.shape_size,
           compact.shapes.data()->data(),
           compact.magnitude_size,
-          compact.magnitudes.data()->data()};
+          compact.magnitudes.data()->data(),
+          ltc_ggx_fresnel_matrix,
+          ltc_ggx_fresnel_magnitude};
 }
 
 }  // namespace steradian

@@ -7,6 +7,7 @@ namespace steradian {
 
 const ClassicTable& ggx_classic_table();
 const CompactTable& ggx_compact_table();
+const ClassicTable& ggx_fresnel_table();  // of the lobe times (1 - v.h)^5
 const CompactTable& charlie_compact_table();
 
 }  // namespace steradian

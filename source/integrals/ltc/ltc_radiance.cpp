@@ -21,13 +21,16 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
   view.y = 0.0;
   const auto shading = integrals::shading_from<S>(cosine > 0 ? shapes::lit_side(light, at.position) : 0, view);
   const double alpha = std::max(material.alpha_x, kSmallestAlpha);
-  const auto by = [&](auto integral, Vec3d f0, Vec3d f90) {
-    return integrals::radiance_of<S>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral), f0, f90,
-                                     light.radiance);
-  };
+  const auto part_by = [&](auto integral) { return integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral); };
+  const auto by = [&](auto integral, Vec3d f0, Vec3d f90) { return integrals::radiance_of<S>(part_by(integral), f0, f90, light.radiance); };
   switch (method) {
     case LtcMethod::representative_point: return by(integrals::RepresentativePoint<S>(material.alpha_x), material.f0, material.f90);
     case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::fresnel: {
+      const auto lobe = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)));
+      const auto grazing = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), alpha, cosine)));
+      return integrals::radiance_of<S>({lobe.x, grazing.x}, material.f0, material.f90, light.radiance);
+    }
     case LtcMethod::clipless:
       return by(integrals::CliplessLtc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
     case LtcMethod::compact: break;

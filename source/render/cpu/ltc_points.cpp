@@ -20,6 +20,14 @@ LtcPackTables ltc_classic_pack_tables() {
   return {padded(t.matrix, t.classic_size, 4), padded(t.magnitude, t.classic_size, 4)};
 }
 
+LtcPackTables ltc_fresnel_pack_tables() {
+  const LtcTableView t = ltc_ggx_tables();
+  LtcPackTables tables = ltc_classic_pack_tables();
+  tables.fresnel_matrix = padded(t.fresnel_matrix, t.classic_size, 4);
+  tables.fresnel_magnitude = padded(t.fresnel_magnitude, t.classic_size, 4);
+  return tables;
+}
+
 LtcPackTables ltc_compact_pack_tables() {
   const LtcTableView t = ltc_ggx_tables();
   return {padded(t.shapes, t.shape_size, 4), padded(t.magnitudes, t.magnitude_size, 2)};

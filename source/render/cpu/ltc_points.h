@@ -16,18 +16,21 @@ struct PackTable {
   std::vector<float> nodes;
 };
 
-// The shipped tables. classic: matrix and magnitude; compact: shapes and magnitudes.
+// The shipped tables. classic: matrix and magnitude; compact: shapes and magnitudes. fresnel: classic, and those of the lobe times
+// (1 - v.h)^5, which are empty otherwise: then f_A stands for it.
 struct LtcPackTables {
   PackTable matrix, magnitude;
+  PackTable fresnel_matrix = {}, fresnel_magnitude = {};
 };
 LtcPackTables ltc_classic_pack_tables();
+LtcPackTables ltc_fresnel_pack_tables();
 LtcPackTables ltc_compact_pack_tables();
 
 // What light of radiance 1 does to every point.
 struct LtcSums {
   float* irradiance;  // that reaches the diffuse lobe, in [0, pi]; null: not wanted
   float* specular;    // for F0 = 1 and F90 = 1: n_A times the lobe's integral
-  float* grazing;     // f_A times the same: what F90 - F0 multiplies
+  float* grazing;     // what F90 - F0 multiplies: f_A times the same, or the Fresnel lobe's own
 };
 
 struct LtcPackTable {

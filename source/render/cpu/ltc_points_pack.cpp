@@ -54,9 +54,11 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
     const PackReal c = dot(n, v);
     const PackVec3 view(dot(frame.c0, v), PackReal(0.0), c);
     const auto coordinates = k.ltc_coordinates(roughness, c);
-    const auto scale = look_up(tables.magnitude.nodes.data(), tables.magnitude.size, coordinates.x, coordinates.y);
-    const Lobe lobe = {decode(look_up(tables.matrix.nodes.data(), tables.matrix.size, coordinates.x, coordinates.y), roughness, view),
-                       scale.x, scale.y};
+    const auto lobe_of = [&](const PackTable& matrix, const PackTable& magnitude) {
+      const auto scale = look_up(magnitude.nodes.data(), magnitude.size, coordinates.x, coordinates.y);
+      return Lobe{decode(look_up(matrix.nodes.data(), matrix.size, coordinates.x, coordinates.y), roughness, view), scale.x, scale.y};
+    };
+    const Lobe lobe = lobe_of(tables.matrix, tables.magnitude);
 
     const SeenLight seen(light, p, i);
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
@@ -68,6 +70,13 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
              : polygon.may_be_small(integrals::kTransformed.least_distance2)
                  ? integrate_polygon<with_diffuse>(polygon, view, lobe)
                  : integrate_polygon<with_diffuse>(PolygonEdges{seen, frame, p}, view, lobe);
+      if (tables.fresnel_matrix.size > 0) {
+        const Lobe fresnel = lobe_of(tables.fresnel_matrix, tables.fresnel_magnitude);
+        both.specular.y = (light.is_round()    ? integrate_round<false>(seen, frame, p, view, fresnel, about)
+                           : light.is_pieces() ? integrate_pieces<false>(seen, frame, view, fresnel)
+                                               : integrate_polygon<false>(polygon, view, fresnel))
+                              .specular.x;
+      }
     }
     if (with_diffuse) store(sums.irradiance + i, irradiance_below(both.irradiance, view, fresnel_loss(points, i)));
     store(sums.specular + i, both.specular.x);

@@ -125,8 +125,8 @@ Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, co
 SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
     : method_(method),
       tables_(!table.empty()                      ? read_classic_table(table)
-              : method.ggx == Method::ltc         ? ltc_classic_pack_tables()
-              : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
+              : method.ggx == Method::ltc         ? method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables()
+                      : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
                                                   : LtcPackTables{}) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
