@@ -2,8 +2,8 @@
 // elsewhere, with the filter and without it; the table of docs/indirect.md.
 //
 // The camera moves sideways by a quarter of a pixel a frame. Each frame's error is its difference from the sum of all virtual lights
-// at every pixel, so that what the motion itself changes does not count; the jitter is the root mean square of an error's change from a
-// frame to the next, over that of the light. A pixel is at a silhouette where a neighbour sees another mesh, or a normal 26 degrees off.
+// at every pixel, so that what the motion itself changes does not count; the jitter is the mean absolute change of an error from a frame
+// to the next, over the mean light. A pixel is at a silhouette where a neighbour sees another mesh, or a normal 26 degrees off.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -55,7 +55,6 @@ std::vector<Vec3f> bounce(const Scene& scene, bool whole, bool filter) {
   o.shadows = Shadows::off;
   o.indirect.mode = IndirectMode::ltc;
   o.indirect.virtual_lights = kLights;
-  o.indirect.quads = o.indirect.soften = false;
   o.indirect.filter = filter;
   if (whole) {
     o.indirect.kept_pairs = 0;
@@ -67,7 +66,7 @@ std::vector<Vec3f> bounce(const Scene& scene, bool whole, bool filter) {
 
 struct Jitter {
   double change = 0, light = 0;
-  double relative() const { return std::sqrt(change / light); }
+  double relative() const { return change / light; }
 };
 
 }  // namespace
@@ -101,8 +100,8 @@ int main(int argc, char** argv) {
       for (std::size_t i = 0; i < error.size() && f > 0; ++i) {
         const Vec3f change = error[i] - before[filter][i];
         Jitter& j = jitter[edges[i] || edges_before[i]];
-        j.change += static_cast<double>(dot(change, change));
-        j.light += static_cast<double>(dot(truth[i], truth[i]));
+        j.change += static_cast<double>(std::fabs(change.x) + std::fabs(change.y) + std::fabs(change.z));
+        j.light += static_cast<double>(truth[i].x + truth[i].y + truth[i].z);
         if (filter && (edges[i] || edges_before[i])) share += 1.0 / (static_cast<double>(error.size()) * (frames - 1));
       }
       before[filter] = std::move(error);
