@@ -55,4 +55,16 @@ std::string to_svg(const LinePlot& plot) {
   return svg + "</svg>\n";
 }
 
+std::string sheet_to_svg(const std::vector<LinePlot>& plots, int columns) {
+  constexpr double kPanelWidth = kLeft + kWidth + kLegend, kPanelHeight = kTop + kHeight + 44;
+  const int count = static_cast<int>(plots.size()), rows = (count + columns - 1) / columns;
+  std::string svg = print("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f'>\n", columns * kPanelWidth, rows * kPanelHeight);
+  for (int i = 0; i < count; ++i) {
+    svg += print("<svg x='%.0f' y='%.0f' width='%.0f' height='%.0f'>\n", i % columns * kPanelWidth, i / columns * kPanelHeight, kPanelWidth,
+                 kPanelHeight);
+    svg += to_svg(plots[static_cast<std::size_t>(i)]) + "</svg>\n";
+  }
+  return svg + "</svg>\n";
+}
+
 }  // namespace steradian::moment

@@ -22,4 +22,7 @@ struct LinePlot {
 
 std::string to_svg(const LinePlot& plot);
 
+// Many of them as one picture, row by row.
+std::string sheet_to_svg(const std::vector<LinePlot>& plots, int columns);
+
 }  // namespace steradian::moment

@@ -40,11 +40,10 @@ double integrand(double c, double n, double phi) {
 
 // Error of what a method integrates, over the peak, from its integral over short pieces.
 template <class Front>
-Curve error_of(const std::string& name, double c, double n, double phi_high, int colour, Front front) {
+Curve error_of(const std::string& name, double c, double n, double phi_high, int colour, int pieces, Front front) {
   Curve curve{name, {}, false, colour};
-  constexpr int kPoints = 200;
-  for (int i = 0; i < kPoints; ++i) {
-    const double a = phi_high * i / kPoints, b = phi_high * (i + 1) / kPoints;
+  for (int i = 0; i < pieces; ++i) {
+    const double a = phi_high * i / pieces, b = phi_high * (i + 1) / pieces;
     const auto edge = edge_on_circle(c, a, b);
     const double phi = 0.5 * (a + b);
     curve.points.push_back({phi, (front(edge).v / edge.s.v / (b - a) - integrand(c, n, phi)) / integrand(c, n, 0)});
@@ -98,13 +97,15 @@ LinePlot half_width_plot() {
   return plot;
 }
 
-LinePlot fits_plot() {
+LinePlot fits_plot(double n, double c, double highest, int pieces) {
   K k;
-  constexpr double c = 0.99, n = 100, phi_high = kQuarterTurn;
+  constexpr double phi_high = kQuarterTurn;
   const integrals::PhongLobe<double> lobe(n);
-  LinePlot plot{"Errors of the methods' integrands over the peak, n = 100, c = 0.99", "phi [rad]", "", 0, phi_high, -0.03, 0.03, {}};
+  char title[96];
+  std::snprintf(title, sizeof title, "Errors of the methods' integrands over the peak, n = %g, c = %g", n, c);
+  LinePlot plot{title, "phi [rad]", "", 0, phi_high, -highest, highest, {}};
   const auto add = [&](const std::string& name, int colour, auto front) {
-    plot.curves.push_back(error_of(name, c, n, phi_high, colour, front));
+    plot.curves.push_back(error_of(name, c, n, phi_high, colour, pieces, front));
   };
   for (const int f_is_x : {0, 1}) {
     const std::string form = f_is_x ? ", f = x" : ", f = 1";
@@ -159,7 +160,12 @@ std::vector<std::string> write_table2_figures(const std::string& folder, Simd si
   };
   write("phong_integrand.svg", integrand_plot());
   write("phong_half_width.svg", half_width_plot());
-  write("phong_fits.svg", fits_plot());
+  write("phong_fits.svg", fits_plot(100, 0.99, 0.03, 200));
+  std::vector<LinePlot> sheet;
+  for (const double n : {10.0, 100.0, 1000.0})
+    for (const double c : {0.5, 0.9, 0.99, 0.9999}) sheet.push_back(fits_plot(n, c, 0.1, 60));
+  files.push_back(folder + "/phong_fits_sheet.svg");
+  write_file(files.back(), sheet_to_svg(sheet, 4));
   for (const int n : {100, 5000}) {
     files.push_back(folder + "/phong_errors_" + std::to_string(n) + ".png");
     write_picture(error_picture(simd, n, 50), files.back());

@@ -7,10 +7,10 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kMostTurn = std::numbers::pi / 3;     // of a run: its edges face much the same points
-constexpr double kSharpest = std::numbers::pi / 8;     // of one corner
-constexpr std::size_t kParts = 4;                      // that a run is taken apart in
-constexpr double kLeastHeight = 1e-3;                  // of the tile over every line: floats must not doubt it
+constexpr double kMostTurn = std::numbers::pi / 3;  // of a run: its edges face much the same points
+constexpr double kSharpest = std::numbers::pi / 8;  // of one corner
+constexpr std::size_t kParts = 4;                   // that a run is taken apart in
+constexpr double kLeastHeight = 1e-3;               // of the tile over every line: floats must not doubt it
 
 double turn_between(const Emitter& a, const Emitter& b) {
   const Vec2d u = a.b - a.a, v = b.b - b.a;
@@ -85,7 +85,8 @@ std::vector<Emitter> with_runs(const std::vector<Emitter>& emitters) {
 Facing facing(const Emitter* run, const TileArea& tile) {
   bool some = false, all = true;
   const auto look = [&](const Emitter& e) {
-    const double height = dot(e.normal, tile.center - e.a), reach = std::fabs(e.normal.x) * tile.half.x + std::fabs(e.normal.y) * tile.half.y;
+    const double height = dot(e.normal, tile.center - e.a),
+                 reach = std::fabs(e.normal.x) * tile.half.x + std::fabs(e.normal.y) * tile.half.y;
     some = some || height + reach > 0;
     all = all && height - reach > kLeastHeight;
   };

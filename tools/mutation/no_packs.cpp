@@ -1,0 +1,32 @@
+// What the kernels' tests ask of the renderer's packs, which this program is built without: such tests fail here, and so are left out.
+#include <stdexcept>
+#include <vector>
+
+#include "render/cpu/closed_form.h"
+#include "render/cpu/ltc_points.h"
+#include "render/cpu/phong.h"
+#include "render/cpu/sheen.h"
+#include "studies/table2.h"
+
+namespace steradian {
+namespace {
+[[noreturn]] void refuse() { throw std::logic_error("no packs here"); }
+}  // namespace
+
+PackLight prepare_light(const PreparedPolygon&) { refuse(); }
+LtcPackTables ltc_classic_pack_tables() { refuse(); }
+LtcPackTables ltc_fresnel_pack_tables() { refuse(); }
+LtcPackTables ltc_compact_pack_tables() { refuse(); }
+
+namespace moment {
+const std::vector<ComparedMethod>& compared_methods() { refuse(); }
+}  // namespace moment
+
+namespace isa_sse2 {
+const ClosedFormTable& closed_form_table() { refuse(); }
+const LtcPackTable& ltc_pack_table() { refuse(); }
+const PhongTable& phong_table() { refuse(); }
+const SheenTable& sheen_table() { refuse(); }
+}  // namespace isa_sse2
+
+}  // namespace steradian
