@@ -40,8 +40,6 @@ bool above(const Cell& c, const Doubled& m) {
   return y > m.y || (y == m.y && 2 * std::int64_t{c.dy} > m.dy);
 }
 
-bool runs_up(const Segment& e) { return e.b.y > e.a.y || (e.b.y == e.a.y && e.b.dy > e.a.dy); }
-
 bool apart(const Segment& e, const Segment& f) {
   const auto out = [](std::int32_t ea, std::int32_t eb, std::int32_t fa, std::int32_t fb) {
     return std::max(ea, eb) < std::min(fa, fb) || std::max(fa, fb) < std::min(ea, eb);
@@ -84,23 +82,16 @@ class Neighbours {
   std::vector<std::uint32_t> found_;
 };
 
-struct Crossing {
-  bool after;  // e's midpoint
-  double t;
-  std::int32_t change;
-  bool operator<(const Crossing& c) const { return after != c.after ? c.after : t < c.t; }
-};
-
 double place_between(const Side& from, const Side& to) {
   const auto at = [](std::int64_t a, std::int64_t b) { return static_cast<double>(a) / static_cast<double>(a - b); };
   return std::clamp(from.d0 != to.d0 ? at(from.d0, to.d0) : from.d1 != to.d1 ? at(from.d1, to.d1) : 0.5, 0.0, 1.0);
 }
 
-// Where f crosses e, and where e crosses f.
-struct Pair {
-  Crossing on_e, on_f;
-};
-bool cross(const Segment& e, const Segment& f, Pair& result) {
+}  // namespace
+
+bool runs_up(const Segment& e) { return e.b.y > e.a.y || (e.b.y == e.a.y && e.b.dy > e.a.dy); }
+
+bool cross(const Segment& e, const Segment& f, CrossingPair& result) {
   if (share_an_end(e, f) || apart(e, f)) return false;
   const Side ea = side(f, once(e.a), 1), eb = side(f, once(e.b), 1);
   if (ea.sign() == eb.sign()) return false;
@@ -112,8 +103,6 @@ bool cross(const Segment& e, const Segment& f, Pair& result) {
   result = {crossing(e, f, ea, eb), crossing(f, e, fa, fb)};
   return true;
 }
-
-}  // namespace
 
 int side_of(const Segment& f, const Cell& p) { return side(f, once(p), 1).sign(); }
 int side_of_midpoint(const Segment& f, const Segment& e) { return side(f, midpoint(e), 2).sign(); }
@@ -129,12 +118,15 @@ std::int32_t left_ray_crosses(const Segment& f, int middle, bool start_above, bo
   return 0;
 }
 
+bool lies_below(const LeftEvent& event, const Doubled& m) {
+  const std::int64_t y = 2 * std::int64_t{event.y};
+  return y < m.y || (y == m.y && 2 * std::int64_t{event.dy} < m.dy);
+}
+
 std::int32_t count_at_the_box(const SegmentSet& set, const Doubled& m) {
   std::int32_t count = set.base;
-  for (const LeftEvent& event : set.events) {
-    const std::int64_t y = 2 * std::int64_t{event.y};
-    if (y < m.y || (y == m.y && 2 * std::int64_t{event.dy} < m.dy)) count += event.weight;
-  }
+  for (const LeftEvent& event : set.events)
+    if (lies_below(event, m)) count += event.weight;
   return count;
 }
 
@@ -172,6 +164,14 @@ std::int32_t left_at_start(const Segment& e, std::int32_t count, const Crossing*
 
 }  // namespace
 
+std::int32_t left_ray_crosses(const Segment& e, const Segment& f) {
+  const Doubled m = midpoint(e);
+  const bool start_above = above(f.a, m), end_above = above(f.b, m);
+  return start_above == end_above ? 0 : left_ray_crosses(f, side(f, m, 2).sign(), start_above, end_above);
+}
+
+bool lies_below_middle(const LeftEvent& event, const Segment& e) { return lies_below(event, midpoint(e)); }
+
 void arrange(const SegmentSet& set, std::vector<Piece>& pieces) {
   pieces.clear();
   std::vector<Crossing> crossings;
@@ -189,7 +189,7 @@ void arrange(const SegmentSet& set, std::vector<Piece>& pieces) {
       if (start_above == end_above && apart(e, f)) continue;
       const int middle = side(f, m, 2).sign();
       count += left_ray_crosses(f, middle, start_above, end_above);
-      Pair pair;
+      CrossingPair pair;
       if (cross(e, f, pair)) crossings.push_back(pair.on_e);
     }
     std::sort(crossings.begin(), crossings.end());
@@ -310,7 +310,7 @@ void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arr
     const std::size_t count = packs.may_cross(view, place, found);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = arrays.order[found[k]];
-      Pair pair;
+      CrossingPair pair;
       if (!cross(set.segments[i], set.segments[j], pair)) continue;
       found_crossings.push_back({i, pair.on_e});
       found_crossings.push_back({j, pair.on_f});

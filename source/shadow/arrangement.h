@@ -25,6 +25,25 @@ int side_of(const Segment& f, const Cell& p);
 // The same for the midpoint of a segment.
 int side_of_midpoint(const Segment& f, const Segment& e);
 
+// Where another segment crosses: the share of the way from start to end, on which side of the middle, how the count on the left changes.
+struct Crossing {
+  bool after;  // the middle
+  double t;
+  std::int32_t change;
+  bool operator<(const Crossing& c) const { return after != c.after ? c.after : t < c.t; }
+};
+struct CrossingPair {
+  Crossing on_e, on_f;
+};
+// Whether two segments cross, and where.
+bool cross(const Segment& e, const Segment& f, CrossingPair& result);
+
+// What f adds to the count of a ray to the left from e's middle.
+std::int32_t left_ray_crosses(const Segment& e, const Segment& f);
+// Whether an event lies below e's middle.
+bool lies_below_middle(const LeftEvent& event, const Segment& e);
+bool runs_up(const Segment& e);
+
 // Replaces `pieces`. Order: by segment, then along it.
 void arrange(const SegmentSet& set, std::vector<Piece>& pieces);
 

@@ -151,6 +151,11 @@ EdgeView EdgeArrays::view() const {
   return {walks0_.size(), v0_.data(), v1_.data(), plane0_.data(), plane1_.data(), walks0_.data(), walks1_.data()};
 }
 
+LaneEdges EdgeArrays::lane_edges() const {
+  return {view(),          edge_.size(),    plane_count_, vertex_count_, vertices_.view(),
+          normals_.view(), offsets_.data(), more_.data(), more_.size(),  incidences_.data()};
+}
+
 void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
                         const std::vector<std::uint32_t>& crossing) {
   clear();
@@ -244,7 +249,7 @@ void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, c
     has_more_.push_back(tile.has_more_[e]);
     if (tile.has_more_[e] != 0) {
       while (tile.more_[more].edge != e) ++more;
-      const More& m = tile.more_[more];
+      const LaneEdges::More& m = tile.more_[more];
       more_.push_back({static_cast<std::uint32_t>(edge_.size()), static_cast<std::uint32_t>(incidences_.size()), m.count});
       for (std::uint32_t k = m.first; k < m.first + m.count; ++k)
         incidences_.push_back({plane(tile.incidences_[k].plane), tile.incidences_[k].walks});
@@ -290,7 +295,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
 
   if (!more_.empty()) {
     // Edges of more than two triangles take their places among the others.
-    for (const More& m : more_) {
+    for (const LaneEdges::More& m : more_) {
       std::int32_t weight = 0;
       for (std::uint32_t i = m.first; i < m.first + m.count; ++i)
         weight -= incidences_[i].walks * (facing_[incidences_[i].plane] > 0 ? 1 : -1);
@@ -317,9 +322,6 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
   };
   const auto cut_between = [&](std::size_t v0, std::size_t v1) {
     return end_at(K().shadow_project(eye_kernel, K().shadow_cut(position(v0), position(v1), height)), box);
-  };
-  const auto vertex_cell = [&](std::size_t v, std::int32_t x, std::int32_t y) -> Cell {
-    return {x, y, shift_x_[v], shift_y_[v], vertex_[v]};
   };
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t e = found_[i];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shadow/gather.h"
+#include "shadow/lanes.h"
 #include "shadow/packs.h"
 #include "shadow/segments.h"
 
@@ -22,6 +23,16 @@ class EdgeArrays {
 
   bool empty() const { return edge_.empty() && crossing_.empty(); }
   std::size_t edge_count() const { return edge_.size(); }
+  std::size_t vertex_count() const { return vertex_count_; }
+  std::size_t plane_count() const { return plane_count_; }
+  bool has_crossing() const { return !crossing_.empty(); }
+
+  // For lanes: the edges, and what the ends of one of them are where its point sees them in some cell.
+  LaneEdges lane_edges() const;
+  std::uint32_t edge_number(std::size_t row) const { return edge_[row]; }
+  Cell end_of(std::size_t row, int end, std::int32_t x, std::int32_t y) const {
+    return vertex_cell(static_cast<std::size_t>(end == 0 ? v0_[row] : v1_[row]), x, y);
+  }
 
   // All segments that the point sees, in the frame of assign (`base`), or in another one. Nothing at all where no occluder is among
   // them: see add_surroundings.
@@ -46,11 +57,7 @@ class EdgeArrays {
   struct Triangle {
     std::uint32_t number, plane, corners[3], edges[3];
   };
-  struct Incidence {
-    std::uint32_t plane;
-    std::int32_t walks;
-  };
-
+  Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return {x, y, shift_x_[v], shift_y_[v], vertex_[v]}; }
   void clear();
   void pad();
   EdgeView view() const;
@@ -68,11 +75,8 @@ class EdgeArrays {
   std::vector<std::int32_t> v0_, v1_, plane0_, plane1_;
   std::vector<float> walks0_, walks1_;
   std::vector<std::uint8_t> has_more_;  // than two triangles: then all of them are in `more_`
-  struct More {
-    std::uint32_t edge, first, count;
-  };
-  std::vector<More> more_;
-  std::vector<Incidence> incidences_;
+  std::vector<LaneEdges::More> more_;
+  std::vector<LaneEdges::Incidence> incidences_;
   std::vector<Triangle> crossing_;
 
   // Of a point.

@@ -23,7 +23,7 @@ Vec3f above(Vec3d v) { return -below(-v); }
 
 }  // namespace
 
-Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points) {
+Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Sections sections) : sections_(sections) {
   Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
   for (const Vec3d& p : points) {
     low = least(low, frame.to_local(p));
@@ -73,6 +73,18 @@ bool Shaft::may_meet(const Vec3d* corners, int count) const {
   });
 }
 
+bool Shaft::may_meet_segment(Vec3d a, Vec3d b) const {
+  double t0 = 0, t1 = 1;
+  for (const Bound& bound : bounds_) {
+    const double da = dot(bound.normal, a) - bound.offset - rounding(a) * bound.length,
+                 db = dot(bound.normal, b) - bound.offset - rounding(b) * bound.length;
+    if (da > 0 && db > 0) return false;
+    if (da > 0) t0 = std::max(t0, da / (da - db));
+    if (db > 0) t1 = std::min(t1, da / (da - db));
+  }
+  return t0 <= t1;
+}
+
 int Shaft::facing(const Plane& plane) const {
   const double middle = dot(plane.normal, center_) - plane.offset;
   const double reach =
@@ -97,7 +109,18 @@ bool Shaft::needs(const EdgeMesh& mesh, std::uint32_t number) const {
 bool Shaft::needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const {
   const auto& t = mesh.triangles[triangle];
   const Vec3d corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-  return may_meet(corners, 3);
+  if (!may_meet(corners, 3)) return false;
+  if (sections_ == Sections::anywhere) return true;
+  // A large triangle may cross the plane far from the light.
+  const Bound& plane = bounds_[1];
+  Vec3d ends[3];
+  int count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d a = corners[i], b = corners[(i + 1) % 3];
+    const double ha = dot(plane.normal, a) - plane.offset, hb = dot(plane.normal, b) - plane.offset;
+    if ((ha < 0) != (hb < 0)) ends[count++] = a + (b - a) * (ha / (ha - hb));
+  }
+  return count != 2 || may_meet_segment(ends[0], ends[1]);
 }
 
 ShaftView Shaft::view_from(const LightFrame& frame) const {

@@ -11,17 +11,22 @@
 
 namespace steradian::shadow {
 
+// Where triangles cross the plane of a light: that of the shaft's frame, or planes of the points' own.
+enum class Sections { in_plane, anywhere };
+
 // The hull of a group of points and a light, and what of the points' box its tests need.
 class Shaft {
  public:
   // All points below the light's plane (in its frame, z < 0).
-  Shaft(const LightFrame& frame, const std::vector<Vec3d>& points);
+  Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Sections sections = Sections::in_plane);
 
   bool may_meet_box(Vec3d low, Vec3d high) const;
   bool may_meet(const Vec3d* corners, int count) const;  // their hull
+  bool may_meet_segment(Vec3d a, Vec3d b) const;
 
   // Whether the edge can be a segment for one of the points: it may be a contour, and it may meet the shaft.
   bool needs(const EdgeMesh& mesh, std::uint32_t edge) const;
+  // Whether the section of a triangle by the light's plane can be one.
   bool needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const;
 
   // In a frame's coordinates, for packs.
@@ -35,7 +40,8 @@ class Shaft {
   // How far off a place may be: points look at positions in float, and a vertex that one of them sees inside the box must not lose
   // its edges.
   double rounding(Vec3d p) const;
-  std::array<Bound, 6> bounds_;
+  std::array<Bound, 6> bounds_;  // the second: before the light's plane
+  Sections sections_;
   Vec3d origin_;                         // of the light
   double far_ = 0;                       // distance of the farthest point from its plane
   Vec3d center_;                         // of the points' box, in the world

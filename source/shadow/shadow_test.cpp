@@ -9,6 +9,7 @@
 #include "integrals/ltc/table.h"
 #include "lobes/lobe.h"
 #include "shadow/edge_arrays.h"
+#include "shadow/point_lanes.h"
 #include "shadow/shadow_kernels.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
@@ -350,6 +351,91 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
     }
     EXPECT_LE(std::sqrt(squares / kPoints), 5e-7);
   }
+}
+
+// Sixteen points at once see what each of them sees by itself.
+TEST(SoftShadow, LanesSeeWhatPointsSee) {
+  std::size_t lanes_found = 0, lanes_asked = 0;
+  for (const families::Family& family : families::all()) {
+    SCOPED_TRACE(family.name);
+    const Stage stage(family);
+    const EdgeTree tree(stage.mesh);
+    families::Random random(6, 17);
+    Scratch exact;
+    VisibleRegion in_exact;
+    PointLanes lanes;
+    double squares = 0;
+    int compared = 0;
+    for (int g = 0; g < 8; ++g) {
+      const families::Point first = families::random_point(family, stage.mesh, stage.light, random);
+      const std::size_t side = stage.side_of(first.at);
+      const LightFrame& frame = stage.frames[side];
+      const Frame surface = Frame::from_normal(first.at.normal);
+      std::vector<Viewpoint> points;
+      std::vector<Vec3d> positions;
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        Viewpoint at = first.at;
+        if (i > 0) at.position += surface.x * random.uniform(-0.02, 0.02) + surface.y * random.uniform(-0.02, 0.02);
+        if (!(frame.to_local(at.position).z < -1e-3)) continue;
+        points.push_back(at);
+        positions.push_back(at.position);
+      }
+      if (points.empty()) continue;
+      const Shaft shaft(frame, positions);
+      std::vector<std::uint32_t> edges;
+      tree.gather(stage.mesh, shaft, edges);
+      const std::vector<std::uint32_t> all_crossing = crossing_triangles(stage.mesh, frame);
+      if (std::any_of(all_crossing.begin(), all_crossing.end(), [&](std::uint32_t t) { return shaft.needs_triangle(stage.mesh, t); }))
+        continue;
+      LocalEdges<double> local;
+      local.assign(stage.mesh, frame, edges, {});
+      const std::vector<Segment> outline = outline_segments(frame);
+      LightFrame other;
+      other.origin = frame.origin + frame.axes.x * 0.1;
+      other.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      for (const bool turned : {false, true}) {
+        const LightFrame& base = turned ? other : frame;
+        EdgeArrays arrays;
+        arrays.assign(stage.mesh, base, edges, {});
+        std::vector<PointLanes::Point> asked;
+        for (const Viewpoint& at : points) asked.push_back({&frame, &at, true});
+        lanes.find(lane_table_for(active_simd()), arrays, base, turned, asked, outline);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+          const Viewpoint& at = points[k];
+          local.see(at, exact.set);
+          find_visible(frame, at.position, stage.rays, exact, in_exact);
+          ++lanes_asked;
+          if (lanes.none() >> k & 1) {
+            EXPECT_TRUE(in_exact.boundary.empty()) << first.kind << " " << g << " " << k;
+            continue;
+          }
+          if ((lanes.found() >> k & 1) == 0) continue;  // by itself
+          ++lanes_found;
+          const double height = -frame.to_local(at.position).z;
+          const Vec3d to = lanes.place(k) - at.position;
+          const bool free = !stage.rays.between(at.position, at.position + to * ((height - frame.eta) / height));
+          double area = 0, x = 0, y = 0;
+          int edge_count = 0;
+          if (free)
+            lanes.each_edge(k, [&](double ax, double ay, double bx, double by) {
+              area += 0.5 * (ax * by - ay * bx);
+              x += (bx - ax) / frame.box_x;
+              y += (by - ay) / frame.box_y;
+              ++edge_count;
+            });
+          // Ends of pieces are floats of a half side.
+          EXPECT_LE(std::hypot(x, y), 2.4e-7 * edge_count) << first.kind << " " << g << " " << k;
+          const double change = area / (4 * frame.box_x * frame.box_y) - area_of(in_exact);
+          EXPECT_LE(std::fabs(change), 1e-4) << first.kind << " " << g << " " << k << (turned ? " turned" : "");
+          squares += change * change;
+          ++compared;
+        }
+      }
+    }
+    // As for positions in float; one point that leaves the goal's mean counts in few.
+    EXPECT_LE(std::sqrt(squares / std::max(compared, 1)), 1e-6) << compared;
+  }
+  EXPECT_GT(lanes_found, lanes_asked / 2);
 }
 
 // A vertex that lies inside by less than a rounding: its edge stays, with the event of the side that cut it, or counts to its left

@@ -22,14 +22,15 @@ class Pieces {
     elements_.clear();
     blocks_.clear();
   }
-  // The next 16 points: room for so many edges each.
-  void add_block(std::size_t edge_count) {
+  // The next 16 points: room for so many edges each, of which it returns the planes: kEdgePlanes of 16 numbers an edge.
+  float* add_block(std::size_t edge_count) {
     blocks_.push_back({edges_.size(), edge_count});
     edges_.resize(edges_.size() + edge_count * kEdgePlanes * kBlock, 0.0f);
     elements_.resize(elements_.size() + kElementPlanes * kBlock, 0.0f);
     float* e = &elements_[elements_.size() - kElementPlanes * kBlock];
     std::fill_n(e, kBlock, 1.0f);                                         // somewhere
     std::fill_n(e + (kElementPlanes - 1) * kBlock, kBlock, kNoElements);  // but never used
+    return edges_.data() + blocks_.back().first;
   }
   void set_edge(std::size_t point, std::size_t edge, Vec3f a, Vec3f b) {
     float* e = &edges_[blocks_[point / kBlock].first + edge * kEdgePlanes * kBlock + point % kBlock];

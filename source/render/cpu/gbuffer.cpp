@@ -70,7 +70,11 @@ void put_nothing(SurfaceTile& tile, std::size_t i) {
 
 std::size_t take_slots(const SurfaceTile& from, const std::vector<std::uint32_t>& slots, std::size_t filled, SurfaceTile& to) {
   to.any_surface = to.any_diffuse = to.any_specular = to.any_sheen = to.any_coat = to.any_override = to.any_passing = false;
-  for (std::size_t i = 0; i < slots.size(); ++i) put_surface(to, i, surface_in(from, slots[i]), get(from.view, slots[i]));
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (slots[i] == kNoSlot)
+      put_nothing(to, i);
+    else
+      put_surface(to, i, surface_in(from, slots[i]), get(from.view, slots[i]));
   for (std::size_t i = slots.size(); i < filled; ++i) put_nothing(to, i);
   return slots.size();
 }

@@ -143,6 +143,37 @@ bool RayScene::between(Vec3d from, Vec3d to, Casters casters) const {
                                                   : kCutOut);
 }
 
+void RayScene::Sixteen::set(std::size_t i, Vec3d from, Vec3d along) {
+  const auto origin = static_cast<Vec3f>(from), direction = static_cast<Vec3f>(along);
+  rays.org_x[i] = origin.x;
+  rays.org_y[i] = origin.y;
+  rays.org_z[i] = origin.z;
+  rays.dir_x[i] = direction.x;
+  rays.dir_y[i] = direction.y;
+  rays.dir_z[i] = direction.z;
+}
+
+std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked) const {
+  if (asked == 0) return 0;
+  alignas(64) int valid[16];
+  RTCRay16& rays = sixteen.rays;
+  for (unsigned i = 0; i < 16; ++i) {
+    valid[i] = (asked >> i & 1) != 0 ? -1 : 0;
+    rays.tnear[i] = rays.time[i] = 0;
+    rays.tfar[i] = 1;
+    rays.mask[i] = kHasEdges;
+    rays.id[i] = rays.flags[i] = 0;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, rtc_.get(), &context, &rays);
+  std::uint32_t result = 0;
+  for (unsigned i = 0; i < 16; ++i)
+    if (valid[i] != 0 && rays.tfar[i] < 0) result |= 1u << i;
+  return result;
+}
+
 bool RayScene::blocked_towards(Vec3d from, Vec3d direction) const {
   return blocked(rtc_.get(), static_cast<Vec3f>(from), static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity());
 }

@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -32,6 +33,14 @@ class RayScene {
   // Whether something stands between two points, near the ends included: a point on a surface is moved off it first
   // (shadow::offset_from_surface).
   bool between(Vec3d from, Vec3d to, Casters casters = Casters::with_edges) const;
+  // Sixteen at once, those in the bits of `asked`; casters: those whose edges cast exact shadows. Returns which are blocked.
+  struct Sixteen {
+    alignas(64) RTCRay16 rays;
+    // From a point along a vector, to its end.
+    void set(std::size_t i, Vec3d from, Vec3d along);
+  };
+  std::uint32_t blocked_among(Sixteen& sixteen, std::uint32_t asked) const;
+
   bool blocked_towards(Vec3d from, Vec3d direction) const;  // by any
 
   // The same from surface to surface, for rays that need not agree with the shadows of direct light: both ends are moved in

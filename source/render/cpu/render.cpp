@@ -370,31 +370,40 @@ class Renderer {
 
   // Slots that see a part of a light.
   void add_parts(SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
-    std::vector<TileShadow::Part>& parts = work.shadow.parts;
-    if (parts.empty()) return;
-    // Packs walk as many edges as their longest list has.
-    std::stable_sort(parts.begin(), parts.end(),
-                     [](const TileShadow::Part& a, const TileShadow::Part& b) { return a.visible.count > b.visible.count; });
-    work.slots.clear();
-    for (const TileShadow::Part& part : parts) work.slots.push_back(part.slot);
+    for (std::size_t i = 0; i < work.shadow.batch_count; ++i) add_batch(tile, light, work.shadow.batches[i], work);
+  }
+
+  void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, ShadowWork& work) {
+    work.slots = batch.slots;
+    const std::size_t count = batch.slots.size();
+    std::vector<Vec3f> radiance(count);
     work.pieces.radiance = light.radiance;
-    work.pieces.shape = pieces_of(work.shadow, [](const TileShadow::Part& part) { return part.visible; });
-    const SurfaceTile& seen = light_slots(tile, work.pieces, work);
-    std::vector<Vec3f> radiance;
-    for (std::size_t k = 0; k < parts.size(); ++k) radiance.push_back(radiance_in(seen, k) * parts[k].passes);
-    if (parts[0].all.count > 0) {
+    light_pieces(tile, batch.visible, work, [&](const SurfaceTile& seen) {
+      for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance_in(seen, k) * batch.passes[k];
+    });
+    if (batch.all.point_count() > 0) {
       // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
-      const auto share = [](float part, float all) { return all > 0 ? part / all : 0.0f; };
-      work.pieces.shape = pieces_of(work.shadow, [](const TileShadow::Part& part) { return part.all; });
-      const SurfaceTile& all = light_slots(tile, work.pieces, work);
-      for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Vec3f a = radiance_in(all, k);
-        radiance[k] = {share(radiance[k].x, a.x), share(radiance[k].y, a.y), share(radiance[k].z, a.z)};
-      }
+      const auto over = [](float part, float all) { return all > 0 ? part / all : 0.0f; };
+      light_pieces(tile, batch.all, work, [&](const SurfaceTile& all) {
+        for (std::size_t k = 0; k < count; ++k) {
+          const Vec3f a = radiance_in(all, k);
+          radiance[k] = {over(radiance[k].x, a.x), over(radiance[k].y, a.y), over(radiance[k].z, a.z)};
+        }
+      });
       const SurfaceTile& whole = light_slots(tile, light, work);
-      for (std::size_t k = 0; k < parts.size(); ++k) radiance[k] = radiance[k] * radiance_in(whole, k);
+      for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance[k] * radiance_in(whole, k);
     }
-    for (std::size_t k = 0; k < parts.size(); ++k) add_radiance(tile, parts[k].slot, radiance[k]);
+    for (std::size_t k = 0; k < count; ++k)
+      if (batch.slots[k] != kNoSlot) add_radiance(tile, batch.slots[k], radiance[k]);
+  }
+
+  // use(tile): the radiance that some slots get from pieces, in their order.
+  template <class Use>
+  void light_pieces(const SurfaceTile& tile, packed::Pieces& pieces, ShadowWork& work, Use use) {
+    if (!work.pieces.is_pieces()) work.pieces.shape = packed::Pieces();
+    std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
+    use(light_slots(tile, work.pieces, work));
+    std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
   }
 
   // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "shapes/area_moments.h"
+#include "shadow/point_lanes.h"
 #include "shadow/round_light.h"
 #include "shadow/round_shaft.h"
 #include "shadow/visible.h"
@@ -87,6 +88,64 @@ bool TileShadow::is_plain() const {
   return std::all_of(seen.begin(), seen.end(), [](Seen s) { return s == Seen::whole || s == Seen::dark; });
 }
 
+void TileShadow::Batch::clear() {
+  slots.clear();
+  passes.clear();
+  visible.clear();
+  all.clear();
+}
+
+void TileShadow::clear() {
+  seen.fill(Seen::dark);
+  parts.clear();
+  edges.clear();
+  batch_count = 0;
+}
+
+TileShadow::Batch& TileShadow::batch_with_room() {
+  if (batch_count == 0 || batches[batch_count - 1].slots.size() + packed::Pieces::kBlock > kTilePixels) {
+    if (batches.size() == batch_count) batches.emplace_back();
+    batches[batch_count++].clear();
+  }
+  return batches[batch_count - 1];
+}
+
+void TileShadow::batch_parts() {
+  constexpr std::size_t kBlock = packed::Pieces::kBlock;
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.visible.count > b.visible.count; });
+  for (std::size_t first = 0; first < parts.size(); first += kBlock) {
+    const std::size_t last = std::min(first + kBlock, parts.size());
+    Batch& batch = batch_with_room();
+    const std::size_t at = batch.slots.size();
+    batch.slots.resize(at + kBlock, kNoSlot);
+    batch.passes.resize(at + kBlock, 1.0f);
+    for (std::size_t i = first; i < last; ++i) {
+      batch.slots[at + i - first] = parts[i].slot;
+      batch.passes[at + i - first] = parts[i].passes;
+    }
+    const auto add = [&](packed::Pieces& pieces, Outline Part::*which) {
+      std::size_t most = 0;
+      for (std::size_t i = first; i < last; ++i) most = std::max(most, (parts[i].*which).count);
+      if (most == 0) return;
+      pieces.add_block(most);
+      for (std::size_t i = first; i < last; ++i) {
+        const Outline& outline = parts[i].*which;
+        for (std::size_t k = 0; k < most; ++k) {
+          // Edges of no length where the list is shorter.
+          const Edge& e = edges[outline.first + std::min(k, outline.count - 1)];
+          pieces.set_edge(at + i - first, k, k < outline.count ? e.a : e.b, e.b);
+        }
+        if (outline.elements) pieces.set_elements(at + i - first, *outline.elements, outline.area);
+      }
+      // The last block's other lanes hold no surface.
+      for (std::size_t i = last; i < first + kBlock; ++i)
+        for (std::size_t k = 0; k < most; ++k) pieces.set_edge(at + i - first, k, {0, 1, 0}, {0, 1, 0});
+    };
+    add(batch.visible, &Part::visible);
+    add(batch.all, &Part::all);
+  }
+}
+
 // A tile in work, and its thread's memory.
 struct ShadowPass::Work {
   const std::vector<Viewpoint>* points = nullptr;
@@ -95,10 +154,12 @@ struct ShadowPass::Work {
   shadow::EdgeArrays tile, group;
   shadow::Scratch scratch;
   shadow::VisibleRegion region;
+  shadow::PointLanes lanes;
   std::vector<Vec3d> positions;
   std::vector<std::uint32_t> slots, edges, crossing;
   LightFrame base;             // of round lights: in whose coordinates the arrays are
   bool turned = false;         // they are
+  bool in_lanes = false;       // the points' sides of the light have one outline
   bool whole_outline = false;  // parts come with their light's polygon
   bool cut_outs = false;       // whether the group's shaft meets any
 
@@ -131,6 +192,7 @@ std::optional<ShadowPass::Side> ShadowPass::side_of_round(const PackLight& light
 
 ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const RayScene& rays, Shadows mode)
     : packs_(shadow_table_for(active_simd())),
+      lanes_(lane_table_for(active_simd())),
       rays_(rays),
       mode_(mode),
       lights_(lights),
@@ -167,12 +229,11 @@ void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const P
                       ShadowCounts& counts) const {
   thread_local Work work;
   work.turned = work.whole_outline = work.cut_outs = false;
+  work.in_lanes = true;
   work.points = &points.points;
   work.result = &result;
   work.counts = &counts;
-  result.seen.fill(Seen::dark);
-  result.parts.clear();
-  result.edges.clear();
+  result.clear();
   const Flat& flat = flats_[light.index];
   if (!light.is_area())
     find_punctual(tile, light, work);
@@ -180,6 +241,7 @@ void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const P
     find_flat(tile, points.groups, light, flat, work);
   else
     find_round(tile, points.groups, light, flat, work);
+  result.batch_parts();
 }
 
 void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const {
@@ -327,11 +389,119 @@ void ShadowPass::find_point(const Side& side, std::uint32_t slot, Work& work) co
   if (work.cut_outs && work.result->seen[slot] != Seen::none) pass_cut_outs(side, slot, work);
 }
 
-// work.group holds what the group needs. side_at(slot): a pointer to the side of the light that it sees, or null.
+// Up to sixteen slots at once; side by side in the tile's order, so that they see nearly the same edges.
+void ShadowPass::find_lanes(const Side* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const {
+  shadow::PointLanes::Point points[shadow::kPoints];
+  RayScene::Sixteen rays;
+  std::uint32_t asked = 0, whole = 0;
+  const auto bit = [](std::size_t lane) { return 1u << lane; };
+  for (std::size_t k = 0; k < count; ++k) {
+    const Side& side = *sides[k];
+    const Viewpoint& at = work.at(slots[k]);
+    const bool simple = side.middle && dot(*side.middle - at.position, at.normal) > 0 && !is_cut(side.frame, at);
+    points[k] = {&side.frame, &at, !simple};
+  }
+  work.lanes.find(lanes_, work.group, work.turned ? work.base : sides[0]->frame, work.turned, {points, count}, *sides[0]->outline);
+  const std::uint32_t occluded = work.lanes.occluded(), found = work.lanes.found(), none = work.lanes.none();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Side& side = *sides[k];
+    const Viewpoint& at = work.at(slots[k]);
+    const bool open = (occluded & bit(k)) == 0 && !points[k].arranged;
+    if (!open && (none & bit(k)) != 0) {
+      ++work.counts->points;
+      continue;
+    }
+    if (!open && (found & bit(k)) == 0) {
+      find_point(side, slots[k], work);
+      continue;
+    }
+    ++work.counts->points;
+    const double z = -side.frame.to_local(at.position).z;
+    const Vec3d to = ((open ? *side.middle : work.lanes.place(k)) - at.position) * std::max((z - side.frame.eta) / z, 0.0);
+    rays.set(k, at.position, to);
+    asked |= bit(k);
+    if (open || ((occluded & bit(k)) == 0 && !is_cut(side.frame, at))) whole |= bit(k);
+  }
+  const std::uint32_t free = asked & ~rays_.blocked_among(rays, asked);
+  for (std::size_t k = 0; k < count; ++k)
+    if ((free & bit(k)) != 0) work.result->seen[slots[k]] = (whole & bit(k)) != 0 ? Seen::whole : Seen::part;
+  if ((free & ~whole) != 0) add_lanes(sides, slots, count, free & ~whole, work);
+}
+
+// The edges of lanes that see a part.
+void ShadowPass::add_lanes(const Side* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes, Work& work) const {
+  TileShadow::Batch& batch = work.result->batch_with_room();
+  const std::size_t first = batch.slots.size();
+  batch.slots.resize(first + shadow::kPoints, kNoSlot);
+  batch.passes.resize(first + shadow::kPoints, 1.0f);
+  const auto bits = static_cast<shadow::LaneBits>(lanes);
+  float* edges = batch.visible.add_block(work.lanes.count_edges(lanes_, bits));
+  work.lanes.write_edges(lanes_, bits, edges);
+  std::size_t corners = 0;
+  if (work.whole_outline) {
+    for (const auto& c : with_contours(sides[0]->frame).contours) corners += c.size();
+    batch.all.add_block(corners);
+  }
+  for (std::size_t k = 0; k < shadow::kPoints; ++k) {
+    if ((lanes >> k & 1) == 0 || k >= count) {
+      for (std::size_t i = 0; i < corners; ++i) batch.all.set_edge(first + k, i, {0, 1, 0}, {0, 1, 0});
+      continue;
+    }
+    ++work.counts->parts;
+    batch.slots[first + k] = slots[k];
+    const Side& side = *sides[k];
+    const Viewpoint& at = work.at(slots[k]);
+    const Vec3d eye = side.frame.to_local(at.position);
+    const double extent2 = side.frame.half_x * side.frame.half_x + side.frame.half_y * side.frame.half_y;
+    const bool small = dot(eye, eye) > kNeverSmall * extent2;
+    const auto set_elements = [&](packed::Pieces& pieces, const AreaMoments& moments) {
+      if (small && moments.area > 0)
+        pieces.set_elements(first + k, quarters_of(moments, side.frame.origin - at.position, side.frame.axes.x, side.frame.axes.y),
+                            side.frame.axes.z * -moments.area);
+    };
+    AreaMoments visible, all;
+    if (small) work.lanes.each_edge(k, [&](double ax, double ay, double bx, double by) { visible.add(ax, ay, bx, by); });
+    set_elements(batch.visible, visible);
+    if (corners == 0) continue;
+    std::size_t number = 0;
+    const auto corner = [&](const shadow::Corner& c) {
+      return static_cast<Vec3f>(side.frame.axes.to_world({c.x - eye.x, c.y - eye.y, -eye.z}));
+    };
+    for (const auto& c : with_contours(side.frame).contours) {
+      Vec3f last = corner(c.back());
+      for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) {
+        const Vec3f next = corner(c[i]);
+        batch.all.set_edge(first + k, number++, last, next);
+        all.add(c[j].x, c[j].y, c[i].x, c[i].y);
+        last = next;
+      }
+    }
+    set_elements(batch.all, all);
+  }
+}
+
+// work.group holds what the group needs. side_at(slot): a pointer to the side of the light that it sees, or null; it may be the same
+// for all, or stay valid for sixteen calls.
 template <class SideAt>
 void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, SideAt side_at, Work& work) const {
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
+  if (!by_rays && !empty && work.in_lanes && !work.cut_outs && !work.group.has_crossing()) {
+    const Side* sides[shadow::kPoints];
+    std::uint32_t of[shadow::kPoints];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i <= slots.size(); ++i) {
+      if (count == shadow::kPoints || (i == slots.size() && count > 0)) {
+        find_lanes(sides, of, count, work);
+        count = 0;
+      }
+      if (i == slots.size()) break;
+      sides[count] = side_at(slots[i]);
+      of[count] = slots[i];
+      if (sides[count] != nullptr) ++count;
+    }
+    return;
+  }
   std::optional<bool> free;
   for (const std::uint32_t i : slots) {
     const Side* side = side_at(i);
@@ -369,6 +539,7 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
                             Work& work) const {
   work.whole_outline = true;
   work.turned = true;
+  work.in_lanes = std::holds_alternative<Ellipsoid>(light.area->shape);
   const shadow::Ball ball = shadow::ball_around(*light.area);
   work.base.origin = ball.center;
   work.base.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -398,7 +569,7 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
 bool ShadowPass::gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const {
   const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, positions);
   if (!behind) return false;
-  const Shaft shaft(*behind, positions);
+  const Shaft shaft(*behind, positions, shadow::Sections::anywhere);
   tree_.gather(mesh_, shaft, work.edges);
   // Planes differ from point to point: any triangle near the light may cross one.
   work.crossing.clear();
@@ -415,7 +586,7 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, positions);
   work.cut_outs = !cut_outs_.empty();
   if (behind && (together || gather_round(light, flat, positions, work))) {
-    const Shaft shaft(*behind, positions);
+    const Shaft shaft(*behind, positions, shadow::Sections::anywhere);
     work.cut_outs = meets_cut_outs(shaft);
     work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
   } else {
@@ -425,10 +596,12 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
     std::iota(work.crossing.begin(), work.crossing.end(), 0u);
     work.group.assign(mesh_, work.base, work.edges, work.crossing);
   }
-  std::optional<Side> side;
+  std::array<std::optional<Side>, shadow::kPoints + 1> sides;
+  std::size_t next = 0;
   find_group(
       slots,
       [&](std::uint32_t i) {
+        std::optional<Side>& side = sides[next = (next + 1) % sides.size()];
         side = side_of_round(light, work.at(i).position);
         return side ? &*side : nullptr;
       },

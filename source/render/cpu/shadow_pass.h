@@ -1,7 +1,6 @@
 // What of a light reaches the surfaces of a tile: nothing, all of it, or the pieces that triangles leave.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "render/cpu/shadow_groups.h"
 #include "render/cpu/tile.h"
 #include "shadow/edge_arrays.h"
+#include "shadow/lanes.h"
 #include "shadow/visible.h"
 #include "steradian/render.h"
 
@@ -35,7 +35,7 @@ struct TileShadow {
     std::optional<LightQuarters> elements;
     Vec3d area{};  // of the elements, towards the point
   };
-  // A slot that sees a part of the light.
+  // A slot that sees a part of the light, found by itself.
   struct Part {
     std::uint32_t slot = 0;
     Outline visible;   // edges in no order
@@ -45,40 +45,29 @@ struct TileShadow {
   struct Edge {
     Vec3f a, b;  // relative to the point, in the world's frame
   };
+  // Slots that see a part, side by side, for packs: not more than a tile has.
+  struct Batch {
+    std::vector<std::uint32_t> slots;  // kNoSlot: none
+    std::vector<float> passes;         // shares that cut-outs let through
+    packed::Pieces visible, all;
+
+    void clear();
+  };
   std::array<Seen, kTilePixels> seen;
   std::array<float, kTilePixels> share;  // of Seen::share: by rays
   std::vector<Part> parts;
   std::vector<Edge> edges;
+  std::vector<Batch> batches;  // of these, batch_count; the others are memory
+  std::size_t batch_count = 0;
 
+  void clear();
   // Whether it is as if nothing stood between.
   bool is_plain() const;
+  // Where the next sixteen slots go.
+  Batch& batch_with_room();
+  // Moves the parts into batches, those of about one length side by side.
+  void batch_parts();
 };
-
-// One outline of every part, for packs, in the parts' order.
-template <class Choose>
-packed::Pieces pieces_of(const TileShadow& shadow, Choose choose) {
-  constexpr std::size_t kBlock = packed::Pieces::kBlock;
-  packed::Pieces pieces;
-  for (std::size_t first = 0; first < shadow.parts.size(); first += kBlock) {
-    const std::size_t last = std::min(first + kBlock, shadow.parts.size());
-    std::size_t most = 0;
-    for (std::size_t i = first; i < last; ++i) most = std::max(most, choose(shadow.parts[i]).count);
-    pieces.add_block(most);
-    for (std::size_t i = first; i < last; ++i) {
-      const TileShadow::Outline outline = choose(shadow.parts[i]);
-      for (std::size_t k = 0; k < most; ++k) {
-        // Edges of no length where the list is shorter.
-        const TileShadow::Edge& e = shadow.edges[outline.first + std::min(k, outline.count - 1)];
-        pieces.set_edge(i, k, k < outline.count ? e.a : e.b, e.b);
-      }
-      if (outline.elements) pieces.set_elements(i, *outline.elements, outline.area);
-    }
-    // The last block's other lanes hold no surface.
-    for (std::size_t i = last; i < first + kBlock; ++i)
-      for (std::size_t k = 0; k < most; ++k) pieces.set_edge(i, k, {0, 1, 0}, {0, 1, 0});
-  }
-  return pieces;
-}
 
 // Counts of all tiles, for --stats.
 struct ShadowCounts {
@@ -118,6 +107,8 @@ class ShadowPass {
   void find_group(const std::vector<std::uint32_t>& slots, SideAt side_at, Work& work) const;
   bool gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const;
   void find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together, Work& work) const;
+  void find_lanes(const Side* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const;
+  void add_lanes(const Side* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes, Work& work) const;
   void find_point(const Side& side, std::uint32_t slot, Work& work) const;
   void find_in_segments(const Side& side, std::uint32_t slot, Work& work) const;
   void take_rays(const Side& side, std::uint32_t slot, Work& work) const;
@@ -127,6 +118,7 @@ class ShadowPass {
   void pass_cut_outs(const Side& side, std::uint32_t slot, Work& work) const;
 
   const shadow::ShadowTable& packs_;
+  const shadow::LaneTable& lanes_;
   const RayScene& rays_;
   const Shadows mode_;
   const std::vector<PackLight>& lights_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace steradian {
 
@@ -17,6 +18,8 @@ constexpr std::size_t tile_slot(int x, int y) {
   const int block = (y / 4) * (kTileSide / 4) + x / 4;
   return static_cast<std::size_t>(block * 16 + (y % 4) * 4 + x % 4);
 }
+
+inline constexpr std::uint32_t kNoSlot = UINT32_MAX;
 
 // A line longer than its pixels: planes a multiple of 4 KB apart would fight for the same few lines of the cache when a
 // pixel's values are written to all of them.
