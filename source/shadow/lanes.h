@@ -23,7 +23,7 @@ struct alignas(64) LaneInts {
 // The points and how each looks at the light's plane (Projection). Lanes without a point repeat another one.
 struct LaneView {
   LaneBits valid = 0;
-  LaneReals at[3];  // in the coordinates of the edges
+  LaneReals at[3];   // in the coordinates of the edges
   LaneReals eye[3];  // the point stands at (x, y, -z) of its light's frame
   LaneReals box_x, box_y, height;
   LaneReals axes[9];    // of its frame in the world, row by row
@@ -70,7 +70,7 @@ struct SegmentLanes {
   std::uint32_t row;              // of its edge in the group, or of its own kind
 
   // Where a segment stands from its start to its end: what arranging finds.
-  LaneInts left;                     // the count on the left at the start
+  LaneInts left;                      // the count on the left at the start
   LaneInts change, change_to_middle;  // of all crossings; of those before the middle
   LaneBits known, crossed, bounds;
 };

@@ -170,7 +170,7 @@ LaneInts left_ray(const LaneWork& work, const LaneView& view, std::size_t event_
       const PackMask here = mask_at(both, i), level = here && min(start, end) <= m && max(start, end) >= m;
       const PackReal p = (get(f.bx, i) - ax) * (m - start), q = (get(f.by, i) - ay) * (get(mx, i) - two * ax);
       const PackReal d = p - q, bound = bound_of(p, q);
-      const PackMask rises = start < m && end > m, falls = start > m && end < m, left = d > bound, right = d < -bound;
+      const PackMask rises = start < m && end > m, falls = start > m && end<m, left = d> bound, right = d < -bound;
       uncertain |= bits_of(level && !((rises || falls) && (left || right))) << i;
       const PackInt w = get(f.weight, i);
       PackInt sum = get(result, i);

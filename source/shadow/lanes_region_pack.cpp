@@ -10,17 +10,16 @@ namespace {
 using namespace shadow;
 
 constexpr float kFar = 1e30f;
-constexpr float kThin = 1.0f / 4096;               // narrower than this share of its length, a region proves nothing by a ray
-constexpr float kCellSize = 1.0f / kCells;         // in half sides of the box
-constexpr float kRoomEnough = kCells / 1024.0f;    // around a place: a ray's rounding is a thousand times less
-constexpr float kLeastRoom = kCells / 8192.0f;     // else the point looks for one by itself
+constexpr float kThin = 1.0f / 4096;             // narrower than this share of its length, a region proves nothing by a ray
+constexpr float kCellSize = 1.0f / kCells;       // in half sides of the box
+constexpr float kRoomEnough = kCells / 1024.0f;  // around a place: a ray's rounding is a thousand times less
+constexpr float kLeastRoom = kCells / 8192.0f;   // else the point looks for one by itself
 constexpr int kTrials = 4;
 
 // Lanes where a segment is one piece.
 STERADIAN_INLINE std::uint32_t whole_in(const SegmentLanes& s) {
-  const std::uint32_t length = lane_bits([&](std::size_t i) {
-    return abs(get(s.bx, i) - get(s.ax, i)) + abs(get(s.by, i) - get(s.ay, i)) > PackReal(0.0);
-  });
+  const std::uint32_t length =
+      lane_bits([&](std::size_t i) { return abs(get(s.bx, i) - get(s.ax, i)) + abs(get(s.by, i) - get(s.ay, i)) > PackReal(0.0); });
   return static_cast<std::uint32_t>(s.present) & ~static_cast<std::uint32_t>(s.crossed) & length;
 }
 
@@ -304,8 +303,7 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
     const std::size_t row = crossed[p.lane]++;
     if (row == rows) {
       each_pack([&](std::size_t i) {
-        for (std::size_t c = 0; c < 4; ++c)
-          store(to + row * kEdge + c * kPoints + i, get(c % 2 == 0 ? region.place_x : region.place_y, i));
+        for (std::size_t c = 0; c < 4; ++c) store(to + row * kEdge + c * kPoints + i, get(c % 2 == 0 ? region.place_x : region.place_y, i));
       });
       ++rows;
     }
@@ -319,7 +317,8 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
   for (std::size_t row = 0; row < rows; ++row) {
     float* edge = to + row * kEdge;
     each_pack([&](std::size_t i) {
-      const PackReal ax = load(edge + i), ay = load(edge + kPoints + i), bx = load(edge + 2 * kPoints + i), by = load(edge + 3 * kPoints + i);
+      const PackReal ax = load(edge + i), ay = load(edge + kPoints + i), bx = load(edge + 2 * kPoints + i),
+                     by = load(edge + 3 * kPoints + i);
       write(ax, ay, bx, by, i, edge);
     });
   }

@@ -79,8 +79,9 @@ void PointLanes::add_surroundings(LaneBits lanes) {
       if (h == 1 && !at.geometric_normal) continue;
       horizon_.clear();
       const Vec3d local = frame.to_local(at.position);
-      view_.base.at[lane] += add_horizon(frame, {local.x, local.y, -local.z}, frame.axes.to_local(h == 0 ? at.normal : *at.geometric_normal),
-                                         h == 0 ? Source::shading_horizon : Source::geometric_horizon, horizon_);
+      view_.base.at[lane] +=
+          add_horizon(frame, {local.x, local.y, -local.z}, frame.axes.to_local(h == 0 ? at.normal : *at.geometric_normal),
+                      h == 0 ? Source::shading_horizon : Source::geometric_horizon, horizon_);
       if (horizon_.segments.empty()) continue;
       if (s == nullptr) {
         horizon_rows_[h] = static_cast<std::uint32_t>(work_.count);
@@ -227,8 +228,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   grow(place_of_, edges.vertex_count());
   grow(vertices_, edges.vertex_count());
   grow(segments_, edges.edge_count() + outline.size() + 2);
-  edge_segments_ =
-      packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), vertex_count_, segments_.data());
+  edge_segments_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), vertex_count_, segments_.data());
   work_.count = edge_segments_;
   occluded_ = 0;
   for (std::size_t s = 0; s < edge_segments_; ++s) occluded_ |= segments_[s].present;

@@ -596,14 +596,16 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
     std::iota(work.crossing.begin(), work.crossing.end(), 0u);
     work.group.assign(mesh_, work.base, work.edges, work.crossing);
   }
-  std::array<std::optional<Side>, shadow::kPoints + 1> sides;
+  std::array<std::optional<Side>, shadow::kPoints> sides;
   std::size_t next = 0;
   find_group(
       slots,
       [&](std::uint32_t i) {
-        std::optional<Side>& side = sides[next = (next + 1) % sides.size()];
+        std::optional<Side>& side = sides[next];
         side = side_of_round(light, work.at(i).position);
-        return side ? &*side : nullptr;
+        if (!side) return static_cast<const Side*>(nullptr);
+        next = (next + 1) % sides.size();
+        return static_cast<const Side*>(&*side);
       },
       work);
 }
