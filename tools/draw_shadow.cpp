@@ -1,5 +1,5 @@
-// draw_shadow FILE.svg: what one point sees of a light behind two boxes, as docs/shadows.md shows it: the segments with their
-// weights, the counts of the regions between them, and the pieces of the visible part.
+// draw_shadow FILE.svg: what one point sees of a light behind two boxes, in four steps, as docs/shadows.md shows it: the segments with
+// their weights, the counts of the regions between them, the levels with the ray that decides, and the pieces of the visible part.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,6 +22,104 @@ void add_box(std::vector<Vec3d>& positions, std::vector<std::uint32_t>& indices,
   for (const unsigned i : {0u, 2u, 3u, 0u, 3u, 1u, 4u, 5u, 7u, 4u, 7u, 6u, 0u, 1u, 5u, 0u, 5u, 4u,
                            2u, 6u, 7u, 2u, 7u, 3u, 0u, 4u, 6u, 0u, 6u, 2u, 1u, 3u, 7u, 1u, 7u, 5u})
     indices.push_back(first + i);
+}
+
+// One of the four pictures.
+class Panel {
+ public:
+  Panel(std::ostringstream& out, const LightFrame& frame, int column, int row, const char* title) : out_(out), frame_(frame) {
+    print("<g transform=\"translate(%.0f %.0f)\">\n<text x=\"%.0f\" y=\"18\" text-anchor=\"middle\">%s</text>\n", column * kWidth,
+          row * height(frame), kWidth / 2, title);
+  }
+  ~Panel() { out_ << "</g>\n"; }
+  static double height(const LightFrame& frame) { return kTitle + kWidth * frame.box_y / frame.box_x; }
+  static constexpr double kWidth = 380, kTitle = 14;
+
+  // The region within closed chains of pieces.
+  void fill(std::vector<Boundary> rest, const char* colour) {
+    print("<path fill=\"%s\" fill-rule=\"evenodd\" d=\"", colour);
+    while (!rest.empty()) {
+      Boundary piece = rest.back();
+      rest.pop_back();
+      print("M%.2f %.2f", x(piece.ax), y(piece.ay));
+      for (bool found = true; found;) {
+        print("L%.2f %.2f", x(piece.bx), y(piece.by));
+        found = false;
+        for (std::size_t i = 0; i < rest.size() && !found; ++i)
+          if (std::abs(rest[i].ax - piece.bx) + std::abs(rest[i].ay - piece.by) < 1) {
+            piece = rest[i];
+            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+            found = true;
+          }
+      }
+      out_ << "Z";
+    }
+    out_ << "\"/>\n";
+  }
+  void line(double ax, double ay, double bx, double by, const char* colour, double width) {
+    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linecap=\"round\"/>\n", x(ax),
+          y(ay), x(bx), y(by), colour, width);
+  }
+  void segments(const SegmentSet& set, double width) {
+    for (const Segment& s : set.segments) line(s.a.x, s.a.y, s.b.x, s.b.y, s.source == Source::outline ? "#c08000" : "#888888", width);
+  }
+  void text(double cx, double cy, const char* words, int size = 14) {
+    print("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\" font-size=\"%d\">%s</text>\n", x(cx), y(cy) + 5, size, words);
+  }
+  void dot(double cx, double cy) { print("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"#0072b2\"/>\n", x(cx), y(cy)); }
+
+ private:
+  double x(double cell) const { return kWidth / 2 + cell / kCells * kScale; }
+  double y(double cell) const { return (kTitle + height(frame_)) / 2 - cell / kCells * kScale * frame_.box_y / frame_.box_x; }
+  template <class... T>
+  void print(const char* format, T... values) {
+    char text[400];
+    std::snprintf(text, sizeof text, format, values...);
+    out_ << text;
+  }
+  static constexpr double kScale = 0.46 * kWidth;
+  std::ostringstream& out_;
+  const LightFrame& frame_;
+};
+
+// The boundary of what has a count of at most `level`.
+std::vector<Boundary> region_of(const std::vector<Piece>& pieces, std::int32_t level) {
+  std::vector<Boundary> result;
+  for (const Piece& p : pieces) {
+    if (p.low() > level || level >= p.high()) continue;
+    if (p.left < p.right)
+      result.push_back({p.ax, p.ay, p.bx, p.by});
+    else
+      result.push_back({p.bx, p.by, p.ax, p.ay});
+  }
+  return result;
+}
+
+double clearance(const SegmentSet& set, double cx, double cy) {
+  double room = 1e30;
+  for (const Segment& s : set.segments) {
+    const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y,
+                 t = std::clamp(((cx - s.a.x) * fx + (cy - s.a.y) * fy) / (fx * fx + fy * fy), 0.0, 1.0);
+    room = std::min(room, std::hypot(cx - s.a.x - t * fx, cy - s.a.y - t * fy));
+  }
+  return room;
+}
+
+// A place on the light, and its count.
+struct Counted {
+  double x, y, room;
+  std::int32_t count;
+};
+std::vector<Counted> places_on(const SegmentSet& set) {
+  std::vector<Counted> result;
+  for (int j = 1; j < 60; ++j)
+    for (int i = 1; i < 80; ++i) {
+      const double cx = (2 * i / 80.0 - 1) * kCells, cy = (2 * j / 60.0 - 1) * kCells;
+      const std::int32_t count = count_at(set, cx, cy);
+      if (count < kHidden / 2) result.push_back({cx, cy, clearance(set, cx, cy), count});
+    }
+  std::sort(result.begin(), result.end(), [](const Counted& a, const Counted& b) { return a.room > b.room; });
+  return result;
 }
 
 }  // namespace
@@ -49,63 +147,59 @@ int main(int argc, char** argv) {
   VisibleRegion region;
   find_visible(frame, at.position, occluders.rays, scratch, region);
 
-  const double scale = 300, width = 2 * scale * 1.08, height = width * frame.box_y / frame.box_x;
-  const auto x = [&](double cell) { return width / 2 + cell / kCells * scale; };
-  const auto y = [&](double cell) { return height / 2 - cell / kCells * scale * frame.box_y / frame.box_x; };
   std::ostringstream out;
-  char text[400];
-  const auto print = [&](const char* format, auto... values) {
-    std::snprintf(text, sizeof text, format, values...);
-    out << text;
-  };
-  print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" font-family=\"sans-serif\" font-size=\"15\">\n", width,
-        height);
-  out << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<path fill=\"#ffe9a8\" fill-rule=\"evenodd\" d=\"";
-  // The pieces chained, for the fill alone.
-  std::vector<Boundary> rest = region.boundary;
-  while (!rest.empty()) {
-    Boundary piece = rest.back();
-    rest.pop_back();
-    print("M%.2f %.2f", x(piece.ax), y(piece.ay));
-    for (bool found = true; found;) {
-      print("L%.2f %.2f", x(piece.bx), y(piece.by));
-      found = false;
-      for (std::size_t i = 0; i < rest.size() && !found; ++i)
-        if (std::abs(rest[i].ax - piece.bx) + std::abs(rest[i].ay - piece.by) < 1) {
-          piece = rest[i];
-          rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-          found = true;
-        }
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << 2 * Panel::kWidth << " " << 2 * Panel::height(frame) + 10
+      << "\" font-family=\"sans-serif\" font-size=\"15\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  const std::vector<Counted> places = places_on(scratch.set);
+  char text[40];
+  {
+    Panel panel(out, frame, 0, 0, "1. Segments, each with its jump of the count");
+    panel.segments(scratch.set, 1.5);
+    for (const Segment& s : scratch.set.segments) {
+      if (s.source != Source::edge) continue;
+      std::snprintf(text, sizeof text, "%+d", s.weight);
+      panel.text(0.5 * (s.a.x + s.b.x) + 0.04 * kCells, 0.5 * (s.a.y + s.b.y) + 0.05 * kCells, text, 12);
     }
-    out << "Z";
   }
-  out << "\"/>\n";
-  for (const Segment& s : scratch.set.segments)
-    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n", x(s.a.x), y(s.a.y), x(s.b.x),
-          y(s.b.y), s.source == Source::outline ? "#c08000" : "#888888");
-  for (const Boundary& b : region.boundary)
-    print("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#c03030\" stroke-width=\"3\"/>\n", x(b.ax), y(b.ay), x(b.bx),
-          y(b.by));
-  for (const Segment& s : scratch.set.segments) {
-    const double mx = 0.5 * (x(s.a.x) + x(s.b.x)), my = 0.5 * (y(s.a.y) + y(s.b.y));
-    if (s.source == Source::edge)
-      print("<text x=\"%.1f\" y=\"%.1f\" fill=\"#555555\" font-size=\"12\">%+d</text>\n", mx + 4, my - 4, s.weight);
+  std::set<std::int32_t> levels;
+  for (const Counted& place : places) levels.insert(place.count);
+  {
+    Panel panel(out, frame, 1, 0, "2. Counts of the regions between them");
+    const char* const shades[] = {"#ffe9a8", "#c9c9c9", "#9a9a9a", "#707070"};
+    std::size_t shade = levels.size();
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+      panel.fill(region_of(scratch.pieces, *level), shades[std::min(--shade, std::size_t{3})]);
+    panel.segments(scratch.set, 1);
+    // Where there is most room, not twice in one neighbourhood.
+    std::vector<Counted> said;
+    for (const Counted& place : places) {
+      const bool near = std::any_of(said.begin(), said.end(), [&](const Counted& c) {
+        return c.count == place.count && std::hypot(c.x - place.x, c.y - place.y) < 0.8 * kCells;
+      });
+      if (near || place.room < 0.06 * kCells) continue;
+      said.push_back(place);
+      std::snprintf(text, sizeof text, "%d", place.count);
+      panel.text(place.x, place.y, text);
+    }
   }
-  // A count for every region, where a grid of places first meets it.
-  std::set<std::int32_t> said;
-  for (int j = 1; j < 24; ++j)
-    for (int i = 1; i < 32; ++i) {
-      const double cx = (2 * i / 32.0 - 1) * kCells, cy = (2 * j / 24.0 - 1) * kCells;
-      const std::int32_t count = count_at(scratch.set, cx, cy);
-      double room = 1e30;
-      for (const Segment& s : scratch.set.segments) {
-        const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y,
-                     t = std::clamp(((cx - s.a.x) * fx + (cy - s.a.y) * fy) / (fx * fx + fy * fy), 0.0, 1.0);
-        room = std::min(room, std::hypot(cx - s.a.x - t * fx, cy - s.a.y - t * fy));
+  {
+    Panel panel(out, frame, 0, 1, "3. The lowest level: one ray says that it is none");
+    panel.fill(region_of(scratch.pieces, region.level), "#ffe9a8");
+    panel.segments(scratch.set, 1);
+    for (const Counted& place : places)
+      if (place.count <= region.level) {
+        panel.dot(place.x, place.y);
+        break;
       }
-      if (room < 0.08 * kCells || count >= kHidden / 2 || !said.insert(count * 4 + (cx > 0) + 2 * (cy > 0)).second) continue;
-      print("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%d</text>\n", x(cx), y(cy) + 5, count);
+  }
+  {
+    Panel panel(out, frame, 1, 1, "4. The pieces that bound what is seen");
+    panel.fill(region.boundary, "#ffe9a8");
+    for (const Boundary& b : region.boundary) {
+      panel.line(b.ax, b.ay, b.bx, b.by, "#c03030", 3);
+      for (const auto& [px, py] : {std::pair{b.ax, b.ay}, std::pair{b.bx, b.by}}) panel.line(px, py, px, py, "#000000", 5);
     }
+  }
   out << "</svg>\n";
   std::ofstream(argv[1]) << out.str();
 }

@@ -33,9 +33,9 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct Options {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", quality = "normal", indirect = "off",
-                             indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats, exposure = "auto", environment,
-                             background = "on", light_units = "auto", occluders = "black";
+  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
+                             indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
+                             exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black";
   std::vector<std::string> lights;
   int max_lights = 256;
   Limits limits;
@@ -108,10 +108,10 @@ bool samples(const Options& options) {
 std::string identity_of(const Options& options, const Scene& scene) {
   const RenderOptions& r = options.render;
   return fmt::format(
-             "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} | scattering {}",
+             "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} {} | scattering {}",
              version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights,
              fmt::join(options.lights, ","), options.light_units, options.environment, options.background, r.camera, r.method,
-             options.quality, options.shadows, options.multiple_scattering) +
+             options.quality, options.shadows, options.terminator, options.multiple_scattering) +
          fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", options.indirect, r.indirect.virtual_lights,
                      options.indirect_shadows, r.indirect.kept_pairs, options.indirect_quads, options.indirect_clamp, options.size, r.aa,
                      r.spp, r.target_error, r.seed);
@@ -137,6 +137,7 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
   const char* bounce = "--indirect ltc or ggx";
   refuse_without_effect(verb, {{"--spp", samples, "--method sampled or --indirect path"},
                                {"--target-error", r.method == "reference", "--method reference"},
+                               {"--terminator", options.shadows != "off", "--shadows on or exact"},
                                {"--resume", samples || r.method == "reference", "--method reference or sampled, or --indirect path"},
                                {"--vpls", points, bounce},
                                {"--indirect-pairs", points, bounce},
@@ -154,6 +155,7 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
   refuse_without_effect(verb, {{"--quality", false, third},
                                {"--table", false, third},
                                {"--shadows", options.shadows != "off", third},
+                               {"--terminator", false, third},
                                {"--multiple-scattering", false, third},
                                {"--indirect", false, third},
                                {"--vpls", false, third},
@@ -206,6 +208,7 @@ void run(const CLI::App& verb, Options& options) {
     throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
+  render_options.terminator = options.terminator == "smooth" ? Terminator::smooth : Terminator::strict;
   render_options.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
 
   refuse_unused_in_space(verb, options);
@@ -260,6 +263,7 @@ void run(const CLI::App& verb, Options& options) {
                       {"steradian.scene", options.scene},
                       {"steradian.method", stats.method},
                       {"steradian.shadows", options.shadows},
+                      {"steradian.terminator", options.terminator},
                       {"steradian.size", options.size},
                       {"steradian.aa", std::to_string(render_options.aa)},
                       {"steradian.seed", std::to_string(render_options.seed)},
@@ -295,6 +299,10 @@ void add_render(CLI::App& app, Exit&) {
       ->group("Light");
   verb->add_option("--shadows", options->shadows, "of direct light; on: by rays where a point sees over 512 edges, exact: never by rays")
       ->check(CLI::IsMember({"off", "on", "exact"}))
+      ->group("Light");
+  verb->add_option("--terminator", options->terminator,
+                   "shadows of curved meshes upon themselves: as the facets stand, or as normals describe")
+      ->check(CLI::IsMember({"strict", "smooth"}))
       ->group("Light");
   verb->add_flag("--multiple-scattering", options->multiple_scattering, "GGX gives back what one bounce loses between the facets")
       ->group("Light");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "steradian/closed_form.h"
@@ -43,6 +44,17 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& light, const Shadin
 // Of ltc_radiance by `classic` or `compact`. By the normal, the table's values change too: its interpolation is differentiated.
 // Throws Error for the other methods and for what ltc_radiance does not serve.
 RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at, const Material& material);
+
+// What derivatives of a part of a light need of its lobe, where the part's boundary moves (shadow/derivatives.h): what a steradian of
+// radiance 1 in a unit direction sends to the view, a number a channel; zero below the surface, and for a view that is.
+using LobeDensity = std::function<Vec3d(Vec3d)>;
+
+// The lobes are those of radiance_derivatives and of ltc_radiance_derivatives, and so is what they throw.
+LobeDensity lobe_density(const ShadingPoint& at, const Material& material);
+LobeDensity ltc_lobe_density(LtcMethod method, const ShadingPoint& at, const Material& material);
+
+// Which stored vertex, outline first, each vertex of the prepared light is: contours lose repeated vertices and may be turned around.
+std::vector<std::size_t> stored_vertices(const PolygonLight& light, const PreparedPolygon& prepared);
 
 // By the point, normal and view direction fixed: only what lies between light and point counts, so it is minus the sum over
 // the vertices.

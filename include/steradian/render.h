@@ -18,6 +18,10 @@ namespace steradian {
 // 512 edges before a light (RenderStats::shadow_fallback says how often). exact: never by rays.
 enum class Shadows { off, on, exact };
 
+// Where curved surfaces turn away from a light. strict: as their triangles stand, facets included. smooth: as the surface that the
+// vertices' normals describe; points are lit from there, and no triangle hides what lies below its own horizon.
+enum class Terminator { strict, smooth };
+
 struct RenderOptions {
   int width = 1280;
   int height = 720;
@@ -26,11 +30,12 @@ struct RenderOptions {
   std::string table;                  // of method ltc: a file of fit's in place of the shipped table of GGX; empty: the shipped one
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
-  bool background = true;      // the camera sees the scene's environment; false: black
-  int aa = 1;                  // primary samples a pixel, at the same places in every pixel
-  int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
-  double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
-  IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
+  Terminator terminator = Terminator::strict;  // of shadows; without them it has no effect
+  bool background = true;                      // the camera sees the scene's environment; false: black
+  int aa = 1;                                  // primary samples a pixel, at the same places in every pixel
+  int spp = 16;                                // of `sampled`: light and lobe sample pairs per light and primary sample
+  double target_error = 0.01;                  // of `reference`: rms of the standard error over rms of the picture
+  IndirectOptions indirect;                    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   int threads = 0;                                                        // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread

@@ -42,4 +42,14 @@ ZTest z_test(const Picture& picture, const Picture& estimate, double rounding) {
   return test;
 }
 
+void add_variance_of_rare_samples(Picture& estimate, const Picture& open) {
+  constexpr float kShare = 0.05f;
+  std::vector<Vec3f>& variance = estimate.layers.at("variance");
+  for (std::size_t i = 0; i < open.pixels.size(); ++i) {
+    const Vec3f error = open.pixels[i] * (kShare / 3);
+    const float share = estimate.pixels[i].x / std::max(open.pixels[i].x, 1e-9f);
+    if (share < kShare || share > 1 - kShare) variance[i] += error * error;
+  }
+}
+
 }  // namespace steradian::image

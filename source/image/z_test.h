@@ -19,4 +19,9 @@ struct ZTest {
 // Source: Mitsuba's image tests (Subr, Arvo, "Statistical hypothesis testing for assessing Monte Carlo estimators", 2007).
 ZTest z_test(const Picture& picture, const Picture& estimate, double rounding);
 
+// Adds to the variance of shadows by rays what their samples may not have found. Of 64 samples or more, none may meet what is seen of a
+// light that is nearly hidden; that says it is no more than some hundredths: 1 - (1 - 0.05)^64 = 0.96 would have found a twentieth. The
+// same where nearly all of it is seen: both ways, of three standard errors, a twentieth of `open`, the picture without shadows.
+void add_variance_of_rare_samples(Picture& estimate, const Picture& open);
+
 }  // namespace steradian::image

@@ -122,9 +122,20 @@ RadianceResult sampled(const PreparedPolygon& light, const ShadingPoint& at, con
   return {r.radiance, std::nullopt, r.standard_error, Method::sampled};
 }
 
-RadianceDerivatives exact_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
+void refuse_all_but_lambert(const Material& m) {
   if (m.brdf != Brdf::lambert) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by exact", "use auto");
+}
+
+RadianceDerivatives exact_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
+  refuse_all_but_lambert(m);
   return radiance_derivatives(light, at, m, quality);
+}
+
+LobeDensity any_density(const ShadingPoint& at, const Material& m, Quality) { return lobe_density(at, m); }
+
+LobeDensity exact_density(const ShadingPoint& at, const Material& m, Quality) {
+  refuse_all_but_lambert(m);
+  return lobe_density(at, m);
 }
 
 template <LtcMethod method>
@@ -132,14 +143,20 @@ RadianceDerivatives ltc_derivatives(const PolygonLight& light, const ShadingPoin
   return ltc_radiance_derivatives(with_quality(method, quality), light, at, m);
 }
 
+template <LtcMethod method>
+LobeDensity ltc_density(const ShadingPoint& at, const Material& m, Quality quality) {
+  return ltc_lobe_density(with_quality(method, quality), at, m);
+}
+
 constexpr const char* kNoQualities = "";
 
 // A new method is a row here and a name in include/steradian/method.h.
 constexpr Row kMethods[] = {
     {Method::series, "series", "phong", phong_lobes, true, "normal, high",
-     "constant time: 1.3e-3 of the full lobe at worst, 4.5e-4 in high quality", phong<Method::series>, radiance_derivatives},
+     "constant time: 1.3e-3 of the full lobe at worst, 4.5e-4 in high quality", phong<Method::series>, radiance_derivatives, any_density},
     {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
-     "closed form without approximation; phong by quadrature along the outline to 1e-10 of the full lobe", exact, exact_derivatives},
+     "closed form without approximation; phong by quadrature along the outline to 1e-10 of the full lobe", exact, exact_derivatives,
+     exact_density},
     {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities,
      "Arvo's recurrence: exact, time grows with the exponent", phong<Method::arvo>},
     {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities,
@@ -149,14 +166,15 @@ constexpr Row kMethods[] = {
     {Method::ellipsoid, "ellipsoid", "phong without foreshortening", plain_phong, true, kNoQualities, "the same, a blend of ellipsoids",
      phong<Method::ellipsoid>},
     {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high",
-     "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form, radiance_derivatives},
+     "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form, radiance_derivatives,
+     any_density},
     {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high",
      "linearly transformed cosines by the classic table of 64 x 64: 3 % rms of metals; in high quality 3 % of dielectrics, too, by a table "
      "of Fresnel's own",
-     ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>},
+     ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>, ltc_density<LtcMethod::classic>},
     {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities,
      "the same by a table of 4 KB about the mirrored view", ltc<LtcMethod::compact, Method::ltc_compact>,
-     ltc_derivatives<LtcMethod::compact>},
+     ltc_derivatives<LtcMethod::compact>, ltc_density<LtcMethod::compact>},
     {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true, kNoQualities,
      "ltc with a sphere's form factor in place of clipping, for comparison", ltc<LtcMethod::clipless, Method::ltc_clipless>},
     {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::representative_point>,

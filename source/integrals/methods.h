@@ -25,6 +25,8 @@ struct Row {
   RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
   // By the light's vertices and the normal; null: the method has none. Throws Error for lobes that have none.
   RadianceDerivatives (*derivatives)(const PolygonLight&, const ShadingPoint&, const Material&, Quality) = nullptr;
+  // What they come from where only a part of the light is seen; null likewise.
+  LobeDensity (*density)(const ShadingPoint&, const Material&, Quality) = nullptr;
 };
 
 // In the order of preference of `auto`, which itself has no row.

@@ -14,9 +14,7 @@
 #include "steradian/error.h"
 
 namespace steradian {
-namespace {
 
-// Which stored vertex each vertex of the prepared light is: contours lose repeated vertices and may be turned around.
 std::vector<std::size_t> stored_vertices(const PolygonLight& light, const PreparedPolygon& prepared) {
   std::vector<std::size_t> result;
   std::size_t offset = 0;
@@ -36,6 +34,8 @@ std::vector<std::size_t> stored_vertices(const PolygonLight& light, const Prepar
   return result;
 }
 
+namespace {
+
 std::size_t stored_count(const PolygonLight& light) {
   std::size_t count = light.vertices.size();
   for (const auto& hole : light.holes) count += hole.size();
@@ -47,7 +47,7 @@ using integrals::to_kernel;
 using VertexDerivatives = std::vector<Vec3d>;
 
 // Of an integral's two parts (integrals::Part).
-struct PartDerivatives {
+struct BothByVertices {
   VertexDerivatives plain, fresnel;
 };
 struct PartByNormal {
@@ -88,12 +88,12 @@ VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d pos
 //   side      on which the light is seen
 //   integral  integral.template operator()<S>(outline, shading): an integrals::Part<S>
 template <class Integral>
-PartDerivatives by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame, const Integral& integral) {
+BothByVertices by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame, const Integral& integral) {
   using S = Dual<6>;
   const auto shading = integrals::shading_from<S>(side, to_kernel<S>(frame.to_local(normalized(at.view))));
   std::vector<Vec3d> local;
   for (const Vec3d& v : light.vertices) local.push_back(frame.to_local(v - at.position));
-  PartDerivatives result;
+  BothByVertices result;
   for (std::size_t first = 0; first < local.size(); first += 2) {
     const auto direction = [&](const Vec3d& v) {
       const auto i = static_cast<std::size_t>(&v - light.vertices.data());
@@ -186,101 +186,199 @@ LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec
 
 namespace {
 
-// The channels of an integral's two parts.
-//
-//   plain, fresnel  factors on the parts, a number a channel
-RadianceDerivatives of_channels(const PolygonLight& stored, const PreparedPolygon& light, const PartDerivatives& parts,
-                                const PartByNormal& normal, Vec3d plain, Vec3d fresnel) {
+// The channels of an integral's two parts: factors on the parts, a number a channel.
+struct Factors {
+  Vec3d plain, fresnel;
+  std::array<Vec3d, 3> of(Vec3d p, Vec3d f) const {
+    return {p * plain.x + f * fresnel.x, p * plain.y + f * fresnel.y, p * plain.z + f * fresnel.z};
+  }
+};
+
+Factors factors_of(Vec3d radiance, const Material& m) {
+  return m.brdf == Brdf::ggx ? Factors{radiance * m.f0, radiance * (m.f90 - m.f0)} : Factors{radiance * m.albedo, {}};
+}
+
+RadianceDerivatives of_channels(const PolygonLight& stored, const PreparedPolygon& light, const BothByVertices& parts,
+                                const PartByNormal& normal, const Factors& factors) {
   RadianceDerivatives result(stored_count(stored));
   const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
-  const auto channels = [&](Vec3d p, Vec3d f) -> std::array<Vec3d, 3> {
-    return {p * plain.x + f * fresnel.x, p * plain.y + f * fresnel.y, p * plain.z + f * fresnel.z};
-  };
-  for (std::size_t i = 0; i < parts.plain.size(); ++i) result.vertices[stored_index[i]] = channels(parts.plain[i], parts.fresnel[i]);
-  result.normal = channels(normal.plain, normal.fresnel);
+  for (std::size_t i = 0; i < parts.plain.size(); ++i) result.vertices[stored_index[i]] = factors.of(parts.plain[i], parts.fresnel[i]);
+  result.normal = factors.of(normal.plain, normal.fresnel);
   return result;
+}
+
+void refuse_other_lobes(const Material& m) {
+  if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
+    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
+  if (m.brdf == Brdf::phong && m.foreshortening)
+    throw Error("derivatives", "phong with foreshortening has none", "leave foreshortening out");
+}
+
+template <class S>
+integrals::Ggx<S> ggx_of(const Material& m, Quality quality) {
+  integrals::Ggx<S> ggx;
+  ggx.alpha_x = m.alpha_x;
+  ggx.alpha_y = m.alpha_y;
+  ggx.smith = m.shadowing ? 1.0 : 0.0;
+  ggx.quality = quality;
+  return ggx;
+}
+
+auto ggx_integral(const Material& m, Quality quality) {
+  return [&m, quality]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    auto ggx = ggx_of<S>(m, quality);
+    return integrate(outline, shading, ggx);
+  };
+}
+
+auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, Quality quality) {
+  // The series' bias is a smooth function of the outline, and over a light that is small against the lobe its derivative is a multiple of
+  // the light's: there by quadrature, where elements take the light's value over (shapes/small_light.h: t^3 / 8 below the bias).
+  const LightQuarters& q = light.quarters;
+  const Vec3d to = q.center - at.position;
+  const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
+  const double bias = integrals::bias_of(m.exponent, {Method::series, quality});
+  const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
+  return [&m, quality, small]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    const integrals::PhongLobe<S> lobe(m.exponent);
+    // Of two methods alone: all of them in dual numbers would take the compiler's budget for inlining.
+    const auto share = [&](const auto& a, const auto& b, const auto& axis) {
+      if (small) return lobe.template share<Method::exact, Quality::normal>(a, b, axis);
+      return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
+                                      : lobe.template share<Method::series, Quality::normal>(a, b, axis);
+    };
+    integrals::Phong<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
+    return integrate(outline, shading, phong);
+  };
+}
+
+// By the normal of the irradiance over pi: the normal turns, or all of the light turns the other way about the point.
+PartByNormal lambert_by_normal(const PreparedPolygon& light, int side, const ShadingPoint& at, const VertexDerivatives& by_vertex) {
+  Vec3d moment{};
+  for (std::size_t i = 0; i < by_vertex.size(); ++i) moment += cross(light.vertices[i] - at.position, by_vertex[i]);
+  return {cross(at.normal, moment) * (side / std::numbers::pi), {}};
+}
+
+bool sends_nothing(int side, const ShadingPoint& at) { return side == 0 || !(dot(at.view, at.normal) > 0); }
+
+// The density of an integral of one lobe.
+template <class Integral>
+LobeDensity density_of(Integral integral, const ShadingPoint& at, const Frame& frame, const Factors& factors) {
+  integral.begin(integrals::shading_from<double>(1, to_kernel<double>(frame.to_local(normalized(at.view)))));
+  return [integral, frame, factors](Vec3d direction) -> Vec3d {
+    const Vec3d u = frame.to_local(direction);
+    if (!(u.z >= 0)) return {};
+    const auto part = integral.at(to_kernel<double>(u));
+    return factors.plain * part.x.v + factors.fresnel * part.y.v;
+  };
 }
 
 }  // namespace
 
 RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material, Quality quality) {
   const Material m = with_multiple_scattering(material, at);
-  if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
-    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
-  if (m.brdf == Brdf::phong && m.foreshortening)
-    throw Error("derivatives", "phong with foreshortening has none", "leave foreshortening out");
+  refuse_other_lobes(m);
   const PreparedPolygon light = prepare_polygon(stored);
   const int side = shapes::lit_side(light, at.position);
-  if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
+  if (sends_nothing(side, at)) return RadianceDerivatives(stored_count(stored));
+  const Factors factors = factors_of(light.radiance, m);
   if (m.brdf == Brdf::ggx) {
-    const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-      integrals::Ggx<S> ggx;
-      ggx.alpha_x = m.alpha_x;
-      ggx.alpha_y = m.alpha_y;
-      ggx.smith = m.shadowing ? 1.0 : 0.0;
-      ggx.quality = quality;
-      return integrate(outline, shading, ggx);
-    };
+    const auto integral = ggx_integral(m, quality);
     const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
     return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
-                       light.radiance * m.f0, light.radiance * (m.f90 - m.f0));
+                       factors);
   }
   const Frame frame = Frame::from_normal(at.normal);
   if (m.brdf == Brdf::phong) {
-    // The series' bias is a smooth function of the outline, and over a light that is small against the lobe its derivative is a multiple of
-    // the light's: there by quadrature, where elements take the light's value over (shapes/small_light.h: t^3 / 8 below the bias).
-    const LightQuarters& q = light.quarters;
-    const Vec3d to = q.center - at.position;
-    const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
-    const double bias = integrals::bias_of(m.exponent, {Method::series, quality});
-    const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
-    const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-      const integrals::PhongLobe<S> lobe(m.exponent);
-      // Of two methods alone: all of them in dual numbers would take the compiler's budget for inlining.
-      const auto share = [&](const auto& a, const auto& b, const auto& axis) {
-        if (small) return lobe.template share<Method::exact, Quality::normal>(a, b, axis);
-        return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
-                                        : lobe.template share<Method::series, Quality::normal>(a, b, axis);
-      };
-      integrals::Phong<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
-      return integrate(outline, shading, phong);
-    };
+    const auto integral = phong_integral(light, at, m, quality);
     return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
-                       light.radiance * m.albedo, {});
+                       factors);
   }
-  const VertexDerivatives by_vertex = irradiance_by_vertices(light, at.position, frame);
-  Vec3d moment{};
-  for (std::size_t i = 0; i < by_vertex.size(); ++i) moment += cross(light.vertices[i] - at.position, by_vertex[i]);
-  return of_channels(stored, light, {by_vertex, VertexDerivatives(by_vertex.size())}, {cross(at.normal, moment), {}},
-                     m.albedo * light.radiance * (side / std::numbers::pi), {});
+  BothByVertices by_vertex{irradiance_by_vertices(light, at.position, frame), VertexDerivatives(light.vertices.size())};
+  const PartByNormal normal = lambert_by_normal(light, side, at, by_vertex.plain);
+  for (Vec3d& d : by_vertex.plain) d = d * (side / std::numbers::pi);
+  return of_channels(stored, light, by_vertex, normal, factors);
 }
 
-RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& stored, const ShadingPoint& at,
-                                             const Material& material) {
+LobeDensity lobe_density(const ShadingPoint& at, const Material& material) {
   const Material m = with_multiple_scattering(material, at);
+  refuse_other_lobes(m);
+  if (!(dot(at.view, at.normal) > 0)) return [](Vec3d) { return Vec3d{}; };
+  if (m.brdf == Brdf::ggx)
+    return density_of(ggx_of<double>(m, Quality::normal), at, Frame::from_normal_and_tangent(at.normal, m.tangent),
+                      factors_of({1, 1, 1}, m));
+  if (m.brdf == Brdf::phong) {
+    const auto none = [](const auto&, const auto&, const auto&) { return Real<double>(0.0); };
+    const integrals::Phong<double, decltype(none)> lobe(none, m.exponent, {});
+    return density_of(lobe, at, Frame::from_normal(at.normal), factors_of({1, 1, 1}, m));
+  }
+  return [factor = m.albedo / std::numbers::pi, n = at.normal](Vec3d direction) { return factor * std::max(dot(n, direction), 0.0); };
+}
+
+namespace {
+
+void refuse_other_ltc(LtcMethod method, const Material& m) {
   if (method != LtcMethod::classic && method != LtcMethod::compact && method != LtcMethod::fresnel)
     throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
   if (!serves(method, m) || m.brdf != Brdf::ggx)
     throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
-  const PreparedPolygon light = prepare_polygon(stored);
-  const int side = shapes::lit_side(light, at.position);
-  if (side == 0 || !(dot(at.view, at.normal) > 0)) return RadianceDerivatives(stored_count(stored));
-  const Vec3d view = normalized(at.view);
+}
+
+// The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
+template <class S>
+integrals::Ltc<S> ltc_of(LtcMethod method, const Material& m, const integrals::Shading<S>& shading) {
   const double alpha = std::max(m.alpha_x, kSmallestAlpha);
-  // The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
-  const auto integral = [&]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-    integrals::Ltc<S> ltc(method == LtcMethod::compact ? compact_lobe<S>(ggx_compact_table(), alpha, shading.view.z, shading.view)
-                                                       : classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z));
+  return integrals::Ltc<S>(method == LtcMethod::compact ? compact_lobe<S>(ggx_compact_table(), alpha, shading.view.z, shading.view)
+                                                        : classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z));
+}
+
+// The lobe times (1 - v.h)^5, where it has a table of its own.
+template <class S>
+integrals::Ltc<S> grazing_ltc_of(const Material& m, const integrals::Shading<S>& shading) {
+  return integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), std::max(m.alpha_x, kSmallestAlpha), shading.view.z));
+}
+
+auto ltc_integral(LtcMethod method, const Material& m) {
+  return [method, &m]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
+    auto ltc = ltc_of<S>(method, m, shading);
     auto part = integrate(outline, shading, ltc);
     if (method == LtcMethod::fresnel) {
-      integrals::Ltc<S> grazing(classic_lobe<S>(ggx_fresnel_table(), alpha, shading.view.z));
+      auto grazing = grazing_ltc_of(m, shading);
       part.y = integrate(outline, shading, grazing).x;
     }
     return part;
   };
+}
+
+}  // namespace
+
+RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& stored, const ShadingPoint& at,
+                                             const Material& material) {
+  const Material m = with_multiple_scattering(material, at);
+  refuse_other_ltc(method, m);
+  const PreparedPolygon light = prepare_polygon(stored);
+  const int side = shapes::lit_side(light, at.position);
+  if (sends_nothing(side, at)) return RadianceDerivatives(stored_count(stored));
+  const Vec3d view = normalized(at.view);
+  const auto integral = ltc_integral(method, m);
   const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
   return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, view, integral),
-                     light.radiance * m.f0, light.radiance * (m.f90 - m.f0));
+                     factors_of(light.radiance, m));
+}
+
+LobeDensity ltc_lobe_density(LtcMethod method, const ShadingPoint& at, const Material& material) {
+  const Material m = with_multiple_scattering(material, at);
+  refuse_other_ltc(method, m);
+  if (!(dot(at.view, at.normal) > 0)) return [](Vec3d) { return Vec3d{}; };
+  const Vec3d view = normalized(at.view);
+  const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
+  const auto shading = integrals::shading_from<double>(1, to_kernel<double>(frame.to_local(view)));
+  const Factors factors = factors_of({1, 1, 1}, m);
+  if (method != LtcMethod::fresnel) return density_of(ltc_of<double>(method, m, shading), at, frame, factors);
+  return [plain = density_of(ltc_of<double>(method, m, shading), at, frame, {factors.plain, {}}),
+          grazing = density_of(grazing_ltc_of<double>(m, shading), at, frame, {factors.fresnel, {}})](Vec3d direction) {
+    return plain(direction) + grazing(direction);
+  };
 }
 
 std::array<Vec3d, 3> by_position(const RadianceDerivatives& by_vertices) {

@@ -28,8 +28,10 @@ class Pieces {
     edges_.resize(edges_.size() + edge_count * kEdgePlanes * kBlock, 0.0f);
     elements_.resize(elements_.size() + kElementPlanes * kBlock, 0.0f);
     float* e = &elements_[elements_.size() - kElementPlanes * kBlock];
-    std::fill_n(e, kBlock, 1.0f);                                         // somewhere
-    std::fill_n(e + (kElementPlanes - 1) * kBlock, kBlock, kNoElements);  // but never used
+    // Somewhere, and never used: too wide to serve in a pack of which another point has elements.
+    std::fill_n(e, kBlock, 1.0f);
+    std::fill_n(e + 3 * kBlock, kBlock, kTooWide);
+    std::fill_n(e + (kElementPlanes - 1) * kBlock, kBlock, kNoElements);
     return edges_.data() + blocks_.back().first;
   }
   void set_edge(std::size_t point, std::size_t edge, Vec3f a, Vec3f b) {
@@ -91,6 +93,7 @@ class Pieces {
 
  private:
   static constexpr float kNoElements = 1e30f;  // a deviation that no distance exceeds
+  static constexpr float kTooWide = 1e6f;      // a reach before the distance 1
   struct Block {
     std::size_t first, count;
   };

@@ -24,6 +24,8 @@ struct Answer {
   std::optional<double> standard_error;
   Precision precision = Precision::double_;
   std::optional<RadianceDerivatives> derivatives;  // where the query asks
+  std::array<Vec3d, 3> by_position{};              // likewise
+  std::vector<std::array<Vec3d, 3>> by_occluders;  // likewise, where the query lists them
   ParameterDerivatives parameters;                 // likewise
 };
 

@@ -37,20 +37,25 @@ void append_channels(std::string& out, const char* key, const std::array<Vec3d, 
   out += ']';
 }
 
-// d_vertices: [channel][vertex][x, y, z]; d_position, d_normal: [channel][x, y, z].
-void append_derivatives(std::string& out, const RadianceDerivatives& d, Precision precision) {
-  out += ",\"d_vertices\":";
+// [channel][vertex][x, y, z]
+void append_vertices(std::string& out, const char* key, const std::vector<std::array<Vec3d, 3>>& vertices, Precision precision) {
+  out += key;
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    out += channel == 0 ? '[' : ',';
-    for (std::size_t i = 0; i < d.vertices.size(); ++i) {
-      out += i == 0 ? '[' : ',';
-      append_vector(out, d.vertices[i][channel], precision);
+    out += channel == 0 ? "[[" : ",[";
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (i > 0) out += ',';
+      append_vector(out, vertices[i][channel], precision);
     }
     out += ']';
   }
   out += ']';
-  append_channels(out, ",\"d_position\":", by_position(d), precision);
-  append_channels(out, ",\"d_normal\":", d.normal, precision);
+}
+
+void append_derivatives(std::string& out, const Answer& answer) {
+  append_vertices(out, ",\"d_vertices\":", answer.derivatives->vertices, answer.precision);
+  append_channels(out, ",\"d_position\":", answer.by_position, answer.precision);
+  append_channels(out, ",\"d_normal\":", answer.derivatives->normal, answer.precision);
+  if (!answer.by_occluders.empty()) append_vertices(out, ",\"d_occluders\":", answer.by_occluders, answer.precision);
 }
 
 void append_parameters(std::string& out, const ParameterDerivatives& d, Precision precision) {
@@ -90,7 +95,7 @@ void write_answer(std::string& out, const Answer& answer, std::string_view id) {
     out += ",\"standard_error\":";
     append_number(out, *answer.standard_error, Precision::double_);
   }
-  if (answer.derivatives) append_derivatives(out, *answer.derivatives, answer.precision);
+  if (answer.derivatives) append_derivatives(out, answer);
   append_parameters(out, answer.parameters, answer.precision);
   out += "}\n";
 }

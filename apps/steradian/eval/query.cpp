@@ -269,6 +269,7 @@ void read_occluders(Problems& problems, const Place& place, Json value, Query& q
   } else {
     return wrong_type(problems, place, "triangles, a mesh or the name of a scene", value);
   }
+  query.occluders_are_listed = true;
   if (!problems.any()) query.occluders = std::make_shared<shadow::Occluders>(shadow::build_edges(mesh.positions, mesh.indices));
 }
 

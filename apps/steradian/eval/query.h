@@ -32,6 +32,7 @@ struct Query {
   std::uint64_t seed = 1;
   bool derivatives = false;                            // of the radiance by the light's vertices, its radiance and the lobe's parameters
   std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing blocks
+  bool occluders_are_listed = false;                   // by the query itself, not by the name of a scene
   std::optional<Vec3d> geometric_normal;               // unit, of the triangle that the position is on; none: the normal
 };
 

@@ -42,16 +42,23 @@ RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoin
   return entry.polygon(shadow::visible_part(light, *query.occluders, from, lift), at, m, options);
 }
 
+// Where the query's point looks from.
+shadow::Viewpoint viewpoint_of(const Query& query) {
+  const Vec3d geometric = query.geometric_normal.value_or(query.normal);
+  shadow::Viewpoint from;
+  from.position = query.position + geometric * shadow::offset_from_surface(query.position);
+  from.normal = query.normal;
+  if (query.geometric_normal && !(geometric == query.normal)) from.geometric_normal = geometric;
+  return from;
+}
+
 }  // namespace
 
 RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& surface, const Material& m,
                                const methods::Row& entry, const RadianceOptions& options,
                                const std::function<RadianceResult()>& unoccluded) {
   const Vec3d geometric = query.geometric_normal.value_or(surface.normal);
-  shadow::Viewpoint from;
-  from.position = surface.position + geometric * shadow::offset_from_surface(surface.position);
-  from.normal = surface.normal;
-  if (query.geometric_normal && !(geometric == surface.normal)) from.geometric_normal = geometric;
+  const shadow::Viewpoint from = viewpoint_of(query);
   const ShadingPoint at = {from.position, surface.normal, surface.view};
 
   if (const auto* light = std::get_if<DirectionalLight>(&source)) {
@@ -81,6 +88,21 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   RadianceResult answer = unoccluded();
   answer.radiance = answer.radiance * Vec3d{share(part.radiance.x, all.x), share(part.radiance.y, all.y), share(part.radiance.z, all.z)};
   return answer;
+}
+
+ShadowedDerivatives shadowed_derivatives(const Query& query, const PolygonLight& stored, const Material& m, const methods::Row& entry) {
+  const shadow::Viewpoint from = viewpoint_of(query);
+  const ShadingPoint at = {from.position, query.normal, query.view.value_or(query.normal)};
+  const PreparedPolygon light = prepare_polygon(stored);
+  const LobeDensity density = entry.density(at, m, query.quality);
+  shadow::BoundaryDerivatives d =
+      shadow::boundary_derivatives(light, *query.occluders, from, [&](Vec3d direction) { return light.radiance * density(direction); });
+  std::size_t count = stored.vertices.size();
+  for (const auto& hole : stored.holes) count += hole.size();
+  ShadowedDerivatives result{RadianceDerivatives(count), d.position, std::move(d.occluders)};
+  const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
+  for (std::size_t i = 0; i < d.light.size(); ++i) result.light.vertices[stored_index[i]] = d.light[i];
+  return result;
 }
 
 }  // namespace steradian::eval

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "eval/query.h"
+#include "shadow/derivatives.h"
 
 namespace steradian::eval {
 
@@ -15,5 +16,17 @@ namespace steradian::eval {
 RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& at, const Material& material,
                                const methods::Row& entry, const RadianceOptions& options,
                                const std::function<RadianceResult()>& unoccluded);
+
+// What `derivatives` adds past occluders.
+struct ShadowedDerivatives {
+  RadianceDerivatives light;                 // by the vertices as stored; not by the normal
+  shadow::ByChannel position{};              // by the point
+  std::vector<shadow::ByChannel> occluders;  // by the positions of the triangles; where some are equal and move together, at the first
+};
+
+// Of one lobe under a polygon. Throws Error for lobes and methods that have none. Of the lobe itself, from which the method's value differs
+// by its error.
+ShadowedDerivatives shadowed_derivatives(const Query& query, const PolygonLight& light, const Material& material,
+                                         const methods::Row& entry);
 
 }  // namespace steradian::eval

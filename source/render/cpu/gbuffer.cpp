@@ -10,6 +10,9 @@
 namespace steradian {
 namespace {
 
+// Unit normals nearer than this share a horizon: 1e-5 of a light's solid angle.
+constexpr float kSameNormal = 1e-5f;
+
 void put(TileVector& v, std::size_t i, Vec3f a) {
   v.x[i] = a.x;
   v.y[i] = a.y;
@@ -59,6 +62,10 @@ std::array<TileVector*, 12> vectors_of(SurfaceTile& t) {
 
 Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
+void clear_kinds(SurfaceTile& tile) {
+  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = tile.any_passing = false;
+}
+
 }  // namespace
 
 void put_nothing(SurfaceTile& tile, std::size_t i) {
@@ -69,7 +76,7 @@ void put_nothing(SurfaceTile& tile, std::size_t i) {
 }
 
 std::size_t take_slots(const SurfaceTile& from, const std::vector<std::uint32_t>& slots, std::size_t filled, SurfaceTile& to) {
-  to.any_surface = to.any_diffuse = to.any_specular = to.any_sheen = to.any_coat = to.any_override = to.any_passing = false;
+  clear_kinds(to);
   for (std::size_t i = 0; i < slots.size(); ++i)
     if (slots[i] == kNoSlot)
       put_nothing(to, i);
@@ -77,6 +84,46 @@ std::size_t take_slots(const SurfaceTile& from, const std::vector<std::uint32_t>
       put_surface(to, i, surface_in(from, slots[i]), get(from.view, slots[i]));
   for (std::size_t i = slots.size(); i < filled; ++i) put_nothing(to, i);
   return slots.size();
+}
+
+bool take_coats(SurfaceTile& from, SurfaceTile& to) {
+  const auto bent = [&](std::size_t i) {
+    return from.material[i] != nullptr && from.coat[i] > 0 && length(get(from.coat_normal, i) - get(from.normal, i)) > kSameNormal;
+  };
+  std::size_t first = 0;
+  while (first < kTilePixels && !bent(first)) ++first;
+  if (first == kTilePixels) return false;
+  clear_kinds(to);
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (!bent(i)) {
+      put_nothing(to, i);
+      continue;
+    }
+    Surface coat;
+    coat.material = from.material[i];
+    coat.position = get(from.position, i);
+    coat.normal = coat.coat_normal = get(from.coat_normal, i);
+    coat.geometric_normal = get(from.geometric_normal, i);
+    coat.tangent = get(from.tangent, i);
+    const float weight = from.coat[i];
+    coat.f0 = Vec3f{kCoatF0, kCoatF0, kCoatF0} * weight;
+    coat.f90 = {weight, weight, weight};
+    coat.alpha_x = coat.alpha_y = from.coat_alpha[i];
+    put_surface(to, i, coat, get(from.view, i));
+    from.coat[i] = 0;
+  }
+  to.any_override = false;  // the lobes of a material that replace what lies below the coat
+  return true;
+}
+
+void put_back_coats(const SurfaceTile& coats, SurfaceTile& to) {
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (coats.material[i] == nullptr) continue;
+    to.coat[i] = coats.f90.x[i];
+    to.radiance.x[i] += coats.radiance.x[i];
+    to.radiance.y[i] += coats.radiance.y[i];
+    to.radiance.z[i] += coats.radiance.z[i];
+  }
 }
 
 Surface surface_in(const SurfaceTile& tile, std::size_t i) {
@@ -163,10 +210,18 @@ struct LastMesh {
   Surface like;  // of a plain mesh
 };
 
+// Onto the surfaces that the normals of their vertices describe.
+void smooth_positions(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
+  for (std::size_t i = 0; i < kTilePixels; ++i)
+    if (tile.material[i] != nullptr)
+      put(tile.position, i,
+          smooth_position(scene.meshes[hits.geometry[i]], hits.triangle[i], hits.u[i], hits.v[i], get(tile.geometric_normal, i)));
+}
+
 }  // namespace
 
-void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, SurfaceTile& tile) {
-  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = tile.any_passing = false;
+void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, Terminator terminator, SurfaceTile& tile) {
+  clear_kinds(tile);
   LastMesh last;
   const auto surface_of = [&](std::size_t i, Vec3f view) {
     return surface_at(scene, scene.meshes[hits.geometry[i]], hits.triangle[i], hits.u[i], hits.v[i], view);
@@ -203,6 +258,7 @@ void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHi
       }
     }
   }
+  if (terminator == Terminator::smooth) smooth_positions(scene, hits, tile);
 }
 
 }  // namespace steradian

@@ -8,6 +8,7 @@
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/surface.h"
 #include "render/cpu/tile.h"
+#include "steradian/render.h"
 
 namespace steradian {
 
@@ -29,8 +30,8 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
 
 struct PlainSurfaceTable;
 
-// The surfaces that were hit, plain meshes on packs. tile.radiance becomes the emission.
-void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, SurfaceTile& tile);
+// The surfaces that were hit, plain meshes on packs, where the terminator lights them from. tile.radiance becomes the emission.
+void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, Terminator terminator, SurfaceTile& tile);
 
 // Empties a slot: what packs read there is finite and weighs nothing.
 void put_nothing(SurfaceTile& tile, std::size_t slot);
@@ -38,6 +39,14 @@ void put_nothing(SurfaceTile& tile, std::size_t slot);
 // Some slots of a tile, side by side at the beginning of another one whose first `filled` slots may hold something; all radiance 0.
 // Returns how many.
 std::size_t take_slots(const SurfaceTile& from, const std::vector<std::uint32_t>& slots, std::size_t filled, SurfaceTile& to);
+
+// The coats of a tile that have a normal of their own, each in its slot of another tile, as surfaces of which the coat is the one
+// lobe; in `from` they weigh nothing until they are put back. False where there is none: `to` is as it was then.
+//
+// Coats see lights past another horizon than what lies below them, so that what is visible of a light is another part.
+bool take_coats(SurfaceTile& from, SurfaceTile& to);
+// With the light that they reflect.
+void put_back_coats(const SurfaceTile& coats, SurfaceTile& to);
 
 // The surface in a slot that has one, put together again.
 Surface surface_in(const SurfaceTile& tile, std::size_t slot);

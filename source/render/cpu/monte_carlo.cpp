@@ -58,8 +58,9 @@ struct DirectSampler::Scratch {
   std::vector<Lobe> lobes;
 };
 
-DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around)
-    : scene_(scene), shadows_(shadows), around_(around), scratch_(std::make_unique<Scratch>()) {
+DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around,
+                             Terminator terminator)
+    : scene_(scene), shadows_(shadows), around_(around), terminator_(terminator), scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
     if (area.is_flat()) {
@@ -100,7 +101,7 @@ Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d 
     if (!(l.z > 0)) return {};
     double pdf = around_->pdf(direction);
     for (const Lobe& lobe : lobes) pdf += lobe.pdf(l);
-    if (!(pdf > 0) || (shadows_ != nullptr && (!(dot(direction, geometric) > 0) || shadows_->blocked_towards(p, direction)))) return {};
+    if (!(pdf > 0) || (shadows_ != nullptr && (!above(geometric, direction) || shadows_->blocked_towards(p, direction)))) return {};
     return evaluate(lobes, l) * around_->radiance(direction) / pdf;
   };
   RunningMean mean;
@@ -132,7 +133,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
     const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v}, l = frame.to_local(to);
     if (l.z <= 0) continue;
     if (shadows_ != nullptr) {
-      if (!(dot(to, geometric) > 0)) continue;
+      if (!above(geometric, to)) continue;
       if (light.kind == PunctualKind::directional ? shadows_->blocked_towards(p, to) : shadows_->between(p, light.position, Casters::all))
         continue;
     }
@@ -164,7 +165,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
       const double distance = capsule != nullptr ? distance_along(*capsule, p, direction) : plane_height / dot(direction, polygon.normal);
       const Vec3d there = p + direction * distance;
       if (shadows_ != nullptr) {
-        if (!(dot(direction, geometric) > 0)) return {};
+        if (!above(geometric, direction)) return {};
         const double height = std::fabs(capsule != nullptr ? distance : plane_height);
         if (shadows_->between(p, p + (there - p) * std::max(1 - eta / height, 0.0), Casters::all)) return {};
       }

@@ -9,6 +9,7 @@
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/surface.h"
 #include "render/environment/environment_sampler.h"
+#include "steradian/render.h"
 
 namespace steradian {
 
@@ -30,7 +31,8 @@ enum class LobeChoice { all, specular };
 class DirectSampler {
  public:
   // shadows may be null: nothing occludes; so may the environment. Keeps references to the scene, the rays and the environment.
-  DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around = nullptr);
+  DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around = nullptr,
+                Terminator terminator = Terminator::strict);
   ~DirectSampler();
   DirectSampler(const DirectSampler&) = delete;
 
@@ -43,10 +45,13 @@ class DirectSampler {
   struct Scratch;
   // Of scratch_->lobes, which share the frame's normal.
   Estimate estimate_environment(const Frame& frame, Vec3d position, Vec3d geometric, int spp, reference::Random& random) const;
+  // Whether a direction lies above the horizon of the triangle, where that hides what lies below.
+  bool above(Vec3d geometric, Vec3d direction) const { return terminator_ == Terminator::smooth || dot(direction, geometric) > 0; }
   Estimate estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random);
   const Scene& scene_;
   const RayScene* shadows_;
   const environment::EnvironmentSampler* around_;
+  const Terminator terminator_;
   std::vector<Light> lights_;
   std::unique_ptr<Scratch> scratch_;
 };

@@ -79,7 +79,7 @@ TEST(PlainSurface, PacksFollowTheSurfaceOfEverySlot) {
     for (int round = 0; round < 10; ++round) {
       const auto hits = any_hits(random);
       const auto tile = std::make_unique<SurfaceTile>(), expected = std::make_unique<SurfaceTile>();
-      shade_tile(scene, plain_surface_table_for(simd), *hits, *tile);
+      shade_tile(scene, plain_surface_table_for(simd), *hits, Terminator::strict, *tile);
       double worst = 0;
       for (std::size_t i = 0; i < kTilePixels; ++i) {
         if (hits->geometry[i] == RTC_INVALID_GEOMETRY_ID) {

@@ -68,6 +68,7 @@ struct ShadowWork {
   PackLight pieces;                  // what slots see of a light
   std::vector<std::uint32_t> slots;  // in `some`, side by side
   SurfaceTile some;
+  SurfaceTile coats;                 // that have a normal of their own
   std::size_t filled = kTilePixels;  // slots of `some` that may hold a surface
 };
 
@@ -89,7 +90,7 @@ class Renderer {
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
         samplers_([this] {
           return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &rays_ : nullptr,
-                                                 environment_ ? &environment_->sampler() : nullptr);
+                                                 environment_ ? &environment_->sampler() : nullptr, options_.terminator);
         }),
         arena_(threads_) {
     if (options.shadows != Shadows::off && !method_.estimates()) shadows_.emplace(scene_, lights_, rays_, options.shadows);
@@ -247,7 +248,7 @@ class Renderer {
     TileHits hits;
     rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
     gbuffer_clock_.run([&] {
-      shade_tile(scene_, plain_surfaces_, hits, tile);
+      shade_tile(scene_, plain_surfaces_, hits, options_.shadows != Shadows::off ? options_.terminator : Terminator::strict, tile);
       if (environment_ && options_.background) show_background(hits, tile, behind);
     });
     TilePlane distances{};
@@ -323,8 +324,16 @@ class Renderer {
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
     if (lights.empty()) return;
     ShadowWork& work = *shadow_work_.local();
+    const bool coats = tile.any_coat && take_coats(tile, work.coats);
+    add_past_blockers(tile, lights, work);
+    if (!coats) return;
+    add_past_blockers(work.coats, lights, work);
+    put_back_coats(work.coats, tile);
+  }
+
+  void add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowWork& work) {
     TilePoints points;
-    shadow_clock_.run([&] { points = points_for_shadows(tile); });
+    shadow_clock_.run([&] { points = points_for_shadows(tile, options_.terminator); });
     std::vector<const PackLight*> plain;
     for (const PackLight* light : lights) {
       shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts); });
@@ -355,7 +364,7 @@ class Renderer {
   // The radiance that a light sends to some slots alone, in their order.
   SurfaceTile& light_slots(const SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
     work.filled = take_slots(tile, work.slots, work.filled, work.some);
-    // Pieces lie above the surface's horizon, not above that of a coat with a normal of its own.
+    // Pieces lie above the surface's horizon, and no coat's normal differs from it by more than rounding (take_coats).
     if (light.is_pieces()) work.some.coat_normal = work.some.normal;
     add_light(work.some, {&light});
     return work.some;

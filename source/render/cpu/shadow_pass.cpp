@@ -68,7 +68,7 @@ constexpr double kNeverSmall = 100;
 
 }  // namespace
 
-TilePoints points_for_shadows(const SurfaceTile& tile) {
+TilePoints points_for_shadows(const SurfaceTile& tile, Terminator terminator) {
   TilePoints result;
   result.points.resize(kTilePixels);
   std::vector<Vec3d> positions(kTilePixels);
@@ -78,7 +78,7 @@ TilePoints points_for_shadows(const SurfaceTile& tile) {
     Viewpoint& at = result.points[i];
     positions[i] = at.position = position + geometric * shadow::offset_from_surface(position);
     at.normal = normal;
-    if (length(normal - geometric) > 1e-5) at.geometric_normal = geometric;
+    if (terminator == Terminator::strict && length(normal - geometric) > 1e-5) at.geometric_normal = geometric;
   }
   result.groups = groups_of(tile, positions);
   return result;

@@ -23,7 +23,7 @@ struct TilePoints {
   std::vector<shadow::Viewpoint> points;  // by slot
   PointGroups groups;
 };
-TilePoints points_for_shadows(const SurfaceTile& tile);
+TilePoints points_for_shadows(const SurfaceTile& tile, Terminator terminator);
 
 // How one light reaches a tile.
 struct TileShadow {

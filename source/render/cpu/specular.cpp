@@ -32,8 +32,6 @@ struct SpecularPass::Lobe {
 
 namespace {
 
-constexpr double kCoatF0 = 0.04;
-
 Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 void add_to(TileVector& v, std::size_t i, Vec3f a) {
@@ -246,7 +244,7 @@ void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& l
   if (tile.any_coat) {
     Lobe coat = {tile.coat_normal, tile.coat_alpha, tile.coat_alpha, {}, {}};
     for (std::size_t i = 0; i < kTilePixels; ++i) {
-      coat.f0.x[i] = coat.f0.y[i] = coat.f0.z[i] = tile.coat[i] * static_cast<float>(kCoatF0);
+      coat.f0.x[i] = coat.f0.y[i] = coat.f0.z[i] = tile.coat[i] * kCoatF0;
       coat.f90.x[i] = coat.f90.y[i] = coat.f90.z[i] = tile.coat[i];
     }
     add_ggx(tile, coat, lights);

@@ -10,7 +10,6 @@ namespace steradian {
 namespace {
 
 constexpr auto kMinAlpha = static_cast<float>(kSmallestAlpha);
-constexpr float kCoatF0 = 0.04f;  // KHR_materials_clearcoat: a coat of index 1.5
 
 // Values at the corners of a triangle, blended.
 struct Corner {
@@ -165,6 +164,18 @@ bool is_plain(const Scene& scene, const Mesh& mesh) {
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   return base_color(scene, mesh, Corner(mesh, triangle, u, v), m);
+}
+
+Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside) {
+  const Corner at(mesh, triangle, u, v);
+  const Vec3f hit = at(mesh.positions);
+  Vec3f lift{};
+  for (const auto& [i, weight] : {std::pair{at.i0, at.w0}, std::pair{at.i1, at.u}, std::pair{at.i2, at.v}}) {
+    const Vec3f n = unit(mesh.normals[i]);
+    const Vec3f up = dot(n, outside) < 0 ? -n : n;
+    lift += up * (weight * std::max(0.0f, dot(mesh.positions[i] - hit, up)));
+  }
+  return hit + lift;
 }
 
 Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view) {

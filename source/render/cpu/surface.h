@@ -5,6 +5,8 @@
 
 namespace steradian {
 
+inline constexpr float kCoatF0 = 0.04f;  // KHR_materials_clearcoat: a coat of index 1.5
+
 // The metallic-roughness surface at one point, textures looked up.
 //
 // A back face shows the front's frame with its normal reversed: bumps and directions of brushing stay where they are.
@@ -32,6 +34,15 @@ struct Surface {
 
 // Base colour with alpha, of a mesh's triangle at barycentric coordinates u, v (of the second and third vertex).
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v);
+
+// The hit moved to the curved surface that the normals of the triangle's vertices describe, where that lies outside of the
+// triangle: the mean of its feet on the planes through the vertices, by their weights. At a vertex, on a flat triangle and in a hollow it
+// is the hit.
+//
+//   outside  the triangle's normal, turned to the viewer
+//
+// Source: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
+Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside);
 
 // `view` points to the viewer, unit.
 Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view);

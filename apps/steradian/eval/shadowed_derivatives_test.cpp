@@ -1,0 +1,203 @@
+// Derivatives past occluders against central differences.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "eval/answer.h"
+
+namespace steradian::eval {
+namespace {
+
+using nlohmann::json;
+
+json answer(const json& query) {
+  static QueryReader reader;
+  std::string line = query.dump(), out;
+  const std::size_t size = line.size();
+  line.append(kQueryPadding, ' ');
+  answer_line(reader, {line.data(), size}, out);
+  return json::parse(out);
+}
+
+// Of the green channel.
+double value(const json& query, const std::string& judge) {
+  json q = query;
+  q["method"] = judge;
+  const json a = answer(q);
+  EXPECT_TRUE(a.contains("radiance")) << a;
+  return a["radiance"][1];
+}
+
+// How the value changes while the coordinates at some places of the query grow together. Cells of the light move with what they stand for
+// by steps of 1.2e-7 of its half side, which is why the step is no smaller.
+constexpr double kStep = 1e-3;
+double central_difference(const json& query, const std::vector<json::json_pointer>& places, const std::string& judge) {
+  const auto at = [&](double step) {
+    json moved = query;
+    for (const auto& place : places) moved[place] = moved[place].get<double>() + step;
+    return value(moved, judge);
+  };
+  return (at(kStep) - at(-kStep)) / (2 * kStep);
+}
+
+struct Lobe {
+  std::string material, method, judge;
+};
+const Lobe kLobes[] = {
+    {R"({"brdf":"lambert","albedo":[0.3,0.7,0.5]})", "exact", "exact"},
+    {R"({"brdf":"ggx","alpha":0.3})", "closed-form", "reference"},
+    {R"({"brdf":"ggx","alpha_x":0.15,"alpha_y":0.5,"tangent":[1,0,0.3],"f0":0.1})", "closed-form", "reference"},
+    {R"({"brdf":"phong","exponent":12})", "series", "exact"},
+    {R"({"brdf":"ggx","alpha":0.4})", "ltc", "ltc"},
+    {R"({"brdf":"ggx","alpha":0.4})", "ltc-compact", "ltc-compact"},
+};
+
+struct Setting {
+  std::string name, light, occluders;
+  bool plane_turns = true;  // whether the light's vertices are moved out of its plane as well
+};
+const std::string kBent =
+    R"([[[0,1,-1],[0,1,1],[0.6,1.1,1]],[[0,1,-1],[0.6,1.1,1],[0.6,1.1,-1]],[[-0.3,1.2,-0.2],[-0.1,0.9,0.3],[-0.2,1.3,0.4]]])";
+const Setting kSettings[] = {
+    {"triangle", R"({"type":"polygon","vertices":[[-0.5,2,-0.4],[0.9,2.1,-0.5],[0.3,1.9,0.7]],"radiance":[1,2,3]})", kBent},
+    {"from behind", R"({"type":"polygon","vertices":[[0.9,2.1,-0.5],[-0.5,2,-0.4],[0.3,1.9,0.7]],"two_sided":true})", kBent},
+    {"hole",
+     R"({"type":"polygon","vertices":[[-0.5,2,-0.5],[0.9,2,-0.5],[0.9,2,0.6],[-0.5,2,0.6]],"holes":[[[-0.25,2,-0.2],[-0.25,2,0.3],[-0.05,2,0]]]})",
+     kBent, false},
+    {"through the light's plane", R"({"type":"polygon","vertices":[[-0.5,2,-0.5],[0.9,2,-0.5],[0.9,2,0.6],[-0.5,2,0.6]]})",
+     R"([[[0.1,1.6,-0.9],[0.3,2.4,-0.1],[0.2,1.5,0.5]],[[-0.3,1.2,-0.2],[-0.1,0.9,0.3],[-0.2,1.3,0.4]]])", false},
+};
+
+json query_of(const Setting& setting, const Lobe& lobe) {
+  return {{"light", json::parse(setting.light)},
+          {"position", {0.05, 0, 0.02}},
+          {"normal", {0.1, 1, 0}},
+          {"view", {-0.5, 1, 0.1}},
+          {"material", json::parse(lobe.material)},
+          {"method", lobe.method},
+          {"occluders", json::parse(setting.occluders)}};
+}
+
+json::json_pointer place(const std::string& path, int coordinate) { return json::json_pointer(path + "/" + std::to_string(coordinate)); }
+
+// A derivative, and what of the query moves.
+struct Move {
+  std::string what;
+  double derivative;
+  std::vector<json::json_pointer> places;
+};
+
+std::vector<Move> moves_of(const Setting& setting, const json& query, const json& d) {
+  std::vector<Move> moves;
+  for (int c = 0; c < 3; ++c) moves.push_back({"position", d["d_position"][1][c], {place("/position", c)}});
+  std::size_t number = 0;
+  const auto add_vertices = [&](const json& list, const std::string& path) {
+    for (std::size_t i = 0; i < list.size(); ++i, ++number)
+      for (int c = 0; c < 3; ++c)
+        if (setting.plane_turns || c != 1)
+          moves.push_back({"light", d["d_vertices"][1][number][c], {place(path + "/" + std::to_string(i), c)}});
+  };
+  add_vertices(query["light"]["vertices"], "/light/vertices");
+  if (query["light"].contains("holes")) add_vertices(query["light"]["holes"][0], "/light/holes/0");
+  // Equal positions move together.
+  std::vector<json> seen;
+  number = 0;
+  const json& triangles = query["occluders"];
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k, ++number) {
+      const json& position = triangles[t][k];
+      const bool repeats = std::find(seen.begin(), seen.end(), position) != seen.end();
+      seen.push_back(position);
+      for (int c = 0; c < 3; ++c) {
+        const double derivative = d["d_occluders"][1][number][c];
+        if (repeats) {
+          EXPECT_EQ(derivative, 0) << "of a position that stands earlier";
+          continue;
+        }
+        std::vector<json::json_pointer> places;
+        for (std::size_t u = 0; u < triangles.size(); ++u)
+          for (std::size_t l = 0; l < 3; ++l)
+            if (triangles[u][l] == position) places.push_back(place("/occluders/" + std::to_string(u) + "/" + std::to_string(l), c));
+        moves.push_back({"occluder " + std::to_string(number), derivative, places});
+      }
+    }
+  return moves;
+}
+
+TEST(ShadowedDerivatives, AgreeWithCentralDifferences) {
+  for (const Setting& setting : kSettings)
+    for (const Lobe& lobe : kLobes) {
+      SCOPED_TRACE(setting.name + ", " + lobe.material + " by " + lobe.method);
+      const json query = query_of(setting, lobe);
+      json asked = query;
+      asked["derivatives"] = true;
+      const json d = answer(asked);
+      ASSERT_TRUE(d.contains("d_occluders")) << d;
+      const double whole = value(query, lobe.judge);
+      EXPECT_GT(whole, 0);
+      const std::vector<Move> moves = moves_of(setting, query, d);
+      double largest = 0;
+      for (const Move& move : moves) largest = std::max(largest, std::fabs(move.derivative));
+      EXPECT_GT(largest, 0.1 * whole);
+      // Steps of cells, 2.4e-7 of the light over twice the step; the differences' own error, the square of the step over that of the
+      // distances at hand, 1e-5 of a derivative where a lobe changes over a tenth of them.
+      const double bar = 3e-4 * whole + 1e-3 * largest;
+      for (const Move& move : moves)
+        EXPECT_NEAR(move.derivative, central_difference(query, move.places, lobe.judge), bar) << move.what << ", " << move.places[0];
+    }
+}
+
+// The normal turns as a direction; the horizon turns with it, also where it cuts what is seen and the lobe does not end there.
+TEST(ShadowedDerivatives, ByTheNormalAgreeWithCentralDifferences) {
+  for (const Lobe& lobe : kLobes)
+    for (const bool grazing : {false, true}) {
+      SCOPED_TRACE(lobe.material + " by " + lobe.method + (grazing ? ", cut by the horizon" : ""));
+      json query = query_of(kSettings[0], lobe);
+      query["geometric_normal"] = {0, 1, 0};
+      if (grazing) {
+        query["normal"] = {-1, 0.05, 0.1};
+        query["view"] = {-0.2, -0.985, 0.03};
+      }
+      json asked = query;
+      asked["derivatives"] = true;
+      const json d = answer(asked);
+      ASSERT_TRUE(d.contains("d_normal")) << d;
+      const double size = std::sqrt(grazing ? 1.0125 : 1.01);  // of the normal as it stands in the query
+      const double whole = value(query, lobe.method);
+      EXPECT_GT(whole, 0);
+      double largest = 0;
+      for (int c = 0; c < 3; ++c) largest = std::max(largest, std::fabs(d["d_normal"][1][c].get<double>()));
+      // Both are differences of the method's own value; ltc interpolates its table in the view's cosine, piece by piece: steps may meet a
+      // node.
+      const double bar = 6e-4 * whole + (lobe.method.starts_with("ltc") ? 2e-2 : 2e-3) * largest;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(d["d_normal"][1][c].get<double>() / size, central_difference(query, {place("/normal", c)}, lobe.method), bar) << c;
+    }
+}
+
+TEST(ShadowedDerivatives, WithNothingInTheWayAreThoseOfTheWholeLight) {
+  for (const Lobe& lobe : kLobes) {
+    json query = query_of(kSettings[0], lobe);
+    query["derivatives"] = true;
+    query["occluders"] = json::array();
+    const json past = answer(query);
+    query.erase("occluders");
+    const json whole = answer(query);
+    ASSERT_TRUE(past.contains("d_vertices")) << past;
+    double largest = 0;
+    for (const json& vertex : whole["d_vertices"][1])
+      for (const json& x : vertex) largest = std::max(largest, std::fabs(x.get<double>()));
+    // The point is 1e-5 off its surface, and the methods of the whole light have errors: their documented ones.
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(past["d_vertices"][1][i][c].get<double>(), whole["d_vertices"][1][i][c].get<double>(), 2e-2 * largest) << lobe.material;
+  }
+}
+
+}  // namespace
+}  // namespace steradian::eval
