@@ -11,6 +11,7 @@
 #include "shadow/test_rays_integral.h"
 #include "shadow/visible_part.h"
 #include "steradian/ltc.h"
+#include "steradian/polygon_derivatives.h"
 #include "studies/shadow_clipping.h"
 
 namespace steradian::studies {
@@ -57,12 +58,16 @@ ShadingPoint shading_of(const Viewpoint& at, const PreparedPolygon& light) {
   return {at.position, at.normal, dot(mirrored, at.normal) > 0.05 ? mirrored : at.normal};
 }
 
-Lobes integrals_over(const PreparedPolygon& part, const ShadingPoint& at) {
+Material glossy() {
   Material ggx;
   ggx.brdf = Brdf::ggx;
   ggx.alpha_x = ggx.alpha_y = 0.3;
+  return ggx;
+}
+
+Lobes integrals_over(const PreparedPolygon& part, const ShadingPoint& at) {
   if (part.vertices.empty()) return {};
-  return {polygon_irradiance(part, at.position, at.normal), ltc_radiance(LtcMethod::classic, part, at, ggx).x};
+  return {polygon_irradiance(part, at.position, at.normal), ltc_radiance(LtcMethod::classic, part, at, glossy()).x};
 }
 
 struct Stage {
@@ -117,6 +122,7 @@ struct Stage {
 struct Place {
   Viewpoint at;
   ShadingPoint shading;
+  LobeDensity lobe;  // the transformed cosine
   Lobes open, truth;
 };
 
@@ -128,6 +134,7 @@ std::vector<Place> places_in(const Stage& stage, const families::Family& family,
     Place place;
     place.at = families::random_point(family, stage.occluders.mesh, stage.light, random).at;
     place.shading = shading_of(place.at, stage.light);
+    place.lobe = ltc_lobe_density(LtcMethod::classic, place.shading, glossy());
     place.open = integrals_over(stage.light, place.shading);
     if (!(place.open.lambert > 1e-3) || !(place.open.ltc > 1e-3)) continue;
     place.truth = integrals_over(visible_part(stage.light, stage.occluders, place.at, 1e-9), place.shading);
@@ -159,7 +166,7 @@ class Shares {
     const double d2 = dot(to_, to_), cosine = dot(to_, place_.at.normal) / std::sqrt(d2);
     if (!(cosine > 0)) return false;
     const double area = -frame_.to_local(place_.at.position).z / (d2 * std::sqrt(d2));
-    weight_ = {cosine * area, cosine * area * lobe(to_ / std::sqrt(d2))};
+    weight_ = {cosine * area, area * place_.lobe(to_ / std::sqrt(d2)).x};
     all_ = {all_.lambert + weight_.lambert, all_.ltc + weight_.ltc};
     return true;
   }
@@ -171,12 +178,6 @@ class Shares {
   }
 
  private:
-  // GGX of alpha 0.3 without its slower factors: what a renderer weighs its shadow rays by.
-  double lobe(Vec3d l) const {
-    const double h = dot(normalized(l + place_.shading.view), place_.at.normal), t = h * h * (0.09 - 1) + 1;
-    return 1 / (t * t);
-  }
-
   const LightFrame& frame_;
   const Place& place_;
   Vec3d to_{};

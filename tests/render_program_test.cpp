@@ -188,6 +188,7 @@ TEST_F(Program, RenderRefusesWrongUseWithTwo) {
       {"render", floor_scene(), "-o", out, "--size", "99999x99999"},
       {"render", floor_scene(), "-o", out, "--method", "magic"},
       {"render", floor_scene(), "-o", out, "--shadows", "maybe"},
+      {"render", floor_scene(), "-o", out, "--terminator", "smooth", "--shadows", "off"},
       {"render", glossy_scene(), "-o", out, "--method", "exact"},
       {"render", glossy_scene(), "-o", out, "--method", "series"},
       {"render", floor_scene(), "-o", out, "--aa", "0"},

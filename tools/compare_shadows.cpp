@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
   std::ofstream(argv[1]) << moment::to_svg(plot);
 
   std::printf("\n| triangles of a sphere | segments a point | method | time [us] |\n|---|---|---|---|\n");
-  for (const ShadowScene& scene : studies::grow_shadows(std::max(points / 10, 5)))
+  for (const ShadowScene& scene : studies::grow_shadows(std::max(points / 20, 5)))
     for (const ShadowRow& row : scene.rows)
       std::printf("| %zu | %.1f | %s | %.1f |\n", scene.triangles, scene.segments, row.method.c_str(), row.microseconds);
 }

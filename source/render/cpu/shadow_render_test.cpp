@@ -155,7 +155,7 @@ TEST(ShadowRender, SeesALongTubeFromRightBesideItAndBeyondItsEnd) {
 Scene ball_scene(unsigned columns, unsigned rows) {
   Scene scene = still_life();
   scene.meshes = {ball_mesh({0, 1, 0}, 0.8f, 1, columns, rows)};
-  scene.area_lights = {AreaLight{Polygon{{{-2.4, 3.5, -1}, {-2.4, 3.5, 1}, {-2.6, 1.5, 1}, {-2.6, 1.5, -1}}, {}}, {3, 2, 1}}};
+  scene.area_lights = {AreaLight{Polygon{{{-2.4, 2.2, -0.2}, {-2.4, 2.2, 0.2}, {-2.5, 1.8, 0.2}, {-2.5, 1.8, -0.2}}, {}}, {80, 60, 40}}};
   return scene;
 }
 
@@ -175,8 +175,8 @@ TEST(ShadowRender, ASmoothTerminatorIsThatOfTheSurfaceThatNormalsDescribe) {
   const Picture smooth = render(scene, options);
   options.shadows = Shadows::off;
   const Picture open = render(scene, options);
-  EXPECT_GT(shadowed_pixels(strict, open), 40);
-  EXPECT_LE(shadowed_pixels(smooth, open), 2);
+  EXPECT_GT(shadowed_pixels(strict, open), 10);
+  EXPECT_EQ(shadowed_pixels(smooth, open), 0);
 }
 
 TEST(ShadowRender, ASmoothTerminatorIsTheSameToRays) {
@@ -191,7 +191,7 @@ TEST(ShadowRender, ASmoothTerminatorIsTheSameToRays) {
   options.shadows = Shadows::off;
   add_variance_of_rare_samples(reference, render(scene, options));
   const ZTest z = z_test(analytic, reference, 2e-4);
-  EXPECT_GT(z.tested, 1000u);
+  EXPECT_GT(z.tested, 500u);
   EXPECT_GE(z.share(), 0.9975) << "worst " << z.worst;
 }
 
