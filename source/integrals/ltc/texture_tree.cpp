@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 namespace steradian {
 namespace {
@@ -134,21 +135,27 @@ struct TextureTree::Seen {
   double weight = 0;  // the integral of the lobe
   Vec3d radiance{};   // of the lobe times the texture
   double error = 0;   // of what the quotient of the sums may be off, times the sum of the weights
-  Cell cell;
+  const Cell* cell;
   bool operator<(const Seen& other) const { return error < other.error; }
 };
 
-namespace {
+// What all cells ask of a view.
+struct TextureTree::Prepared {
+  const View& view;
+  Kernels<double>::vec3 normal;  // of the plane, unit
+  double height;                 // of the point over it
+  double least_length;           // |M^-1 l| in the lobe's own direction
+  double determinant;            // of M^-1
 
-// |M^-1 l| in the lobe's own direction.
-double least_length(const TextureTree::View& view) {
-  Kernels<double> k;
-  const auto peak = k.ltc_texture_transform_back(view.matrix, Kernels<double>::vec3(0.0, 0.0, 1.0));
-  const auto under = k.ltc_transform(view.matrix, peak * inversesqrt(dot(peak, peak)));
-  return std::sqrt(dot(under, under).v);
-}
-
-}  // namespace
+  explicit Prepared(const View& v) : view(v), normal(cross(v.x, v.y)) {
+    Kernels<double> k;
+    height = std::fabs(dot(normal, v.origin).v);
+    const auto peak = k.ltc_texture_transform_back(v.matrix, Kernels<double>::vec3(0.0, 0.0, 1.0));
+    const auto under = k.ltc_transform(v.matrix, peak * inversesqrt(dot(peak, peak)));
+    least_length = std::sqrt(dot(under, under).v);
+    determinant = (v.matrix.yy * (v.matrix.xx * v.matrix.zz - v.matrix.xz * v.matrix.zx)).v;
+  }
+};
 
 // Whether the smallest cells are small against the lobe, where its peak is on the light.
 bool TextureTree::resolves(const View& view) const {
@@ -164,40 +171,40 @@ bool TextureTree::resolves(const View& view) const {
   return !on_light || size < 1.5;
 }
 
-TextureTree::Seen TextureTree::seen(const Cell& cell, const View& view, Vec3d expected) {
+TextureTree::Seen TextureTree::seen(const Cell& cell, const Prepared& prepared, Vec3d expected) {
   using K = Kernels<double>;
   K k;
   Seen s;
-  s.cell = cell;
+  s.cell = &cell;
   if (!(cell.area > 0)) return s;
+  const View& view = prepared.view;
   const auto in_frame = [&](const std::array<double, 2>& v) { return view.x * K::real(v[0]) + view.y * K::real(v[1]); };
   const K::vec3 center = view.origin + in_frame(cell.center), a = in_frame(cell.axis_a), b = in_frame(cell.axis_b);
-  const K::vec3 normal = cross(view.x, view.y);
   const auto value = [&](const K::vec3& r) {
     if (!(r.z.v > 0)) return 0.0;
     const double inverse2 = 1 / dot(r, r).v, inverse = std::sqrt(inverse2);
     const K::vec3 l = r * K::real(inverse);
     const double lobe = view.ggx ? k.ggx_lobe_and_fresnel(*view.ggx, l, 1.0).x.v : k.ltc_lobe(view.matrix, l).v;
-    return lobe * std::fabs(dot(normal, l).v) * inverse2;
+    return lobe * inverse * inverse2;
   };
   const double at_a = value(center + a), from_a = value(center - a), at_b = value(center + b), from_b = value(center - b);
+  const double area = cell.area * prepared.height;  // times the cosine at the light, which is the height over the distance
   const double mean = 0.25 * (at_a + from_a + at_b + from_b);
-  s.weight = cell.area * mean;
-  s.radiance = (cell.mean * mean + cell.along_a * (0.5 * (at_a - from_a)) + cell.along_b * (0.5 * (at_b - from_b))) * cell.area;
+  s.weight = area * mean;
+  s.radiance = (cell.mean * mean + cell.along_a * (0.5 * (at_a - from_a)) + cell.along_b * (0.5 * (at_b - from_b))) * area;
   s.radiance = {std::max(s.radiance.x, 0.0), std::max(s.radiance.y, 0.0), std::max(s.radiance.z, 0.0)};
 
   // t as kernels/outline/light_elements.glsl has it. The lobe is at most det / (pi |M^-1 l|^3), whose denominator falls by no more than the
   // cell reaches, and not below its least.
-  const double distance = std::sqrt(dot(center, center).v);
+  const double inverse_distance = 1 / std::sqrt(dot(center, center).v), distance = 1 / inverse_distance;
   const double steepness = k.ltc_sharpness(view.matrix, center).v, sharpness = k.light_elements_diffuse_sharpness().v + steepness;
-  const double t = std::sqrt(0.5 * (length2(cell.axis_a) + length2(cell.axis_b))) / distance * sharpness;
-  const K::vec3 under = k.ltc_transform(view.matrix, center * K::real(1 / distance));
-  const double reach = std::min(cell.radius / distance * steepness, 1.0);
-  const double m = std::max(std::sqrt(dot(under, under).v) * (1 - reach), least_length(view));
-  const double determinant = (view.matrix.yy * (view.matrix.xx * view.matrix.zz - view.matrix.xz * view.matrix.zx)).v;
-  const double nearest = std::max(distance - cell.radius, std::fabs(dot(normal, center).v));
-  const double steep = std::min(std::fabs(dot(normal, center).v) + cell.radius, nearest) / (nearest * nearest * nearest);
-  const double highest = determinant / (3.14159265358979324 * m * m * m) * steep;
+  const double t = std::sqrt(0.5 * (length2(cell.axis_a) + length2(cell.axis_b))) * inverse_distance * sharpness;
+  const K::vec3 under = k.ltc_transform(view.matrix, center * K::real(inverse_distance));
+  const double reach = std::min(cell.radius * inverse_distance * steepness, 1.0);
+  const double m = std::max(std::sqrt(dot(under, under).v) * (1 - reach), prepared.least_length);
+  const double nearest = std::max(distance - cell.radius, prepared.height);
+  const double steep = std::min(prepared.height + cell.radius, nearest) / (nearest * nearest * nearest);
+  const double highest = prepared.determinant / (3.14159265358979324 * m * m * m) * steep;
   const double off = std::fabs(luminance(cell.mean) - luminance(expected));
   const double small = std::min(t, 2.0);
   s.error = cell.area * highest * (off * small * small * small / 8 + 0.5 * cell.deviation * small * small);
@@ -206,24 +213,27 @@ TextureTree::Seen TextureTree::seen(const Cell& cell, const View& view, Vec3d ex
 
 std::optional<Vec3f> TextureTree::mean_under(const View& view, const PlaneTexels& texels) const {
   if (!resolves(view)) return std::nullopt;
+  const Prepared prepared(view);
   std::vector<Seen> open;
   open.reserve(128);
+  std::deque<Cell> halves;  // of smallest cells: a deque leaves them where they are
   Vec3d expected = cells_.front().mean;
-  open.push_back(seen(cells_.front(), view, expected));
+  open.push_back(seen(cells_.front(), prepared, expected));
   double weight = open[0].weight, error = open[0].error;
   Vec3d radiance = open[0].radiance;
   for (int i = 0; i < kMostSplits && error > kTolerance * luminance(radiance); ++i) {
     std::pop_heap(open.begin(), open.end());
     const Seen worst = open.back();
-    const Cell& cell = worst.cell;
+    const Cell& cell = *worst.cell;
     if (cell.depth == kDeepest) return std::nullopt;
     open.pop_back();
     weight -= worst.weight;
     radiance = radiance - worst.radiance;
     error -= worst.error;
     for (int c = 0; c < 2; ++c) {
-      const Cell child = cell.children > 0 ? cells_[static_cast<std::size_t>(cell.children + c)] : half_of(cell, 2 * c - 1, texels);
-      open.push_back(seen(child, view, expected));
+      const Cell& child =
+          cell.children > 0 ? cells_[static_cast<std::size_t>(cell.children + c)] : halves.emplace_back(half_of(cell, 2 * c - 1, texels));
+      open.push_back(seen(child, prepared, expected));
       const Seen& part = open.back();
       weight += part.weight;
       radiance += part.radiance;

@@ -51,7 +51,8 @@ class TextureTree {
     int depth = 0;     // below the smallest cells
   };
   struct Seen;
-  static Seen seen(const Cell& cell, const View& view, Vec3d expected);
+  struct Prepared;
+  static Seen seen(const Cell& cell, const Prepared& view, Vec3d expected);
   static Cell half_of(const Cell& cell, double side, const PlaneTexels& texels);
   bool resolves(const View& view) const;
 
