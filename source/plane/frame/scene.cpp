@@ -89,8 +89,13 @@ class Preparation {
   void check_pairs() {
     const BinCounts counts(bins_);
     std::uint64_t pairs = 0;
-    for (const Emitter& e : frame_.emitters) pairs += counts.within(e.center, std::min(e.range, 1e8) + e.bound);
-    const std::string what = fmt::format("the {} pairs of its {} pieces of light and what may block them", pairs, frame_.emitters.size());
+    std::size_t pieces = 0;
+    for (const Emitter& e : frame_.emitters) {
+      if (is_run(e)) continue;  // it takes work from its edges
+      pairs += counts.within(e.center, std::min(e.range, 1e8) + e.bound);
+      ++pieces;
+    }
+    const std::string what = fmt::format("the {} pairs of its {} pieces of light and what may block them", pairs, pieces);
     budget_.take_work(world_.scene.name, what, pairs * kPairSteps);
     budget_.take_memory(world_.scene.name, what, pairs * kPairBytes);
   }
