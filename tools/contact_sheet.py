@@ -3,7 +3,7 @@
 
     tools/contact_sheet.py PROGRAM SHEET.png [--size WxH] [--most SECONDS] [--shine] FOLDER_OR_FILE ... [-- OPTIONS OF RENDER ...]
 
-    --size WxH      of the pictures (160x120); the sheet shows them at 160x120
+    --size WxH      of the pictures whose time is taken (160x120); the sheet shows each at 160x120
     --most SECONDS  that a picture may take
     --shine         makes every shape of an SVG a light: drawings that know nothing of us are black otherwise
 
@@ -22,6 +22,7 @@ import zlib
 from pathlib import Path
 
 WIDTH, HEIGHT, COLUMNS = 160, 120, 8  # of a field of the sheet
+SIZE = f"{WIDTH}x{HEIGHT}"
 GREY = bytes([90, 90, 90]) * WIDTH
 
 
@@ -59,24 +60,6 @@ def write_png(path, rows):
     Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", body) + chunk(b"IEND", b""))
 
 
-def shrunk(rows):
-    """The picture at the sheet's size: means of blocks."""
-    width, height = len(rows[0]) // 3, len(rows)
-    if (width, height) == (WIDTH, HEIGHT):
-        return rows
-    result = []
-    for y in range(HEIGHT):
-        block = rows[y * height // HEIGHT : max((y + 1) * height // HEIGHT, y * height // HEIGHT + 1)]
-        line = bytearray()
-        for x in range(WIDTH):
-            begin, end = x * width // WIDTH, max((x + 1) * width // WIDTH, x * width // WIDTH + 1)
-            for c in range(3):
-                values = [v for row in block for v in row[3 * begin + c : 3 * end : 3]]
-                line.append(sum(values) // len(values))
-        result.append(bytes(line))
-    return result
-
-
 def shining(svg, folder):
     """A copy of a drawing whose every shape is a light."""
     text = svg.read_text(errors="replace")
@@ -85,23 +68,29 @@ def shining(svg, folder):
     return copy
 
 
-def render(program, scene, size, shine, options):
-    """Exit status, seconds, what was said, and the picture's rows, or none."""
+def render(program, scene, timed_size, shine, options):
+    """Exit status, seconds, what was said, and the rows of the sheet's picture, or none."""
     with tempfile.TemporaryDirectory() as folder:
         picture = Path(folder) / "picture.png"
         if scene.suffix == ".svg":
             scene = shining(scene, folder) if shine else scene
         else:
             options = ["--aa", "4", *options]
-        start = time.monotonic()
-        done = subprocess.run(
-            [program, "render", scene, "-o", picture, "--size", size, *options],
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=600,
-        )
-        seconds = time.monotonic() - start
+
+        def run(size):
+            start = time.monotonic()
+            done = subprocess.run(
+                [program, "render", scene, "-o", picture, "--size", size, *options],
+                capture_output=True,
+                text=True,
+                errors="replace",
+                timeout=600,
+            )
+            return done, time.monotonic() - start
+
+        done, seconds = run(timed_size)
+        if done.returncode == 0 and timed_size != SIZE:
+            run(SIZE)
         return done.returncode, seconds, done.stderr.strip(), read_png(picture) if picture.exists() else None
 
 
@@ -112,7 +101,7 @@ def arguments():
     parser.add_argument("program")
     parser.add_argument("sheet")
     parser.add_argument("names", nargs="+", type=Path)
-    parser.add_argument("--size", default=f"{WIDTH}x{HEIGHT}")
+    parser.add_argument("--size", default=SIZE)
     parser.add_argument("--most", type=float, default=600)
     parser.add_argument("--shine", action="store_true")
     return parser.parse_intermixed_args(words[:at]), words[at + 1 :]
@@ -135,7 +124,7 @@ def main():
         slowest = max(slowest, seconds)
         if i % COLUMNS == 0:
             rows += [b""] * HEIGHT
-        field = shrunk(picture) if picture else [GREY] * HEIGHT
+        field = picture or [GREY] * HEIGHT
         for y in range(HEIGHT):
             rows[i // COLUMNS * HEIGHT + y] += field[y]
         note = " CRASH" if crashed else " BLACK" if black else " LATE" if late else ""
