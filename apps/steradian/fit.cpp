@@ -1,4 +1,4 @@
-// steradian fit --lobe NAME --layout classic|compact -o FILE
+// steradian fit --lobe NAME | --samples FILE --layout classic|compact -o FILE
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "fit/fit_report.h"
 #include "fit/table_files.h"
 #include "steradian/error.h"
+#include "steradian/fit.h"
 #include "verbs.h"
 
 namespace steradian::app {
@@ -18,10 +19,11 @@ namespace {
 using namespace fit;
 
 struct Options {
-  std::string lobe = "ggx", layout = "classic", output, picture, normalisation = "middle";
+  std::string lobe = "ggx", samples, layout = "classic", output, picture, normalisation = "middle";
   bool report = false, fresnel_lobe = false;
   CompactSizes compact;
   FitOptions fit;
+  Limits limits;
 };
 
 LtcTable fit_with_progress(const LobeFamily& family, FitOptions fit) {
@@ -55,10 +57,13 @@ LookUp look_up_of(const LtcTable& table, const Options& options) {
 void report(const LtcTable& table, const Options& options) {
   const LookUp look_up = look_up_of(table, options);
   if (options.layout == "compact") fmt::print("bytes        {}\n", compact_table(table, options.compact).bytes());
-  const Report whole = measure(table.family, look_up, whole_grid());
-  const Report nodes = measure(table.family, look_up, node_grid());
-  fmt::print("{}", describe(whole, nodes, measure_between_nodes(table, look_up)));
-  if (!options.picture.empty()) write_picture(draw(whole, whole_grid()), options.picture);
+  ReportOptions all = whole_grid(), on_nodes = node_grid();
+  const auto& fixed = table.family.fixed_roughness;
+  if (fixed) all.roughness = on_nodes.roughness = {*fixed};
+  const Report whole = measure(table.family, look_up, all);
+  const Report nodes = measure(table.family, look_up, on_nodes);
+  fmt::print("{}", describe(whole, nodes, fixed ? std::vector<BetweenNodes>{} : measure_between_nodes(table, look_up)));
+  if (!options.picture.empty()) write_picture(draw(whole, all), options.picture);
 }
 
 void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const Options& options) {
@@ -73,15 +78,21 @@ void run(const Options& options) {
   if (options.output.empty() && !options.report) throw CLI::RequiredError("-o or --report");
   if (options.fresnel_lobe && options.layout == "compact")
     throw CLI::ValidationError("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
-  const LobeFamily& family = lobe_family(options.lobe);
+  if (!options.samples.empty() && options.layout == "compact")
+    throw CLI::ValidationError("--samples", "the compact layout's matrix follows the roughness, which samples do not have; use --layout classic");
+  LobeSamples samples;
+  if (!options.samples.empty()) samples = read_lobe_samples(options.samples, options.limits);
+  const LobeFamily& family = options.samples.empty() ? lobe_family(options.lobe) : samples.family;
   // A wrong ending is found before the work, not after it.
   if (!options.output.empty()) {
     if (options.layout == "classic")
       classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle},
-                    options.lobe, options.output);
+                    family.name, options.output);
     else
-      compact_files({}, options.lobe, options.output);
+      compact_files({}, family.name, options.output);
   }
+  if (!options.samples.empty())
+    fmt::print("albedo       {:.4f} {:.4f} {:.4f} along the normal\n", samples.albedo.x, samples.albedo.y, samples.albedo.z);
   const auto start = std::chrono::steady_clock::now();
   const LtcTable table = fit_with_progress(family, options.fit);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -106,6 +117,8 @@ void add_fit(CLI::App& app, Exit&) {
   std::vector<std::string> names;
   for (const LobeFamily& family : lobe_families()) names.push_back(family.name);
   verb->add_option("--lobe", options->lobe, "What to fit")->check(CLI::IsMember(names));
+  verb->add_option("--samples", options->samples, "Measured reflection in place of a lobe: MERL's .binary, or lines of angles and values")
+      ->excludes("--lobe");
   verb->add_option("--size", options->fit.size, "Nodes along roughness and along the view")->check(CLI::Range(2, 1024));
   verb->add_option("--layout", options->layout, "Two textures, or plain arrays of at most 4 KB")
       ->check(CLI::IsMember({"classic", "compact"}));
@@ -120,6 +133,7 @@ void add_fit(CLI::App& app, Exit&) {
                    "Of the classic matrix: its element that is 1, in the table and in the report")
       ->check(CLI::IsMember({"middle", "last"}));
   verb->add_option("--threads", options->fit.threads, "0: all")->check(CLI::Range(0, 4096));
+  add_limits(*verb, options->limits);
   verb->callback([options] { run(*options); });
 }
 

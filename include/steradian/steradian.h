@@ -11,6 +11,7 @@
 #include "steradian/ellipse_light.h"
 #include "steradian/environment.h"
 #include "steradian/error.h"
+#include "steradian/fit.h"
 #include "steradian/half_vector.h"
 #include "steradian/indirect.h"
 #include "steradian/kernels.h"

@@ -12,11 +12,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-void sample_by_cosine(Lobe& lobe) {
-  lobe.sample = [](double a, double b) { return lobes::sample_cosine_hemisphere(b, a); };
-  lobe.pdf = lobes::pdf_cosine_hemisphere;
-}
-
 }  // namespace
 
 Lobe charlie_lobe(double alpha, Vec3d v) {
@@ -40,8 +35,7 @@ Lobe disney_diffuse_lobe(double roughness, Vec3d v) {
     const double excess = 2 * roughness * l_dot_h * l_dot_h - 0.5;
     return l.z / kPi * (1 + excess * fifth(l.z)) * (1 + excess * fifth(v.z));
   };
-  sample_by_cosine(lobe);
-  return lobe;
+  return with_samples(lobe);
 }
 
 // Source: Oren, Nayar, "Generalization of Lambert's reflectance model", 1994, eq. 30 and 31 with albedo 1.
@@ -62,8 +56,7 @@ Lobe oren_nayar_lobe(double sigma, Vec3d v) {
     const double bounce = 0.17 * s2 / (s2 + 0.13) * (1 - cos_phi * std::pow(2 * smaller / kPi, 2.0));
     return l.z / kPi * std::max(direct + bounce, 0.0);
   };
-  sample_by_cosine(lobe);
-  return lobe;
+  return with_samples(lobe);
 }
 
 }  // namespace steradian::fit

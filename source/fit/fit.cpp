@@ -212,11 +212,12 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
 
 std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, const FitOptions& options) {
   const int n = options.size;
+  const double roughness = family.fixed_roughness.value_or(ltc_roughness_at(i, n));
   std::vector<LtcCell> column;
   LtcShape start;
   for (int j = 0; j < views; ++j) {
     const double cosine = ltc_cosine_at(j, n);
-    column.push_back(fit_cell(family, ltc_roughness_at(i, n), cosine, start, options));
+    column.push_back(fit_cell(family, roughness, cosine, start, options));
     start = column.back().shape;
     start.e20 *= cosine / ltc_cosine_at(std::min(j + 1, n - 1), n);
     if (options.cell_done) options.cell_done();
@@ -232,6 +233,11 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   table.cells.resize(static_cast<std::size_t>(n * n));
   std::optional<tbb::global_control> limit;
   if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  if (family.fixed_roughness) {
+    const std::vector<LtcCell> column = fit_column(family, 0, n, options);
+    for (int k = 0; k < n * n; ++k) table.cells[static_cast<std::size_t>(k)] = column[static_cast<std::size_t>(k / n)];
+    return table;
+  }
   tbb::parallel_for(0, n, [&](int i) {
     const std::vector<LtcCell> column = fit_column(family, i, n, options);
     for (int j = 0; j < n; ++j) table.cells[static_cast<std::size_t>(j * n + i)] = column[static_cast<std::size_t>(j)];

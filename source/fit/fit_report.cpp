@@ -157,6 +157,7 @@ std::string describe(const Report& whole, const Report& nodes, const std::vector
   add("\nworst cells\n");
   for (std::size_t i = 0; i < std::min<std::size_t>(5, worst.size()); ++i)
     add("%9.3f  %4.1f  %.5f\n", worst[i].roughness, worst[i].degrees, worst[i].rmse);
+  if (between.empty()) return text;
   add("\nlobe L1, mean over the views, and over those up to 81 degrees\n"
       "roughness  at nodes  between   ratio  at nodes  between   ratio\n");
   for (const BetweenNodes& b : between)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lobes/cosine_sampler.h"
 #include "steradian/error.h"
 
 namespace steradian::fit {
@@ -17,6 +18,13 @@ Lobe with_grazing_fresnel(const Lobe& lobe) {
     return f * std::pow(std::clamp(1 - v_dot_h, 0.0, 1.0), 5.0);
   };
   return result;
+}
+
+Lobe with_samples(Lobe lobe) {
+  if (lobe.sample) return lobe;
+  lobe.sample = [](double a, double b) { return lobes::sample_cosine_hemisphere(b, a); };
+  lobe.pdf = lobes::pdf_cosine_hemisphere;
+  return lobe;
 }
 
 const std::vector<LobeFamily>& lobe_families() {

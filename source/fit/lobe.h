@@ -1,35 +1,17 @@
-// Lobe: BRDF times the cosine of the light, for one view, as callables in double. What the fitter fits.
-//
-// Frame: z the surface normal, the view v = (sin, 0, cos) in the plane of x and z.
+// The lobes that the fitter knows. What a lobe is: steradian/fit.h.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "integrals/ltc/ltc_shape.h"  // LobeFrame
-#include "steradian/material.h"       // alpha_from_roughness
+#include "integrals/ltc/ltc_shape.h"  // view_from_cosine
+#include "steradian/fit.h"
+#include "steradian/material.h"  // alpha_from_roughness
 #include "steradian/vector.h"
 
 namespace steradian::fit {
 
-struct Lobe {
-  Vec3d view;
-  // BRDF without Fresnel times l_z for a unit l; 0 below the horizon.
-  std::function<double(Vec3d l)> evaluate;
-  // A direction for a point of the unit square [0, 1)^2. The map is smooth, its azimuth grows with b, and
-  // sample(a, 1 - b) is sample(a, b) mirrored in y where the lobe is symmetric. May point below the horizon.
-  std::function<Vec3d(double a, double b)> sample;
-  // Density of sample per solid angle, wherever sample may point, below the horizon included.
-  std::function<double(Vec3d l)> pdf;
-};
-
-// The lobes of one reflection model over perceptual roughness in [0, 1] and the view's cosine.
-struct LobeFamily {
-  std::string name;
-  LobeFrame frame = LobeFrame::mirror;
-  std::function<Lobe(double roughness, double cos_theta)> at;
-};
+using Lobe = LobeFunction;
 
 Lobe ggx_lobe(double alpha, Vec3d view);
 Lobe ggx_lobe_anisotropic(double alpha_x, double alpha_y, Vec3d view);
@@ -45,5 +27,8 @@ Lobe with_grazing_fresnel(const Lobe& lobe);
 const std::vector<LobeFamily>& lobe_families();
 // Throws Error with the known names.
 const LobeFamily& lobe_family(const std::string& name);
+
+// The lobe with the samples that it does not bring.
+Lobe with_samples(Lobe lobe);
 
 }  // namespace steradian::fit

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
+#include "fit/lobe.h"
 #include "integrals/ltc/half.h"
 #include "steradian/error.h"
 
@@ -130,8 +131,10 @@ std::vector<std::string> half_words(const std::vector<std::array<float, N>>& val
 }
 
 std::string preamble(const std::string& lobe, const std::string& what, const std::string& command) {
-  return "// Linearly transformed cosines of the lobe " + lobe + ": " + what + "\n// Made by: steradian fit --lobe " + lobe + " " +
-         command + "\n// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n";
+  const std::string head = "// Linearly transformed cosines of the lobe " + lobe + ": " + what + "\n";
+  const auto& known = lobe_families();
+  if (std::none_of(known.begin(), known.end(), [&](const LobeFamily& family) { return family.name == lobe; })) return head;
+  return head + "// Made by: steradian fit --lobe " + lobe + " " + command + "\n// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n";
 }
 
 const char* const kClassicText =

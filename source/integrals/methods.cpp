@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrals/charlie.h"
+#include "integrals/ltc/table.h"
 #include "integrals/matched_lobe.h"
 #include "shapes/polygon.h"
 #include "steradian/closed_form.h"
@@ -77,6 +78,10 @@ constexpr LtcMethod with_quality(LtcMethod method, Quality quality) {
 
 template <LtcMethod ltc_method, Method method>
 RadianceResult ltc(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
+  if (ltc_method == LtcMethod::classic && options.table != nullptr) {
+    const auto by = options.precision == Precision::float_ ? ltc_radiance_by_float : ltc_radiance_by;
+    return answer(method, by(*options.table, light, at, m));
+  }
   const auto evaluate = options.precision == Precision::float_ ? ltc_radiance_float : ltc_radiance;
   return answer(method, evaluate(with_quality(ltc_method, options.quality), light, at, m));
 }

@@ -186,7 +186,7 @@ ByChannel by_normal_past_occluders(const Query& query) {
 Answer evaluate(const Query& query) {
   const ShadingPoint at = {query.position, query.normal, query.view.value_or(query.normal)};
   check_derivatives(query);
-  RadianceOptions options = {query.method, query.quality, query.precision, query.spp, query.seed};
+  RadianceOptions options = {query.method, query.quality, query.precision, query.spp, query.seed, query.table};
   Sum sum;
   for (const Light& light : query.lights) {
     add_light(sum, query, light, at, options);

@@ -5,6 +5,7 @@
 
 #include "eval/json_object.h"
 #include "lobes/lobe.h"
+#include "scene/table_file.h"
 #include "steradian/load_scene.h"
 
 namespace steradian::eval {
@@ -234,6 +235,20 @@ std::shared_ptr<const shadow::Occluders> occluders_in(const std::string& file) {
   return last.second;
 }
 
+// The last file is kept for the lines that name it again, as above.
+void read_table(Problems& problems, const Place& place, Json value, Query& query) {
+  const std::string_view name = read_string(problems, place, value);
+  if (!value.is_string()) return;
+  thread_local std::pair<std::string, std::shared_ptr<const ClassicTable>> last;
+  try {
+    if (last.first != name || last.second == nullptr)
+      last = {std::string(name), std::make_shared<const ClassicTable>(scene::read_classic_table(std::string(name)))};
+    query.table = last.second;
+  } catch (const Error& e) {
+    problems.add(place, e.what());
+  }
+}
+
 // The name of a scene file, a mesh, or triangles as lists of three points.
 void read_occluders(Problems& problems, const Place& place, Json value, Query& query) {
   std::string_view name;
@@ -291,6 +306,7 @@ constexpr Field<Query> kQueryFields[] = {
                Query& q) { q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max())); }},
     {"seed", [](Problems& p, const Place& at, Json v,
                 Query& q) { q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max())); }},
+    {"table", read_table},
     {"occluders", read_occluders},
     {"geometric_normal", [](Problems& p, const Place& at, Json v, Query& q) { q.geometric_normal = read_direction(p, at, v); }},
     {"derivatives", [](Problems& p, const Place& at, Json v, Query& q) { q.derivatives = read_bool(p, at, v); }},
@@ -335,6 +351,9 @@ Query QueryReader::read(std::string_view line) {
         problems.add(top.in("view"), "missing", std::string("brdf ") + name_of(m.brdf) + " depends on it");
         break;
       }
+  if (query.table != nullptr && query.method != Method::ltc)
+    problems.add(top.in("table"), "only the method ltc reads one", "add \"method\": \"ltc\"");
+  if (query.table != nullptr && query.derivatives) problems.add(top.in("table"), "has no derivatives", "leave one of the keys out");
   if (problems.any()) problems.raise();
   return query;
 }

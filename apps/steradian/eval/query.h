@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "integrals/ltc/table.h"
 #include "integrals/methods.h"
 #include "shadow/visible_part.h"
 #include "shapes/shape.h"
@@ -30,6 +31,7 @@ struct Query {
   Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
+  std::shared_ptr<const ClassicTable> table;           // of ltc: in place of GGX's
   bool derivatives = false;                            // of the radiance by the light's vertices, its radiance and the lobe's parameters
   std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing blocks
   bool occluders_are_listed = false;                   // by the query itself, not by the name of a scene

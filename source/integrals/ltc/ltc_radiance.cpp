@@ -13,7 +13,8 @@ namespace steradian {
 namespace {
 
 template <class S>
-Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+Vec3d radiance(LtcMethod method, const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at,
+               const Material& material) {
   const Vec3d n = normalized(at.normal), v = normalized(at.view);
   const double cosine = dot(n, v);
   const auto frame = Kernels<S>().frame_from_normal_and_view(integrals::to_kernel<S>(n), integrals::to_kernel<S>(v));
@@ -25,14 +26,14 @@ Vec3d radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoin
   const auto by = [&](auto integral, Vec3d f0, Vec3d f90) { return integrals::radiance_of<S>(part_by(integral), f0, f90, light.radiance); };
   switch (method) {
     case LtcMethod::representative_point: return by(integrals::RepresentativePoint<S>(material.alpha_x), material.f0, material.f90);
-    case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
     case LtcMethod::fresnel: {
-      const auto lobe = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)));
+      const auto lobe = part_by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)));
       const auto grazing = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), alpha, cosine)));
       return integrals::radiance_of<S>({lobe.x, grazing.x}, material.f0, material.f90, light.radiance);
     }
     case LtcMethod::clipless:
-      return by(integrals::CliplessLtc<S>(classic_lobe<S>(ggx_classic_table(), alpha, cosine)), material.f0, material.f90);
+      return by(integrals::CliplessLtc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
     case LtcMethod::compact: break;
   }
   return by(integrals::Ltc<S>(compact_lobe<S>(ggx_compact_table(), alpha, cosine, view)), material.f0, material.f90);
@@ -51,12 +52,22 @@ bool serves(LtcMethod, const Material& material) {
 
 Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
   require_service(method, material);
-  return radiance<double>(method, light, at, with_multiple_scattering(material, at));
+  return radiance<double>(method, ggx_classic_table(), light, at, with_multiple_scattering(material, at));
 }
 
 Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
   require_service(method, material);
-  return radiance<float>(method, light, at, with_multiple_scattering(material, at));
+  return radiance<float>(method, ggx_classic_table(), light, at, with_multiple_scattering(material, at));
+}
+
+Vec3d ltc_radiance_by(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+  require_service(LtcMethod::classic, material);
+  return radiance<double>(LtcMethod::classic, table, light, at, material);
+}
+
+Vec3d ltc_radiance_by_float(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+  require_service(LtcMethod::classic, material);
+  return radiance<float>(LtcMethod::classic, table, light, at, material);
 }
 
 }  // namespace steradian

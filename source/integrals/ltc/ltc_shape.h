@@ -1,13 +1,10 @@
 // The fitted lobe itself: its four degrees of freedom, its matrix, its density.
 #pragma once
 
+#include "steradian/fit.h"  // LobeFrame
 #include "steradian/vector.h"
 
 namespace steradian {
-
-// The frame in which a fitted matrix varies slowly with roughness and view: about the mirror direction of the view for
-// a glossy lobe, about the normal for a diffuse one.
-enum class LobeFrame { mirror, normal };
 
 // The view (sin, 0, cos) of that cosine.
 Vec3d view_from_cosine(double cos_theta);

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "integrals/ltc/ltc_shape.h"
+#include "steradian/material.h"
+#include "steradian/polygon_light.h"
+#include "steradian/shading_point.h"
 
 namespace steradian {
 
@@ -47,5 +50,9 @@ struct CompactTable {
   LtcValue look_up(double roughness, double cos_theta) const;
   std::size_t bytes() const { return shapes.size() * 8 + magnitudes.size() * 4; }
 };
+
+// ltc_radiance by a table of one's own, fitted to another lobe, in place of GGX's. Precondition: serves(LtcMethod::classic, material).
+Vec3d ltc_radiance_by(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
+Vec3d ltc_radiance_by_float(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 
 }  // namespace steradian

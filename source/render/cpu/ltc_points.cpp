@@ -28,6 +28,10 @@ LtcPackTables ltc_fresnel_pack_tables() {
   return tables;
 }
 
+LtcPackTables ltc_pack_tables(const ClassicTable& table) {
+  return {padded(table.matrix.front().data(), table.size, 4), padded(table.magnitude.front().data(), table.size, 4)};
+}
+
 LtcPackTables ltc_compact_pack_tables() {
   const LtcTableView t = ltc_ggx_tables();
   return {padded(t.shapes, t.shape_size, 4), padded(t.magnitudes, t.magnitude_size, 2)};

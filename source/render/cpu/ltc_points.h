@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/simd.h"
+#include "integrals/ltc/table.h"
 #include "render/cpu/light_list.h"
 #include "render/cpu/points.h"
 
@@ -24,6 +25,7 @@ struct LtcPackTables {
 };
 LtcPackTables ltc_classic_pack_tables();
 LtcPackTables ltc_fresnel_pack_tables();
+LtcPackTables ltc_pack_tables(const ClassicTable& table);
 LtcPackTables ltc_compact_pack_tables();
 
 // What light of radiance 1 does to every point.

@@ -14,7 +14,7 @@
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/phong.h"
 #include "render/cpu/sheen.h"
-#include "render/cpu/table_file.h"
+#include "scene/table_file.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
@@ -122,7 +122,7 @@ Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, co
 
 SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
     : method_(method),
-      tables_(!table.empty()                      ? read_classic_table(table)
+      tables_(!table.empty()                      ? ltc_pack_tables(scene::read_classic_table(table))
               : method.ggx == Method::ltc         ? method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables()
                       : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
                                                   : LtcPackTables{}) {}

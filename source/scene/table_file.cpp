@@ -1,32 +1,37 @@
-#include "render/cpu/table_file.h"
+#include "scene/table_file.h"
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "core/budget.h"
 #include "core/read_file.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::scene {
 namespace {
 
 constexpr int kLargestSize = 1024;  // as fit writes them
 constexpr double kLargestValue = 1e6;
 
-PackTable read_nodes(const nlohmann::json& table, const char* key, int size, const std::string& path) {
+std::vector<std::array<float, 4>> read_nodes(const nlohmann::json& table, const char* key, int size, const std::string& path) {
   const auto rows = table.find(key);
   const auto count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   if (rows == table.end() || !rows->is_array() || rows->size() != count)
     throw Error(path, std::string("\"") + key + "\" is no list of " + std::to_string(count) + " nodes");
-  PackTable result{size, {}};
+  std::vector<std::array<float, 4>> result;
+  result.reserve(count);
   for (const nlohmann::json& node : *rows) {
     if (!node.is_array() || node.size() != 4) throw Error(path, std::string("\"") + key + "\" has a node that is not 4 numbers");
-    for (const nlohmann::json& x : node) {
+    std::array<float, 4>& values = result.emplace_back();
+    for (std::size_t c = 0; c < 4; ++c) {
+      const nlohmann::json& x = node[c];
       const double value = x.is_number() ? x.get<double>() : kLargestValue;
       if (!(std::fabs(value) < kLargestValue)) throw Error(path, std::string("\"") + key + "\" has a value that is no number of a table");
-      result.nodes.push_back(static_cast<float>(value));
+      values[c] = static_cast<float>(value);
     }
   }
   return result;
@@ -34,7 +39,7 @@ PackTable read_nodes(const nlohmann::json& table, const char* key, int size, con
 
 }  // namespace
 
-LtcPackTables read_classic_table(const std::string& path) {
+ClassicTable read_classic_table(const std::string& path) {
   Budget budget(Limits{.memory = 400'000'000, .work = 0});
   const Bytes bytes = read_file(path, path, budget);
   const nlohmann::json table = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
@@ -47,7 +52,7 @@ LtcPackTables read_classic_table(const std::string& path) {
   if (size == table.end() || !size->is_number_integer() || *size < 2 || *size > kLargestSize)
     throw Error(path, "\"size\" is no number from 2 to " + std::to_string(kLargestSize), hint);
   const int n = size->get<int>();
-  return {read_nodes(table, "matrix", n, path), read_nodes(table, "magnitude", n, path)};
+  return {n, read_nodes(table, "matrix", n, path), read_nodes(table, "magnitude", n, path), ClassicNormalisation::middle};
 }
 
-}  // namespace steradian
+}  // namespace steradian::scene

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "render/cpu/ltc_points.h"
+#include "integrals/ltc/table.h"
 
-namespace steradian {
+namespace steradian::scene {
 
 // Throws Error with the path for what is no whole table of finite numbers.
-LtcPackTables read_classic_table(const std::string& path);
+ClassicTable read_classic_table(const std::string& path);
 
-}  // namespace steradian
+}  // namespace steradian::scene
