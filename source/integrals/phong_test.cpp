@@ -215,6 +215,50 @@ TEST(PhongPeakFits, MeetTheIntegrandAtItsFootAndHalfWidth) {
       }
 }
 
+// Every place and width of the fits by its equation in the paper (with what docs/moments.md corrects), in the library's arithmetic.
+TEST(PhongPeakFits, PlacesAndWidthsAreThePapers) {
+  using K = Kernels<double>;
+  K k;
+  const double quarter = std::numbers::pi / 2;
+  for (int i = 0; i <= 100; ++i) {
+    const double x = quarter * i / 100;
+    EXPECT_NEAR(k.moment_peak_cosine(x).v, std::cos(x), 1e-10) << x;
+    EXPECT_NEAR(k.moment_peak_sine(x).v, std::sin(x), 1e-9) << x;
+  }
+  for (const double n : {2.05, 3.05, 20.0, 501.0})
+    for (const double c : {0.1, 0.6, 0.95})
+      for (const int f_is_x : {0, 1}) {
+        const double s2 = 1 - c * c, s = std::sqrt(s2);
+        const auto point = [&](double phi) { return K::vec3(s * std::cos(phi), std::sin(phi), c * std::cos(phi)); };
+        const auto edge = k.moment_edge(point(-0.4), point(0.7), K::vec3(0.0, 0.0, 1.0));
+        const auto p = k.moment_peak_prepare(edge, n, f_is_x);
+        // Eq. 7, N = n - 1; eq. 14.
+        const double order = n - 1, widest = f_is_x ? std::numbers::pi / 3 : std::numbers::pi / 4;
+        const double reduced = std::max(c - c / order, 0.0), other = std::max(c - c / std::max(order - 1, 1.0), 0.0);
+        const double ratio = f_is_x ? std::sqrt(1 - reduced * reduced) : std::pow(1 - std::pow(other, 2.5), 0.45);
+        EXPECT_NEAR(p.x_w.v, widest * ratio, 1e-6) << n << " " << c;
+        const double x_t = std::min(p.x_w.v + 0.3946 * widest * (1 - std::pow(1 - ratio, 12)), quarter);
+        EXPECT_NEAR(p.x_t.v, x_t, 1e-6) << n << " " << c;
+        // Eq. 11, 15 and what follows them: widths, and each scaled peak where the tail is asked for.
+        const auto height = [&](double phi) { return k.moment_peak_height(s2, c * c, n, f_is_x, std::cos(phi), std::sin(phi)).v; };
+        const double y_w = height(p.x_w.v) / height(0);
+        EXPECT_NEAR(p.y_w.v, std::clamp(y_w, 0.01, 0.99), 1e-7);
+        EXPECT_NEAR(p.y_t.v, height(x_t) / height(0), 1e-6);
+        const double y = p.y_w.v, x_w = p.x_w.v;
+        const double lorentzian = std::max((1 - y - 4 * x_w * x_w / (std::numbers::pi * std::numbers::pi)) / (y * x_w * x_w), 1e-3);
+        const auto scaled = [&](const K::MomentFit& fit, auto peak) {
+          EXPECT_NEAR(fit.tail.v, (peak(x_t) - peak(quarter)) / (1 - peak(quarter)), 1e-5) << n << " " << c << " " << f_is_x;
+        };
+        scaled(k.moment_fit_lorentzian(p), [&](double phi) { return 1 / (1 + lorentzian * phi * phi); });
+        scaled(k.moment_fit_pearson(p), [&](double phi) { return std::pow(1 + 0.5 * lorentzian * phi * phi, -2); });
+        const double cosine2 = std::cos(x_w) * std::cos(x_w), a = y * (1 - cosine2) / (cosine2 * (1 - y)), b = a * (2.1 + 1.28 * ratio);
+        const auto ellipsoid = [](double w, double phi) { return w / (1 + (w - 1) * std::cos(phi) * std::cos(phi)); };
+        if (std::fabs(a - 1) > 0.01) scaled(k.moment_fit_ellipsoid(edge, p), [&](double phi) { return ellipsoid(a, phi); });
+        if (std::fabs(b - 1) > 0.01)
+          scaled(k.moment_fit_ellipsoid_squared(edge, p), [&](double phi) { return std::pow(ellipsoid(b, phi), 2); });
+      }
+}
+
 // The published choice of f by the parity of n jumps from one exponent to the next; either form by itself does not, and the
 // form that a method takes by itself is the closer one.
 TEST(PhongPeakFits, OneFormForEveryExponentIsContinuousAndTheDefaultTheCloser) {

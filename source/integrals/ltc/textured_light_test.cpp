@@ -131,24 +131,30 @@ TEST(TexturedLight, PlacedGaussianHasTheCentroidAskedFor) {
     g.minor = minor;
     const double vxx = random.uniform(0.1, 1), vyy = random.uniform(0.1, 1), vxy = random.uniform(-0.9, 0.9) * std::sqrt(vxx * vyy);
     const double ax = random.uniform(-1, 1), ay = random.uniform(-1, 1);
-    const auto place = k.ltc_texture_place(g, {ax, ay}, {0.0, 0.0}, {vxx, vxy, vyy});
+    const double lx = i % 2 == 0 ? 0 : random.uniform(-1, 1), ly = i % 2 == 0 ? 0 : random.uniform(-1, 1);  // the cosine's slope
+    const auto place = k.ltc_texture_place(g, {ax, ay}, {lx, ly}, {vxx, vxy, vyy});
     // V (V + S)^-1 x
     const double c = std::cos(turn), s = std::sin(turn), a2 = major * major, b2 = minor * minor;
     const double sxx = a2 * c * c + b2 * s * s, sxy = (a2 - b2) * c * s, syy = a2 * s * s + b2 * c * c;
     const double txx = vxx + sxx, txy = vxy + sxy, tyy = vyy + syy, det = txx * tyy - txy * txy;
     const double det_s = sxx * syy - sxy * sxy, det_v = vxx * vyy - vxy * vxy;
-    const double ex = (vyy * ax - vxy * ay) / det_v, ey = (vxx * ay - vxy * ax) / det_v;
+    // Moved on along (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope = p, to where exp(-x^2/2) (1 + x sqrt(p.slope)) is largest.
+    const double wx = vxx * lx + vxy * ly, wy = vxy * lx + vyy * ly;
+    const double zx = (tyy * wx - txy * wy) / det, zy = (txx * wy - txy * wx) / det;
+    const double px = sxx * zx + sxy * zy, py = sxy * zx + syy * zy, share = 2 / (1 + std::sqrt(1 + 4 * (px * lx + py * ly)));
+    const double dx = ax + share * px, dy = ay + share * py;
+    const double ex = (vyy * dx - vxy * dy) / det_v, ey = (vxx * dy - vxy * dx) / det_v;
     const double wanted = std::sqrt(sxx * ex * ex + 2 * sxy * ex * ey + syy * ey * ey);
     if (wanted > 2.5) {
-      const double mx = place.x.v - ax, my = place.y.v - ay;
+      const double mx = place.x.v - dx, my = place.y.v - dy;
       EXPECT_NEAR(std::sqrt((syy * mx * mx - 2 * sxy * mx * my + sxx * my * my) / det_s), 2.5, 1e-3);
       ++held;
       continue;
     }
     const double x = (tyy * place.x.v - txy * place.y.v) / det, y = (txx * place.y.v - txy * place.x.v) / det;
     // The kernel widens the light by a millionth of its variance.
-    EXPECT_NEAR(vxx * x + vxy * y, ax, 2e-4);
-    EXPECT_NEAR(vxy * x + vyy * y, ay, 2e-4);
+    EXPECT_NEAR(vxx * x + vxy * y, dx, 2e-4);
+    EXPECT_NEAR(vxy * x + vyy * y, dy, 2e-4);
   }
   EXPECT_GT(held, 5);
   EXPECT_LT(held, 95);
