@@ -104,6 +104,42 @@ TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   EXPECT_EQ(run({"render", floor_scene(), "-o", exr, "--environment", "no_such.hdr"}).status, 1);
 }
 
+// A white Lambertian surface as measured: its table answers as Lambert's lobe does, in closed form.
+TEST_F(Program, FitsSamplesToATableThatEvalReads) {
+  const std::string samples = folder / "white.txt", table = folder / "white.json", wrong = folder / "wrong.txt";
+  std::ofstream text(samples);
+  text << "# theta_view theta_light azimuth value\n";
+  for (const int view : {0, 45, 90})
+    for (const int light : {0, 90})
+      for (const int azimuth : {0, 180}) text << view << ' ' << light << ' ' << azimuth << " 0.3183098861837907\n";
+  text.close();
+  const Outcome fitted = run({"fit", "--samples", samples, "--size", "4", "-o", table});
+  ASSERT_EQ(fitted.status, 0) << fitted.err;
+  ASSERT_EQ(fitted.out.find("albedo"), 0u) << fitted.out;
+  EXPECT_NEAR(std::stod(fitted.out.substr(6)), 1, 0.005) << "65,536 samples, of which half are even over the lobe";
+
+  const auto answer = [&](const std::string& material) {
+    const Outcome r =
+        run({"eval"}, R"({"light": {"type": "rect", "center": [0.3,1,0], "x": [0.6,0,0], "y": [0,0,0.5]}, "position": [0,0,0], )"
+                      R"("normal": [0,1,0], "view": [0.8,0.6,0], )" +
+                          material + "}\n");
+    return json::parse(r.out);
+  };
+  const double lambert = answer(R"("material": {"brdf": "lambert"})")["radiance"][0].get<double>();
+  const json own = answer(R"("material": {"brdf": "ggx", "roughness": 0.3}, "method": "ltc", "table": ")" + table + "\"");
+  ASSERT_TRUE(own.contains("radiance")) << own;
+  EXPECT_NEAR(own["radiance"][0].get<double>(), lambert, 0.01 * lambert) << "the fit's tolerance; the lobe itself is a cosine";
+  EXPECT_TRUE(answer(R"("material": {"brdf": "ggx", "roughness": 0.3}, "table": ")" + table + "\"").contains("error")) << "without ltc";
+  EXPECT_TRUE(answer(R"("material": {"brdf": "ggx", "roughness": 0.3}, "method": "ltc", "table": "no.json")").contains("error"));
+
+  std::ofstream(wrong) << "0 0 0 1\n0 0 south 1\n";
+  const Outcome refused = run({"fit", "--samples", wrong, "-o", table});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("wrong.txt:2"), std::string::npos) << refused.err;
+  EXPECT_EQ(run({"fit", "--samples", samples, "--layout", "compact", "-o", table}).status, 2);
+  EXPECT_EQ(run({"fit", "--samples", samples, "--lobe", "ggx", "-o", table}).status, 2);
+}
+
 TEST_F(Program, ATableOfOnesOwnTakesThePlaceOfTheShippedOne) {
   const std::string table = folder / "t.json", rough = folder / "rough.json", exr = folder / "a.exr";
   ASSERT_EQ(run({"fit", "--lobe", "ggx", "--size", "8", "-o", table}).status, 0);

@@ -79,7 +79,8 @@ void run(const Options& options) {
   if (options.fresnel_lobe && options.layout == "compact")
     throw CLI::ValidationError("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
   if (!options.samples.empty() && options.layout == "compact")
-    throw CLI::ValidationError("--samples", "the compact layout's matrix follows the roughness, which samples do not have; use --layout classic");
+    throw CLI::ValidationError("--samples",
+                               "the compact layout's matrix follows the roughness, which samples do not have; use --layout classic");
   LobeSamples samples;
   if (!options.samples.empty()) samples = read_lobe_samples(options.samples, options.limits);
   const LobeFamily& family = options.samples.empty() ? lobe_family(options.lobe) : samples.family;

@@ -12,9 +12,7 @@ namespace {
 constexpr double kPi = 3.14159265358979324;
 
 // f = (k + 1) / (2 pi) (cos v cos l)^(k - 1): Lambert where k is 1. Minnaert, "The reciprocity principle in lunar photometry", 1941.
-double minnaert(double k, steradian::Vec3d view, steradian::Vec3d light) {
-  return (k + 1) / (2 * kPi) * std::pow(view.z * light.z, k - 1);
-}
+double minnaert(double k, steradian::Vec3d view, steradian::Vec3d light) { return (k + 1) / (2 * kPi) * std::pow(view.z * light.z, k - 1); }
 
 }  // namespace
 

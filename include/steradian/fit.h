@@ -1,4 +1,5 @@
-// Tables for lobes of one's own: a lobe is a function, or measured; its table, of linearly transformed cosines, goes into a file that `render
+// Tables for lobes of one's own: a lobe is a function, or measured; its table, of linearly transformed cosines, goes into a file that
+// `render
 // --table`, `eval` and engines read. Needs the layer `fit` (steradian::fit).
 //
 //   LobeFamily cloth;

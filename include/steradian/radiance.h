@@ -29,9 +29,9 @@ struct ClassicTable;
 struct RadianceOptions {
   Method method = Method::automatic;
   Quality quality = Quality::normal;
-  Precision precision = Precision::double_;  // of the arithmetic; reference and sampled have double only
-  int spp = 256;                             // of sampled: pairs of a light sample and a lobe sample
-  std::uint64_t seed = 1;                    // of sampled
+  Precision precision = Precision::double_;     // of the arithmetic; reference and sampled have double only
+  int spp = 256;                                // of sampled: pairs of a light sample and a lobe sample
+  std::uint64_t seed = 1;                       // of sampled
   std::shared_ptr<const ClassicTable> table{};  // of ltc: a fitted table in place of GGX's; null: that
 };
 

@@ -13,8 +13,8 @@ namespace steradian {
 LobeFit fit_lobe_table(const LobeFamily& family, const std::string& path, const LobeFitOptions& options) {
   if (options.size < 2 || options.size > 1024) throw Error("size", "must be from 2 to 1024, here is " + std::to_string(options.size));
   // A wrong ending is found before the work, not after it.
-  fit::classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle}, family.name,
-                     path);
+  fit::classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle},
+                     family.name, path);
   fit::FitOptions fit;
   fit.size = options.size;
   fit.threads = options.threads;

@@ -57,9 +57,7 @@ class Merl : public Measured {
     const double theta_d = std::acos(std::clamp(dot(light, h), -1.0, 1.0));
     double phi_d = std::atan2(dot(light, y), dot(light, x));
     if (phi_d < 0) phi_d += kPi;  // reciprocity: light and view change places
-    const auto of = [&](double share, std::size_t axis) {
-      return between_cells(share * static_cast<double>(sizes_[axis]), sizes_[axis]);
-    };
+    const auto of = [&](double share, std::size_t axis) { return between_cells(share * static_cast<double>(sizes_[axis]), sizes_[axis]); };
     const Between a = of(std::sqrt(theta_h / (0.5 * kPi)), 0), b = of(theta_d / (0.5 * kPi), 1);
     // The azimuth goes round.
     const double at = phi_d / kPi * static_cast<double>(sizes_[2]) - 0.5, floor = std::floor(at);
@@ -104,7 +102,8 @@ class Table : public Measured {
       for (int corner = 0; corner < 8; ++corner) {
         const bool ha = (corner & 1) != 0, hb = (corner & 2) != 0, hc = (corner & 4) != 0;
         const double w = (ha ? a.share : 1 - a.share) * (hb ? b.share : 1 - b.share) * (hc ? c.share : 1 - c.share);
-        const std::size_t i = ((ha ? a.high : a.low) * angles_[1].size() + (hb ? b.high : b.low)) * angles_[2].size() + (hc ? c.high : c.low);
+        const std::size_t i =
+            ((ha ? a.high : a.low) * angles_[1].size() + (hb ? b.high : b.low)) * angles_[2].size() + (hc ? c.high : c.low);
         sum += values_[i] * w;
       }
       return sum;
@@ -169,24 +168,28 @@ Row read_row(std::string_view text, std::size_t line, const std::string& path) {
     if (at == end) break;
     double x = 0;
     const auto [next, error] = std::from_chars(at, end, x);
-    if (error != std::errc() || !std::isfinite(x)) throw Error(place, "is not a line of numbers", "write angles in degrees and values, or # before a comment");
+    if (error != std::errc() || !std::isfinite(x))
+      throw Error(place, "is not a line of numbers", "write angles in degrees and values, or # before a comment");
     numbers.push_back(x);
     at = next;
   }
   if (numbers.size() != 4 && numbers.size() != 6)
-    throw Error(place, "has " + std::to_string(numbers.size()) + " numbers", "write theta_view theta_light azimuth, then one value or three");
+    throw Error(place, "has " + std::to_string(numbers.size()) + " numbers",
+                "write theta_view theta_light azimuth, then one value or three");
   Row row{{numbers[0], numbers[1], numbers[2]}, {}, line};
   row.value = numbers.size() == 4 ? Vec3d{numbers[3], numbers[3], numbers[3]} : Vec3d{numbers[3], numbers[4], numbers[5]};
   for (std::size_t k = 0; k < 3; ++k)
     if (row.angle[k] < 0 || row.angle[k] > (k == 2 ? 360 : 90))
       throw Error(place, "has an angle out of its range", "angles from the normal are 0 to 90, azimuths 0 to 360 degrees");
-  if (row.value.x < 0 || row.value.y < 0 || row.value.z < 0) throw Error(place, "has a negative value", "leave out what was not measured, for all angles");
+  if (row.value.x < 0 || row.value.y < 0 || row.value.z < 0)
+    throw Error(place, "has a negative value", "leave out what was not measured, for all angles");
   return row;
 }
 
 std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path, Budget& budget) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  budget.take_memory(path, "its lines", (sizeof(Row) + sizeof(Vec3d)) * static_cast<std::uint64_t>(1 + std::count(text.begin(), text.end(), '\n')));
+  budget.take_memory(path, "its lines",
+                     (sizeof(Row) + sizeof(Vec3d)) * static_cast<std::uint64_t>(1 + std::count(text.begin(), text.end(), '\n')));
   std::vector<Row> rows;
   std::array<std::vector<double>, 3> angles;
   for (std::size_t line = 1; !text.empty(); ++line) {
@@ -203,17 +206,20 @@ std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
   // More combinations than lines: some are missing, and no room is made for them.
-  const double combinations = static_cast<double>(angles[0].size()) * static_cast<double>(angles[1].size()) * static_cast<double>(angles[2].size());
+  const double combinations =
+      static_cast<double>(angles[0].size()) * static_cast<double>(angles[1].size()) * static_cast<double>(angles[2].size());
   if (combinations != static_cast<double>(rows.size()))
-    throw Error(path, std::to_string(rows.size()) + " samples of " + std::to_string(angles[0].size()) + " x " +
-                          std::to_string(angles[1].size()) + " x " + std::to_string(angles[2].size()) + " angles",
+    throw Error(path,
+                std::to_string(rows.size()) + " samples of " + std::to_string(angles[0].size()) + " x " + std::to_string(angles[1].size()) +
+                    " x " + std::to_string(angles[2].size()) + " angles",
                 "give every combination of the angles that occur, once");
   std::vector<Vec3d> values(rows.size());
   std::vector<bool> known(rows.size(), false);
   for (const Row& row : rows) {
     std::size_t i = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      i = i * angles[k].size() + static_cast<std::size_t>(std::lower_bound(angles[k].begin(), angles[k].end(), row.angle[k]) - angles[k].begin());
+      i = i * angles[k].size() +
+          static_cast<std::size_t>(std::lower_bound(angles[k].begin(), angles[k].end(), row.angle[k]) - angles[k].begin());
     if (known[i]) throw Error(path + ":" + std::to_string(row.line), "has angles that an earlier line has", "give every combination once");
     known[i] = true;
     values[i] = row.value;
@@ -227,10 +233,9 @@ std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path
 // tan^2 = (sqrt 2 - 1) alpha^2.
 double width_of(const Measured& measured) {
   const Vec3d view{0, 0, 1};
-  const auto at = [&](double theta_h) {
-    return luminance(measured.value(view, {std::sin(2 * theta_h), 0, std::cos(2 * theta_h)}));
-  };
+  const auto at = [&](double theta_h) { return luminance(measured.value(view, {std::sin(2 * theta_h), 0, std::cos(2 * theta_h)})); };
   const double peak = at(0), wide = at(40 * kDegree);
+  if (!(peak > 1.1 * wide)) return 1;  // no peak
   for (double theta = 0.05 * kDegree; theta < 40 * kDegree; theta *= 1.05)
     if (at(theta) - wide < 0.5 * (peak - wide)) return std::clamp(std::tan(theta) / std::sqrt(std::sqrt(2.0) - 1), 0.005, 1.0);
   return 1;

@@ -134,7 +134,8 @@ std::string preamble(const std::string& lobe, const std::string& what, const std
   const std::string head = "// Linearly transformed cosines of the lobe " + lobe + ": " + what + "\n";
   const auto& known = lobe_families();
   if (std::none_of(known.begin(), known.end(), [&](const LobeFamily& family) { return family.name == lobe; })) return head;
-  return head + "// Made by: steradian fit --lobe " + lobe + " " + command + "\n// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n";
+  return head + "// Made by: steradian fit --lobe " + lobe + " " + command +
+         "\n// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n";
 }
 
 const char* const kClassicText =

@@ -1,8 +1,9 @@
 # Builds a program against this project as somebody else would, and runs it.
-#   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory COMPILER)
+#   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory|lobe COMPILER)
 #     install       installs the build into SCRATCH
 #     everything    from the installed tree, all layers
 #     installed     from the installed tree, the integrals alone: every package that other layers ask for is hidden
+#     lobe          from the installed tree, the layer that fits tables
 #     subdirectory  the integrals alone, with this project as a subdirectory
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -38,12 +39,22 @@ foreach(package OpenEXR fmt simdjson ZLIB TBB embree NLopt pugixml Freetype Font
 endforeach()
 if(how STREQUAL "everything")
   run(${configure} -S ${SOURCE}/tests/consumer/everything)
+elseif(how STREQUAL "lobe")
+  run(${configure} -S ${SOURCE}/examples/fit)
 elseif(how STREQUAL "installed")
   run(${configure} ${hidden} -S ${SOURCE}/examples/cpp)
 else()
   run(${configure} ${hidden} -S ${SOURCE}/tests/consumer/subdirectory -DSTERADIAN_SOURCE=${SOURCE})
 endif()
 run(${CMAKE_COMMAND} --build ${build})
+if(how STREQUAL "lobe")
+  run(${build}/example ${build}/minnaert.json)
+  if(NOT output MATCHES "fitted: off by 0\\.0" OR NOT EXISTS ${build}/minnaert.json)
+    message(FATAL_ERROR "the example says\n${output}")
+  endif()
+  message(STATUS "${output}")
+  return()
+endif()
 run(${build}/example)
 # 4 x/s atan(x/s) with x = 1/2 and s = sqrt(5/4), from the configuration factor of a rectangle under its corner.
 if(NOT output MATCHES "irradiance 0\\.75227")

@@ -32,8 +32,7 @@ Vec3d radiance(LtcMethod method, const ClassicTable& table, const PreparedPolygo
       const auto grazing = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), alpha, cosine)));
       return integrals::radiance_of<S>({lobe.x, grazing.x}, material.f0, material.f90, light.radiance);
     }
-    case LtcMethod::clipless:
-      return by(integrals::CliplessLtc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::clipless: return by(integrals::CliplessLtc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
     case LtcMethod::compact: break;
   }
   return by(integrals::Ltc<S>(compact_lobe<S>(ggx_compact_table(), alpha, cosine, view)), material.f0, material.f90);
