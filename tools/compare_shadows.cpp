@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   plot.y_label = "log10 of the rms error (Lambert)";
   plot.x_low = 0;
   plot.x_high = 5;
-  plot.y_low = -8;
+  plot.y_low = -10;
   plot.y_high = 0;
   plot.curves = {curve_of(scenes, "pieces", {0}, 2), curve_of(scenes, "clipping, scaled", {1}, 4),
                  curve_of(scenes, "clipping, not scaled", {2}, 7), curve_of(scenes, "counts, 256 - 1024", {3, 4}, 1),
