@@ -136,7 +136,8 @@ STERADIAN_INLINE void add_disk(const TileLight& light, TileBuffer& tile, int i) 
   add_colour(light, tile, i, sum);
 }
 
-// What an edge of a run sends from [from, to] of the run's slopes.
+// What an edge of a run sends from [from, to] of the run's slopes. power: 1 where emission falls with the cosine or the distance.
+template <bool ranged, bool linear, int power>
 class PartIntegral {
  public:
   STERADIAN_INLINE PartIntegral(const TileLight& light, const TilePart& part, const Axis& run) : light_(light), part_(part) {
@@ -153,7 +154,7 @@ class PartIntegral {
     low_ = clamp((broadcast(part.begin) - foot_) * inverse_d_, PackReal(-kBeyond), PackReal(kBeyond));
     high_ = clamp((broadcast(part.end) - foot_) * inverse_d_, PackReal(-kBeyond), PackReal(kBeyond));
     q_ = d_ * d_ * broadcast(light.inverse_range * light.inverse_range);
-    if (light.inverse_range > 0.0f) {
+    if (ranged) {
       const PackReal reach = sqrt(max(PackReal(1.0) / max(q_, PackReal(1e-30)) - PackReal(1.0), PackReal(0.0)));
       low_ = max(low_, -reach);
       high_ = min(high_, reach);
@@ -165,11 +166,8 @@ class PartIntegral {
     to = min(own(to), high_);
     if (!any_lane(to > from)) return;
     to = max(to, from);
-    PackKernels k;
-    const int power = light_.profile == 0 ? 0 : 1;
-    const PackReal f0 = k.trig_atan2(from, PackReal(1.0)), f1 = k.trig_atan2(to, PackReal(1.0));
-    constant_ += k.plane_edge_integral(0, power, to, f1, q_) - k.plane_edge_integral(0, power, from, f0, q_);
-    if (light_.linear) slope_ += k.plane_edge_integral(1, power, to, f1, q_) - k.plane_edge_integral(1, power, from, f0, q_);
+    constant_ += antiderivative<0>(to) - antiderivative<0>(from);
+    if (linear) slope_ += antiderivative<1>(to) - antiderivative<1>(from);
   }
 
   STERADIAN_INLINE void add_to(PackReal& red, PackReal& green, PackReal& blue) const {
@@ -182,6 +180,14 @@ class PartIntegral {
   }
 
  private:
+  // Of kinds that do not need the angle, the compiler leaves it out.
+  template <int j>
+  STERADIAN_INLINE PackReal antiderivative(PackReal t) const {
+    PackKernels k;
+    const PackReal f = k.trig_atan2(t, PackReal(1.0));
+    return ranged ? k.plane_edge_integral(j, power, t, f, q_) : k.plane_term(j, power, t, f);
+  }
+
   STERADIAN_INLINE PackReal own(PackReal m) const {
     const PackReal w = cosine_ - m * sine_, t = sine_ + m * cosine_;
     return slope(w, t, select(t > PackReal(0.0), PackReal(kBeyond), PackReal(-kBeyond)));
@@ -194,16 +200,32 @@ class PartIntegral {
   PackReal constant_{0.0}, slope_{0.0};
 };
 
-STERADIAN_INLINE void add_parts(const TileLight& light, TileBuffer& tile, int i, const Axis& axis, const Cut& cut) {
+// A function of its own for each kind of emission: inlined, they would take registers from the others.
+template <bool ranged, bool linear, int power>
+__attribute__((flatten, noinline)) void add_parts_of(const TileLight& light, TileBuffer& tile, int i, const Axis& axis, const Cut& cut) {
   PackReal red(0.0), green(0.0), blue(0.0);
   for (int n = 0; n < light.part_count; ++n) {
-    PartIntegral part(light, light.parts[n], axis);
+    PartIntegral<ranged, linear, power> part(light, light.parts[n], axis);
     cut.for_each_gap([&](PackReal from, PackReal to) { part.add(from, to); });
     part.add_to(red, green, blue);
   }
   add(tile.red + i, red);
   add(tile.green + i, green);
   add(tile.blue + i, blue);
+}
+
+STERADIAN_INLINE void add_parts(const TileLight& light, TileBuffer& tile, int i, const Axis& axis, const Cut& cut) {
+  const int kind = (light.inverse_range > 0.0f ? 4 : 0) + (light.linear ? 2 : 0) + (light.profile == 0 ? 0 : 1);
+  switch (kind) {
+    case 1: return add_parts_of<false, false, 1>(light, tile, i, axis, cut);
+    case 2: return add_parts_of<false, true, 0>(light, tile, i, axis, cut);
+    case 3: return add_parts_of<false, true, 1>(light, tile, i, axis, cut);
+    case 4: return add_parts_of<true, false, 0>(light, tile, i, axis, cut);
+    case 5: return add_parts_of<true, false, 1>(light, tile, i, axis, cut);
+    case 6: return add_parts_of<true, true, 0>(light, tile, i, axis, cut);
+    case 7: return add_parts_of<true, true, 1>(light, tile, i, axis, cut);
+    default: return add_parts_of<false, false, 0>(light, tile, i, axis, cut);
+  }
 }
 
 STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) {
