@@ -24,7 +24,7 @@ struct Worst {
 
 void judge(const std::string& file, const LoadOptions& load, RenderOptions options, double error) {
   const Scene scene = load_scene(file, load).scene;
-  options.shadows = Shadows::on;
+  options.shadows = Shadows::exact;
   RenderStats stats;
   const Picture analytic = render(scene, options, &stats);
   options.method = "reference";

@@ -324,6 +324,12 @@ void refuse_other_ltc(LtcMethod method, const Material& m) {
     throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
 }
 
+// x along the view; any x where the view is the normal, which rounding alone tells apart.
+Frame frame_of_view(Vec3d normal, Vec3d view) {
+  const Vec3d across = view - normal * dot(normal, view);
+  return dot(across, across) > 1e-16 ? Frame::from_normal_and_tangent(normal, view) : Frame::from_normal(normal);
+}
+
 // The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
 template <class S>
 integrals::Ltc<S> ltc_of(LtcMethod method, const Material& m, const integrals::Shading<S>& shading) {
@@ -361,7 +367,7 @@ RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLigh
   if (sends_nothing(side, at)) return RadianceDerivatives(stored_count(stored));
   const Vec3d view = normalized(at.view);
   const auto integral = ltc_integral(method, m);
-  const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
+  const Frame frame = frame_of_view(normalized(at.normal), view);
   return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, view, integral),
                      factors_of(light.radiance, m));
 }
@@ -371,7 +377,7 @@ LobeDensity ltc_lobe_density(LtcMethod method, const ShadingPoint& at, const Mat
   refuse_other_ltc(method, m);
   if (!(dot(at.view, at.normal) > 0)) return [](Vec3d) { return Vec3d{}; };
   const Vec3d view = normalized(at.view);
-  const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), view);
+  const Frame frame = frame_of_view(normalized(at.normal), view);
   const auto shading = integrals::shading_from<double>(1, to_kernel<double>(frame.to_local(view)));
   const Factors factors = factors_of({1, 1, 1}, m);
   if (method != LtcMethod::fresnel) return density_of(ltc_of<double>(method, m, shading), at, frame, factors);

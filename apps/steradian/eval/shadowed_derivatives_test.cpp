@@ -180,6 +180,25 @@ TEST(ShadowedDerivatives, ByTheNormalAgreeWithCentralDifferences) {
     }
 }
 
+// A view along the normal has no direction across it.
+TEST(ShadowedDerivatives, AgreeWithCentralDifferencesWhereTheViewIsTheNormal) {
+  for (const Lobe& lobe : kLobes) {
+    SCOPED_TRACE(lobe.material + " by " + lobe.method);
+    json query = query_of(kSettings[0], lobe);
+    query["normal"] = query["view"] = {0.3, 1, 0.2};
+    json asked = query;
+    asked["derivatives"] = true;
+    const json d = answer(asked);
+    ASSERT_TRUE(d.contains("d_position")) << d;
+    const double whole = value(query, lobe.judge);
+    double largest = 0;
+    for (const json& x : d["d_position"][1]) largest = std::max(largest, std::fabs(x.get<double>()));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(d["d_position"][1][c].get<double>(), central_difference(query, {place("/position", c)}, lobe.judge),
+                  3e-4 * whole + 1e-3 * largest);
+  }
+}
+
 TEST(ShadowedDerivatives, WithNothingInTheWayAreThoseOfTheWholeLight) {
   for (const Lobe& lobe : kLobes) {
     json query = query_of(kSettings[0], lobe);
