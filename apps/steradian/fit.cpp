@@ -26,10 +26,10 @@ struct Options {
   Limits limits;
 };
 
-LtcTable fit_with_progress(const LobeFamily& family, FitOptions fit) {
+LtcTable fit_with_progress(const LobeFamily& family, FitOptions fit, LtcTable (*fitter)(const LobeFamily&, const FitOptions&) = fit_table) {
   Progress progress("fit " + family.name, static_cast<std::uint64_t>(fit.size * fit.size));
   fit.cell_done = [&] { progress.add(); };
-  return fit_table(family, fit);
+  return fitter(family, fit);
 }
 
 std::string with_suffix(const std::string& path, const std::string& suffix) {
@@ -104,7 +104,7 @@ void run(const Options& options) {
     LobeFamily fresnel = family;
     fresnel.name += "-fresnel";
     fresnel.at = [&family](double roughness, double cosine) { return with_grazing_fresnel(family.at(roughness, cosine)); };
-    const LtcTable fitted = fit_with_progress(fresnel, options.fit);
+    const LtcTable fitted = fit_with_progress(fresnel, options.fit, fit_table_from_both_sides);
     write_table(fitted, options, with_suffix(options.output, "_fresnel"));
     if (options.report) report_fresnel(table, fitted, options);
   }

@@ -245,4 +245,19 @@ LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   return table;
 }
 
+LtcTable fit_table_from_both_sides(const LobeFamily& family, const FitOptions& options) {
+  LtcTable table = fit_table(family, options);
+  const int n = options.size;
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  tbb::parallel_for(0, n, [&](int j) {
+    for (int i = n - 2; i >= 0; --i) {
+      LtcCell& cell = table.cells[static_cast<std::size_t>(j * n + i)];
+      const LtcCell other = fit_cell(family, ltc_roughness_at(i, n), ltc_cosine_at(j, n), table.at(i + 1, j).shape, options);
+      if (other.albedo > 0 && other.error < cell.error) cell = other;
+    }
+  });
+  return table;
+}
+
 }  // namespace steradian::fit

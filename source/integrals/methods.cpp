@@ -174,7 +174,7 @@ constexpr Row kMethods[] = {
      "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form, radiance_derivatives,
      any_density},
     {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high",
-     "linearly transformed cosines by the classic table of 64 x 64: 3 % rms of metals; in high quality 3 % of dielectrics, too, by a table "
+     "linearly transformed cosines by the classic table of 64 x 64: 3 % rms of metals; in high quality 2 % of dielectrics, by a table "
      "of Fresnel's own",
      ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>, ltc_density<LtcMethod::classic>},
     {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities,
