@@ -60,6 +60,7 @@ std::vector<Strip> strips() {
   brushed.anisotropy = 0.6f;
   sheen.sheen_color = {0.6f, 0.6f, 0.6f};
   sheen.sheen_roughness = 0.6f;
+  for (SurfaceMaterial* m : {&coat, &bent_coat}) m->base_color = {0, 0, 0, 1};  // nothing but the coat
   for (SurfaceMaterial* m : {&coat, &bent_coat, &bent_under_coat}) {
     m->clearcoat = 1;
     m->clearcoat_roughness = 0.5f;
@@ -78,8 +79,8 @@ std::vector<Strip> strips() {
           {"beckmann", with_lobe(Brdf::beckmann, 0.3), 0.01},
           {"lobe-product", with_lobe(Brdf::lobe_product, 8), 0.05},
           {"sheen", sheen, 0.01},
-          {"coat", coat, 0.01},
-          {"coat with a normal of its own", bent_coat, 0.01},
+          {"coat", coat, 0.02},
+          {"coat with a normal of its own", bent_coat, 0.02},
           {"bent normals", bent, 0.02},
           {"bent normals under a coat", bent_under_coat, 0.01}};
 }
