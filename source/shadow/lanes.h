@@ -129,7 +129,7 @@ struct LaneWork {
   LaneBits* shared_by_two = nullptr;                                  // by place: lanes where exactly two segments end there
   std::size_t place_count = 0;
   std::uint32_t *found = nullptr, *stack = nullptr, *events = nullptr;  // a number a segment
-  float* sorted_t = nullptr;                                            // a number a crossing
+  float* sorted_t = nullptr;                                            // a number a crossing and lane
   std::int32_t* sorted_change = nullptr;
   ExactLanes exact;
 };

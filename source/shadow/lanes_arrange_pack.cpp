@@ -298,37 +298,48 @@ void sort(float* t, std::int32_t* change, std::size_t n) {
     }
 }
 
-// Cuts a segment where others cross it, in one lane; false: no room.
-bool cut(LaneWork& work, std::uint32_t number, std::size_t lane) {
+// Cuts a segment where others cross it, in some lanes; false: no room.
+bool cut(LaneWork& work, std::uint32_t number, std::uint32_t lanes) {
   const SegmentLanes& e = work.segments[number];
-  std::size_t n = 0;
-  for (std::uint32_t k = work.crossing_first[number]; k < work.crossing_first[number + 1]; ++k) {
+  const std::uint32_t first = work.crossing_first[number], last = work.crossing_first[number + 1];
+  const std::size_t most = last - first;
+  std::size_t counts[kPoints] = {}, all = 0;
+  for (std::uint32_t k = first; k < last; ++k) {
     const CrossingLanes& c = work.crossings.data[work.crossing_list[k] / 2];
-    if ((c.mask >> lane & 1) == 0) continue;
     const bool as_e = work.crossing_list[k] % 2 == 0;
-    const std::int32_t w = work.segments[as_e ? c.f : c.e].weight.at[lane];
-    work.sorted_t[n] = as_e ? c.t_e.at[lane] : c.t_f.at[lane];
-    work.sorted_change[n++] = ((as_e ? c.e_to_left : c.f_to_left) >> lane & 1) != 0 ? w : -w;
+    const SegmentLanes& by = work.segments[as_e ? c.f : c.e];
+    const LaneReals& t = as_e ? c.t_e : c.t_f;
+    const std::uint32_t to_left = as_e ? c.e_to_left : c.f_to_left;
+    for_each_bit(lanes & static_cast<std::uint32_t>(c.mask), [&](std::size_t lane) {
+      const std::size_t at = lane * most + counts[lane]++;
+      work.sorted_t[at] = t.at[lane];
+      work.sorted_change[at] = (to_left >> lane & 1) != 0 ? by.weight.at[lane] : -by.weight.at[lane];
+      ++all;
+    });
   }
-  if (work.pieces.size + n + 1 > work.pieces.capacity) return false;
-  sort(work.sorted_t, work.sorted_change, n);
-  const float ax = e.ax.at[lane], ay = e.ay.at[lane], dx = e.bx.at[lane] - ax, dy = e.by.at[lane] - ay;
-  float t = 0, x = ax, y = ay;
-  std::int32_t left = e.left.at[lane];
-  const auto piece_to = [&](float next, float to_x, float to_y) {
-    if (next > t) {
+  if (work.pieces.size + all + kPoints > work.pieces.capacity) return false;
+  for_each_bit(lanes, [&](std::size_t lane) {
+    const std::size_t n = counts[lane];
+    float* places = work.sorted_t + lane * most;
+    std::int32_t* changes = work.sorted_change + lane * most;
+    sort(places, changes, n);
+    const float ax = e.ax.at[lane], ay = e.ay.at[lane], dx = e.bx.at[lane] - ax, dy = e.by.at[lane] - ay;
+    float t = 0, x = ax, y = ay;
+    std::int32_t left = e.left.at[lane];
+    const auto piece_to = [&](float next, float to_x, float to_y) {
+      if (!(next > t)) return;
       work.pieces.data[work.pieces.size++] = {x, y, to_x, to_y, left, e.weight.at[lane], number, static_cast<std::uint16_t>(lane), false};
       t = next;
       x = to_x;
       y = to_y;
+    };
+    for (std::size_t k = 0; k < n; ++k) {
+      const float next = places[k];
+      piece_to(next, ax + next * dx, ay + next * dy);
+      left += changes[k];
     }
-  };
-  for (std::size_t k = 0; k < n; ++k) {
-    const float next = work.sorted_t[k];
-    piece_to(next, ax + next * dx, ay + next * dy);
-    left += work.sorted_change[k];
-  }
-  piece_to(1, e.bx.at[lane], e.by.at[lane]);
+    piece_to(1, e.bx.at[lane], e.by.at[lane]);
+  });
   return true;
 }
 
@@ -391,10 +402,8 @@ __attribute__((flatten)) bool count_in_lanes(LaneWork& work, const LaneView& vie
   }
   work.pieces.size = 0;
   for (std::uint32_t s = 0; s < work.count; ++s) {
-    bool room = true;
-    for_each_bit(static_cast<std::uint32_t>(work.segments[s].crossed) & static_cast<std::uint32_t>(work.segments[s].present),
-                 [&](std::size_t lane) { room = room && cut(work, s, lane); });
-    if (!room) return false;
+    const std::uint32_t lanes = static_cast<std::uint32_t>(work.segments[s].crossed) & static_cast<std::uint32_t>(work.segments[s].present);
+    if (lanes != 0 && !cut(work, s, lanes)) return false;
   }
   return true;
 }

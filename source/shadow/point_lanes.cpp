@@ -257,8 +257,8 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
     crossings_.resize(2 * crossings_.size() + 64);
   }
   grow(crossing_list_, 2 * work_.crossings.size);
-  grow(sorted_t_, 2 * work_.crossings.size);
-  grow(sorted_change_, 2 * work_.crossings.size);
+  grow(sorted_t_, 2 * kPoints * work_.crossings.size);
+  grow(sorted_change_, 2 * kPoints * work_.crossings.size);
   work_.crossing_list = crossing_list_.data();
   work_.sorted_t = sorted_t_.data();
   work_.sorted_change = sorted_change_.data();

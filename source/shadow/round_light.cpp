@@ -68,11 +68,16 @@ std::optional<LightFrame> frame_of_ellipsoid(const Ellipsoid& light, Vec3d posit
 }
 
 std::vector<Corner> contour_of_ellipse(const LightFrame& frame, int corners) {
-  std::vector<Corner> contour;
-  for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / corners;
-    contour.push_back({frame.half_x * std::cos(angle), frame.half_y * std::sin(angle)});
+  thread_local std::vector<Corner> circle;  // asked for at every point, always with the same number
+  if (circle.size() != static_cast<std::size_t>(corners)) {
+    circle.clear();
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      circle.push_back({std::cos(angle), std::sin(angle)});
+    }
   }
+  std::vector<Corner> contour = circle;
+  for (Corner& c : contour) c = {frame.half_x * c.x, frame.half_y * c.y};
   return contour;
 }
 

@@ -22,9 +22,9 @@ using shadow::Shaft;
 using shadow::Viewpoint;
 using Seen = TileShadow::Seen;
 
-constexpr int kRoundCorners = 24;           // penumbrae of round lights are then 4.5e-5 rms off (docs/shadows.md)
-constexpr std::size_t kMostSegments = 512;  // a point that sees more takes rays, unless exact is asked for
-constexpr std::size_t kMostEdges = 4096;    // and a group that gathers more
+constexpr int kRoundCorners = 24;            // penumbrae of round lights are then 4.5e-5 rms off (docs/shadows.md)
+constexpr std::size_t kMostSegments = 2048;  // a point that sees more takes rays, unless exact is asked for
+constexpr std::size_t kMostEdges = 32768;    // and a group that gathers more
 constexpr int kShareRays = 64;
 constexpr double kLift = 1e-6;  // integrals are taken in float
 
