@@ -30,6 +30,8 @@ TEST(FuzzCorpus, SvgFrame) { run_all("svg_frame", fuzz::svg_frame); }
 TEST(FuzzCorpus, Eval) { run_all("eval", fuzz::eval); }
 TEST(FuzzCorpus, Picture) { run_all("picture", fuzz::picture); }
 TEST(FuzzCorpus, Texture) { run_all("texture", fuzz::texture); }
+TEST(FuzzCorpus, Table) { run_all("table", fuzz::table); }
+TEST(FuzzCorpus, Samples) { run_all("samples", fuzz::samples); }
 
 }  // namespace
 }  // namespace steradian

@@ -20,5 +20,7 @@ void svg_frame(Input input);  // a frame of 16 x 16 of what it reads
 void eval(Input input);       // lines of queries, answered
 void picture(Input input);    // EXR, PNG and JPEG as pictures
 void texture(Input input);    // PNG and JPEG as textures
+void table(Input input);      // fitted tables
+void samples(Input input);    // measured reflection
 
 }  // namespace steradian::fuzz
