@@ -71,7 +71,12 @@ struct Frame {
   }
   // x along t as far as t is perpendicular to n; any frame about n where it is not.
   static Frame from_normal_and_tangent(Vec3d n, Vec3d t) {
-    const Vec3d x = normalized(t - n * dot(n, t));
+    Vec3d x = normalized(t - n * dot(n, t));
+    if (const double along = dot(x, n); !(std::fabs(along) < 1e-9)) {  // t is along n, to the rounding of what is left
+      x = x - n * along;
+      if (length(x) < 0.5) return from_normal(n);
+      x = normalized(x);
+    }
     if (length(x) < 0.5) return from_normal(n);
     return {x, cross(n, x), n};
   }
