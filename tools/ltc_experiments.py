@@ -65,7 +65,15 @@ def read_png(path):
 def write_png(path, rows):
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    packed = zlib.compress(b"".join(b"\0" + r for r in rows), 9)
+    # Each row as differences from the pixels on its left (filter 1) or from the row above (2), whichever are smaller.
+    above, filtered = bytes(len(rows[0])), []
+    for row in rows:
+        left = bytes((a - b) & 255 for a, b in zip(row, bytes(3) + row))
+        up = bytes((a - b) & 255 for a, b in zip(row, above))
+        size = lambda r: sum(min(x, 256 - x) for x in r)
+        filtered.append(b"\1" + left if size(left) < size(up) else b"\2" + up)
+        above = row
+    packed = zlib.compress(b"".join(filtered), 9)
     with open(path, "wb") as f:
         f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)) +
                 chunk(b"IDAT", packed) + chunk(b"IEND", b""))
