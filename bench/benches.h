@@ -14,6 +14,7 @@ void add_closed_form(BenchList& list);
 void add_plane(BenchList& list);
 void add_frame(BenchList& list);
 void add_indirect(BenchList& list);
+void add_shadow(BenchList& list);
 
 inline BenchList all_benches() {
   BenchList list;
@@ -26,6 +27,7 @@ inline BenchList all_benches() {
   add_plane(list);
   add_frame(list);
   add_indirect(list);
+  add_shadow(list);
   return list;
 }
 
