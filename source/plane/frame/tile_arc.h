@@ -31,14 +31,16 @@ class ArcIntegrand {
   }
 
   // Halves what 15 nodes do not serve. Beside the outline, directions change within a small part of the arc; the halves
-  // then shrink towards it.
+  // then shrink towards it. What is still not served after so many halvings, or is no number, is taken as it is: the right half of a
+  // half waits in its place, so that the depth alone would not end it.
   STERADIAN_INLINE void add(PackReal from, PackReal to, ArcSum& sum) const {
     alignas(64) float ends[kDeepest * kLanes];
-    int waiting = 0;
+    int waiting = 0, halvings = 0;
     for (;;) {
       ArcSum part;
       const bool good = add_part(from, to, part);
-      if (!good && waiting < kDeepest) {
+      if (!good && waiting < kDeepest && halvings < kMostHalvings) {
+        ++halvings;
         store(ends + static_cast<std::size_t>(waiting++) * kLanes, to);
         to = PackReal(0.5) * (from + to);
         continue;
@@ -52,7 +54,7 @@ class ArcIntegrand {
   }
 
  private:
-  static constexpr int kDeepest = 12;
+  static constexpr int kDeepest = 12, kMostHalvings = 64;
   // Of 2 pi, the emission of a light all around: what the two rules may differ by. Where Gauss' 7 nodes, exact to degree 13, are off
   // by rho^-14, Kronrod's 15, exact to degree 22, are off by rho^-23: by (2e-4)^(23/14) = 8e-7.
   static constexpr double kOff = 2e-4;
