@@ -120,7 +120,8 @@ Bench frame(const std::string& name, const std::vector<Mesh>& meshes, double hei
   camera.yfov = 0.7;
   work->scene.cameras = {camera};
   AreaLight light;
-  light.shape = Polygon{{{0.5 - half, height, -half}, {0.5 + half, height, -half}, {0.5 + half, height, half}, {0.5 - half, height, half}}, {}};
+  light.shape =
+      Polygon{{{0.5 - half, height, -half}, {0.5 + half, height, -half}, {0.5 + half, height, half}, {0.5 - half, height, half}}, {}};
   light.radiance = {8, 8, 8};
   work->scene.area_lights = {light};
   work->options.width = 1920;
