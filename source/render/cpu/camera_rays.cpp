@@ -20,6 +20,12 @@ CameraRays::CameraRays(const Camera& camera, int width, int height) {
   corner_ = static_cast<Vec3f>(-camera.z - camera.x * w + camera.y * h);
   right_ = static_cast<Vec3f>(camera.x * (2 * w / width));
   down_ = static_cast<Vec3f>(camera.y * (-2 * h / height));
+  forward_ = static_cast<Vec3f>(-camera.z);
+}
+
+PixelSteps CameraRays::steps(int samples) const {
+  const float share = 1 / std::sqrt(static_cast<float>(samples));
+  return {right_ * share, down_ * share, forward_};
 }
 
 void CameraRays::block_directions(float x, float y, float (&dx)[16], float (&dy)[16], float (&dz)[16]) const {

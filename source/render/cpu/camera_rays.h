@@ -13,17 +13,24 @@ struct PixelPlace {
 };
 PixelPlace pixel_place(int index, int count);
 
+// From one pixel to the next, of directions that end on the plane at distance 1 before the camera.
+struct PixelSteps {
+  Vec3f right, down, forward;  // forward: unit
+};
+
 class CameraRays {
  public:
   CameraRays(const Camera& camera, int width, int height);
   Vec3f origin() const { return origin_; }
   // Unit direction through a place in the picture, in pixels from its upper left corner.
   Vec3f direction(float x, float y) const { return normalized(corner_ + right_ * x + down_ * y); }
-  // The same, of the 4 x 4 places at distances 0 to 3 from (x, y), row by row.
+  // Of the parts that each of a pixel's samples stands for.
+  PixelSteps steps(int samples) const;
+  // Directions, of the 4 x 4 places at distances 0 to 3 from (x, y), row by row.
   void block_directions(float x, float y, float (&dx)[16], float (&dy)[16], float (&dz)[16]) const;
 
  private:
-  Vec3f origin_, corner_, right_, down_;
+  Vec3f origin_, corner_, right_, down_, forward_;
 };
 
 // The camera of that name, the first for the empty name. Throws Error naming the cameras there are.

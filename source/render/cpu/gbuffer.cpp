@@ -5,7 +5,7 @@
 #include <bit>
 #include <limits>
 
-#include "render/cpu/plain_surface.h"
+#include "render/cpu/surface_pack.h"
 
 namespace steradian {
 namespace {
@@ -206,8 +206,9 @@ void put_nothing_in_block(SurfaceTile& tile, std::size_t first) {
 // The mesh that was hit last: neighbours mostly hit the same.
 struct LastMesh {
   unsigned geometry = RTC_INVALID_GEOMETRY_ID;
-  bool plain = false;
-  Surface like;  // of a plain mesh
+  SurfaceKind kind = SurfaceKind::layered;
+  bool covers = false;  // its textures are means over what pixels cover of them
+  Surface like;         // of a plain mesh
 };
 
 // Onto the surfaces that the normals of their vertices describe.
@@ -220,11 +221,14 @@ void smooth_positions(const Scene& scene, const TileHits& hits, SurfaceTile& til
 
 }  // namespace
 
-void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, Terminator terminator, SurfaceTile& tile) {
+void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits, SurfaceTile& tile) {
   clear_kinds(tile);
   LastMesh last;
   const auto surface_of = [&](std::size_t i, Vec3f view) {
-    return surface_at(scene, scene.meshes[hits.geometry[i]], hits.triangle[i], hits.u[i], hits.v[i], view);
+    const Mesh& mesh = scene.meshes[hits.geometry[i]];
+    SurfaceFootprint footprint;
+    if (last.covers) footprint = footprint_on(*shading.maps, mesh, hits.triangle[i], -view, hits.distance[i], shading.steps);
+    return surface_at(scene, mesh, hits.triangle[i], hits.u[i], hits.v[i], view, footprint);
   };
   for (std::size_t first = 0; first < kTilePixels; first += kBlock) {
     std::uint32_t hit = 0;
@@ -244,12 +248,15 @@ void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHi
       hit &= ~of_mesh;
       if (geometry != last.geometry) {
         last.geometry = geometry;
-        last.plain = is_plain(scene, mesh);
-        if (last.plain) last.like = surface_of(slot, -get(hits.direction, slot));
+        last.kind = kind_of(scene, mesh);
+        last.covers = last.kind != SurfaceKind::plain && shading.maps != nullptr;
+        if (last.kind == SurfaceKind::plain) last.like = surface_of(slot, -get(hits.direction, slot));
       }
-      if (last.plain) {
+      if (last.kind == SurfaceKind::plain) {
         note(tile, last.like);
-        of_mesh &= ~packs.fill(mesh, last.like, hits, first, of_mesh, tile);
+        of_mesh &= ~shading.packs.fill_plain(mesh, last.like, hits, first, of_mesh, tile);
+      } else if (last.kind == SurfaceKind::textured && shading.maps != nullptr) {
+        of_mesh &= ~shading.packs.fill_textured(scene, mesh, shading, hits, first, of_mesh, tile);
       }
       for (; of_mesh != 0; of_mesh &= of_mesh - 1) {
         const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(of_mesh));
@@ -258,7 +265,7 @@ void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHi
       }
     }
   }
-  if (terminator == Terminator::smooth) smooth_positions(scene, hits, tile);
+  if (shading.terminator == Terminator::smooth) smooth_positions(scene, hits, tile);
 }
 
 }  // namespace steradian

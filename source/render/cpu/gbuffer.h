@@ -28,10 +28,18 @@ struct TileHits {
 void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, PixelPlace place, TileHits& hits,
                 const TilePlane* behind = nullptr);
 
-struct PlainSurfaceTable;
+struct SurfacePacks;
+
+// How hits become surfaces.
+struct Shading {
+  const SurfacePacks& packs;
+  Terminator terminator = Terminator::strict;
+  const MipMaps* maps = nullptr;  // of the scene's images, for means over what pixels cover of them; null: textures at points
+  PixelSteps steps = {};
+};
 
 // The surfaces that were hit, plain meshes on packs, where the terminator lights them from. tile.radiance becomes the emission.
-void shade_tile(const Scene& scene, const PlainSurfaceTable& packs, const TileHits& hits, Terminator terminator, SurfaceTile& tile);
+void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits, SurfaceTile& tile);
 
 // Empties a slot: what packs read there is finite and weighs nothing.
 void put_nothing(SurfaceTile& tile, std::size_t slot);

@@ -18,7 +18,7 @@
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
-#include "render/cpu/plain_surface.h"
+#include "render/cpu/surface_pack.h"
 #include "render/cpu/shadow_pass.h"
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
@@ -84,7 +84,9 @@ class Renderer {
         environment_(prepare_environment(scene)),
         lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
         direct_(direct_table_for(active_simd())),
-        plain_surfaces_(plain_surface_table_for(active_simd())),
+        maps_(scene.images),
+        shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, &maps_,
+                 camera_.steps(options.aa)},
         specular_(method_, options.table),
         tiles_x_((options.width + kTileSide - 1) / kTileSide),
         tiles_y_((options.height + kTileSide - 1) / kTileSide),
@@ -248,7 +250,7 @@ class Renderer {
     TileHits hits;
     rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
     gbuffer_clock_.run([&] {
-      shade_tile(scene_, plain_surfaces_, hits, options_.shadows != Shadows::off ? options_.terminator : Terminator::strict, tile);
+      shade_tile(scene_, shading_, hits, tile);
       if (environment_ && options_.background) show_background(hits, tile, behind);
     });
     TilePlane distances{};
@@ -489,7 +491,8 @@ class Renderer {
   const std::unique_ptr<const environment::EnvironmentLight> environment_;  // null without one
   const std::vector<PackLight> lights_;
   const DirectTable& direct_;
-  const PlainSurfaceTable& plain_surfaces_;
+  const MipMaps maps_;
+  const Shading shading_;
   const SpecularPass specular_;
   const int tiles_x_, tiles_y_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;

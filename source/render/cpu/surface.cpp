@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/cpu/plain_surface.h"
+#include "render/cpu/surface_pack.h"
 #include "steradian/albedo.h"
 
 namespace steradian {
@@ -15,17 +15,23 @@ constexpr auto kMinAlpha = static_cast<float>(kSmallestAlpha);
 struct Corner {
   std::uint32_t i0, i1, i2;
   float w0, u, v;
+  SurfaceFootprint covered;
 
-  Corner(const Mesh& mesh, unsigned triangle, float u_, float v_)
+  Corner(const Mesh& mesh, unsigned triangle, float u_, float v_, const SurfaceFootprint& footprint = {})
       : i0(mesh.indices[3 * std::size_t{triangle}]),
         i1(mesh.indices[3 * std::size_t{triangle} + 1]),
         i2(mesh.indices[3 * std::size_t{triangle} + 2]),
         w0(1.0f - u_ - v_),
         u(u_),
-        v(v_) {}
+        v(v_),
+        covered(footprint) {}
   Vec3f operator()(const std::vector<Vec3f>& a) const { return a[i0] * w0 + a[i1] * u + a[i2] * v; }
   Vec2f operator()(const std::vector<Vec2f>& a) const {
     return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v};
+  }
+  // Where u and v change.
+  Vec2f change(const std::vector<Vec2f>& a, Vec2f by) const {
+    return {(a[i1].x - a[i0].x) * by.x + (a[i2].x - a[i0].x) * by.y, (a[i1].y - a[i0].y) * by.x + (a[i2].y - a[i0].y) * by.y};
   }
   Vec4f operator()(const std::vector<Vec4f>& a) const {
     return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v, a[i0].z * w0 + a[i1].z * u + a[i2].z * v,
@@ -36,7 +42,8 @@ struct Corner {
 Vec4f texel(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use) {
   if (!use.present()) return {1, 1, 1, 1};
   const auto& set = mesh.texcoords[use.texcoord];
-  return sample_texture(scene.images, use, set.empty() ? Vec2f{} : at(set));
+  if (set.empty() || at.covered.maps == nullptr) return sample_texture(scene.images, use, set.empty() ? Vec2f{} : at(set));
+  return sample_texture(*at.covered.maps, use, at(set), {at.change(set, at.covered.right), at.change(set, at.covered.down)});
 }
 
 Vec4f base_color(const Scene& scene, const Mesh& mesh, const Corner& at, const SurfaceMaterial& m) {
@@ -59,6 +66,14 @@ Vec3f any_tangent(Vec3f n) {
   return {1 + s * n.x * n.x * a, n.x * n.y * a * s, -s * n.x};
 }
 
+// Of a unit vector, across a normal, unit: twice, since a small part is mostly rounding. Any direction across where there is none.
+Vec3f perpendicular_part(Vec3f a, Vec3f n) {
+  const Vec3f once = a - n * dot(n, a);
+  if (!(dot(once, once) > 1e-10f)) return any_tangent(n);
+  const Vec3f x = unit(once);
+  return unit(x - n * dot(n, x));
+}
+
 // The frame of tangent-space textures, of the front face: the vertices' normal, and the mesh's tangent made perpendicular.
 struct TangentFrame {
   Vec3f x, y, z;
@@ -78,9 +93,9 @@ TangentFrame tangent_frame(const Mesh& mesh, const Corner& at, Vec3f n) {
 Vec3f bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use, const TangentFrame& frame) {
   if (!use.present()) return frame.z;
   const Vec4f c = texel(scene, mesh, at, use);
-  const Vec3f bent =
-      unit(frame.x * ((2 * c.x - 1) * use.scale) + frame.y * ((2 * c.y - 1) * use.scale) + frame.z * std::max(2 * c.z - 1, 0.0f));
-  return dot(bent, bent) > 0.5f && dot(bent, frame.z) > 0 ? bent : frame.z;
+  const float up = 2 * c.z - 1;
+  const Vec3f bent = unit(frame.x * ((2 * c.x - 1) * use.scale) + frame.y * ((2 * c.y - 1) * use.scale) + frame.z * up);
+  return dot(bent, bent) > 0.5f && up > 0 ? bent : frame.z;
 }
 
 double cosine_of_view(const Surface& s, Vec3f view) { return std::clamp(static_cast<double>(dot(s.normal, view)), 0.0, 1.0); }
@@ -150,15 +165,21 @@ Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
 
 }  // namespace
 
-bool is_plain(const Scene& scene, const Mesh& mesh) {
+SurfaceKind kind_of(const Scene& scene, const Mesh& mesh) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   const auto black = [](Vec3f c) { return !(c.x > 0 || c.y > 0 || c.z > 0); };
+  if (m.unlit || m.anisotropy != 0 || m.transmission != 0 || m.clearcoat != 0 || !black(m.sheen_color) || scene.multiple_scattering)
+    return SurfaceKind::layered;
+  bool textured = !mesh.colors.empty() || (m.emits() && !m.double_sided);
   for (const TextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emissive_texture,
-                                &m.specular_texture, &m.specular_color_texture})
-    if (use->present()) return false;
-  const bool one_sided_glow = m.emits() && !m.double_sided;
-  return mesh.colors.empty() && !m.unlit && !one_sided_glow && m.anisotropy == 0 && m.transmission == 0 && m.clearcoat == 0 &&
-         black(m.sheen_color) && !scene.multiple_scattering;
+                                &m.specular_texture, &m.specular_color_texture}) {
+    if (!use->present()) continue;
+    textured = true;
+    // Places along longer sides are no whole numbers in float.
+    const Image& image = scene.images[static_cast<std::size_t>(use->image)];
+    if (std::max(image.width, image.height) > 1 << 20) return SurfaceKind::layered;
+  }
+  return textured ? SurfaceKind::textured : SurfaceKind::plain;
 }
 
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v) {
@@ -178,8 +199,25 @@ Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec
   return hit + lift;
 }
 
-Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view) {
-  const Corner at(mesh, triangle, u, v);
+SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned triangle, Vec3f direction, float distance,
+                              const PixelSteps& steps) {
+  const Corner at(mesh, triangle, 0, 0);
+  const Vec3f &p = mesh.positions[at.i0], e1 = mesh.positions[at.i1] - p, e2 = mesh.positions[at.i2] - p, n = cross(e1, e2);
+  const float facing = dot(n, direction), area2 = dot(n, n), depth = distance * dot(direction, steps.forward);
+  SurfaceFootprint covered{&maps, {}, {}};
+  if (!(area2 > 0) || facing == 0) return covered;
+  const auto change = [&](Vec3f step) {  // of the hit, then of its coordinates
+    const Vec3f q = (step - direction * (dot(n, step) / facing)) * (depth / area2);
+    return Vec2f{dot(cross(q, e2), n), dot(cross(e1, q), n)};
+  };
+  covered.right = change(steps.right);
+  covered.down = change(steps.down);
+  return covered;
+}
+
+Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view,
+                   const SurfaceFootprint& footprint) {
+  const Corner at(mesh, triangle, u, v, footprint);
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   Surface s;
   s.material = &m;
@@ -235,8 +273,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     s.alpha_x = alpha + (1 - alpha) * strength * strength;
     along = frame.x * std::cos(angle) + frame.y * std::sin(angle);
   }
-  s.tangent = unit(along - s.normal * dot(s.normal, along));
-  if (!(dot(s.tangent, s.tangent) > 0.5f)) s.tangent = any_tangent(s.normal);
+  s.tangent = perpendicular_part(along, s.normal);
 
   float specular = m.specular;
   if (m.specular_texture.present()) specular *= texel(scene, mesh, at, m.specular_texture).w;

@@ -1,6 +1,8 @@
 // What a hit on a mesh looks like to a light: position, normal, lobes. Scalar; one call a pixel.
 #pragma once
 
+#include "core/mip_maps.h"
+#include "render/cpu/camera_rays.h"
 #include "steradian/scene.h"
 
 namespace steradian {
@@ -44,8 +46,19 @@ Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, flo
 // Source: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
 Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside);
 
+// What a pixel covers of a triangle: how the barycentric coordinates u, v change to the next pixels. Textures are means over it.
+struct SurfaceFootprint {
+  const MipMaps* maps = nullptr;  // null: textures at a point
+  Vec2f right, down;
+};
+
+// Of the pixel whose ray of unit direction meets the triangle at that distance; nothing where the two are parallel.
+SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned triangle, Vec3f direction, float distance,
+                              const PixelSteps& steps);
+
 // `view` points to the viewer, unit.
-Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view);
+Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view,
+                   const SurfaceFootprint& footprint = {});
 
 Material sheen_of(const Surface& surface);
 

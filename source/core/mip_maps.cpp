@@ -1,0 +1,171 @@
+#include "core/mip_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/texel.h"
+
+namespace steradian {
+namespace {
+
+// Texels in linear light, four numbers each.
+struct LinearImage {
+  int width, height;
+  std::vector<float> rgba;
+};
+
+Vec4f texel_of(const LinearImage& image, int x, int y) {
+  const float* c = &image.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x))];
+  return {c[0], c[1], c[2], c[3]};
+}
+
+// Half of a length, and what each of its places takes of the whole one: the first place, and the share of up to four.
+struct Halving {
+  int length;
+  explicit Halving(int whole) : length(std::max(1, whole / 2)), step_(static_cast<double>(whole) / length) {}
+  struct Shares {
+    int first, count;
+    std::array<float, 4> share;
+  };
+  Shares operator()(int place) const {
+    const double from = place * step_, to = (place + 1) * step_;
+    Shares s{static_cast<int>(from), 0, {}};
+    for (int i = s.first; i < to - 1e-9 && s.count < 4; ++i)
+      s.share[static_cast<std::size_t>(s.count++)] = static_cast<float>((std::min(to, i + 1.0) - std::max(from, double(i))) / step_);
+    return s;
+  }
+
+ private:
+  double step_;
+};
+
+// texel(x, y): of the picture that is to be halved.
+template <class Texel>
+LinearImage halved(int width, int height, Texel texel) {
+  const Halving across(width), down(height);
+  LinearImage to{across.length, down.length, {}};
+  to.rgba.assign(4 * static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height), 0.0f);
+  float* out = to.rgba.data();
+  for (int y = 0; y < to.height; ++y) {
+    const auto rows = down(y);
+    for (int x = 0; x < to.width; ++x, out += 4) {
+      const auto columns = across(x);
+      for (int j = 0; j < rows.count; ++j)
+        for (int i = 0; i < columns.count; ++i) {
+          const float share = rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)];
+          const Vec4f c = texel(columns.first + i, rows.first + j);
+          out[0] += share * c.x;
+          out[1] += share * c.y;
+          out[2] += share * c.z;
+          out[3] += share * c.w;
+        }
+    }
+  }
+  return to;
+}
+
+std::uint8_t code_of(float x, bool srgb) {
+  const double v = std::clamp(static_cast<double>(x), 0.0, 1.0);
+  const double coded = !srgb ? v : v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255 * coded));
+}
+
+Image coded(const LinearImage& from, ColorSpace space) {
+  Image image{"", from.width, from.height, {}};
+  image.rgba.reserve(from.rgba.size());
+  for (std::size_t i = 0; i < from.rgba.size(); ++i)
+    image.rgba.push_back(code_of(from.rgba[i], space == ColorSpace::srgb && i % 4 != 3));
+  return image;
+}
+
+}  // namespace
+
+struct MipMaps::Levels {
+  std::once_flag once;
+  std::vector<Image> smaller;
+  std::vector<const Image*> whole, all;
+};
+
+MipMaps::MipMaps(const std::vector<Image>& images) : images_(images), levels_(std::make_unique<Levels[]>(2 * images.size())) {
+  for (std::size_t i = 0; i < 2 * images.size(); ++i) levels_[i].whole = {&images[i / 2]};
+}
+MipMaps::~MipMaps() = default;
+
+MipMaps::Levels& MipMaps::of(const TextureUse& use) const {
+  return levels_[2 * static_cast<std::size_t>(use.image) + (use.color_space == ColorSpace::srgb ? 1 : 0)];
+}
+
+const std::vector<const Image*>& MipMaps::whole(const TextureUse& use) const { return of(use).whole; }
+
+const std::vector<const Image*>& MipMaps::levels(const TextureUse& use) const {
+  Levels& levels = of(use);
+  std::call_once(levels.once, [&] {
+    const Image& whole = *levels.whole.front();
+    LinearImage image{whole.width, whole.height, {}};
+    while (image.width > 1 || image.height > 1) {
+      image = image.rgba.empty()
+                  ? halved(whole.width, whole.height, [&](int x, int y) { return texel_of(whole, x, y, use.color_space); })
+                  : halved(image.width, image.height, [&](int x, int y) { return texel_of(image, x, y); });
+      levels.smaller.push_back(coded(image, use.color_space));
+    }
+    levels.all.push_back(&whole);
+    for (const Image& smaller : levels.smaller) levels.all.push_back(&smaller);
+  });
+  return levels.all;
+}
+
+int level_count(const Image& image) { return std::bit_width(static_cast<unsigned>(std::max(image.width, image.height))); }
+
+TextureTaps texture_taps(const TextureUse& use, const Image& image, const TextureFootprint& footprint) {
+  constexpr float kMostTaps = 16;
+  const auto turned = [&](Vec2f d) { return Vec2f{use.uv[0] * d.x + use.uv[1] * d.y, use.uv[3] * d.x + use.uv[4] * d.y}; };
+  const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
+  const Vec2f right = turned(footprint.right), down = turned(footprint.down);
+  // In texels: a circle of diameter 1 becomes an ellipse, whose axes are those of J transpose(J).
+  const Vec2f a{right.x * width, right.y * height}, b{down.x * width, down.y * height};
+  const float xx = a.x * a.x + b.x * b.x, xy = a.x * a.y + b.x * b.y, yy = a.y * a.y + b.y * b.y;
+  const float half = 0.5f * (xx - yy), longer2 = 0.5f * (xx + yy) + std::sqrt(half * half + xy * xy);
+  TextureTaps taps;
+  if (!(longer2 > 1)) return taps;
+  taps.covers = true;
+  const auto last = static_cast<float>(level_count(image) - 1);
+  if (!(longer2 < 1e12f)) {  // a million texels: nothing but the mean of all
+    taps.level = last;
+    return taps;
+  }
+  const float longer = std::sqrt(longer2), shorter = std::max(1.0f, std::fabs(a.x * b.y - a.y * b.x) / longer);
+  const float count = std::clamp(std::ceil(longer / shorter - 1e-3f), 1.0f, kMostTaps);
+  taps.count = static_cast<int>(count);
+  taps.level = std::min(last, std::log2(std::max(shorter, longer / kMostTaps)));
+  const Vec2f along = half > 0 ? Vec2f{longer2 - yy, xy} : Vec2f{xy, longer2 - xx};
+  const float size2 = along.x * along.x + along.y * along.y, size = size2 > 0 ? longer / std::sqrt(size2) : 0;
+  taps.axis = {along.x * size / width, along.y * size / height};
+  return taps;
+}
+
+Vec4f sample_texture(const MipMaps& maps, const TextureUse& use, Vec2f t, const TextureFootprint& footprint) {
+  if (!use.present()) return {1, 1, 1, 1};
+  const Image& image = maps.images()[static_cast<std::size_t>(use.image)];
+  const TextureTaps taps = texture_taps(use, image, footprint);
+  const Vec2f middle = use.transformed(t);
+  if (!taps.covers || !std::isfinite(middle.x) || !std::isfinite(middle.y)) return sample_texture(maps.images(), use, t);
+  const auto& levels = maps.levels(use);
+  const auto level = static_cast<std::size_t>(taps.level);
+  const float coarser = taps.level - static_cast<float>(level);
+  Vec4f sum;
+  const auto add = [&](const Image& of, float weight) {
+    for (int i = 0; i < taps.count; ++i) {
+      const float at = (static_cast<float>(i) + 0.5f) / static_cast<float>(taps.count) - 0.5f;
+      const Vec4f c = bilinear(of, use, {middle.x + taps.axis.x * at, middle.y + taps.axis.y * at});
+      sum = {sum.x + weight * c.x, sum.y + weight * c.y, sum.z + weight * c.z, sum.w + weight * c.w};
+    }
+  };
+  const float each = 1 / static_cast<float>(taps.count);
+  add(*levels[level], each * (1 - coarser));
+  if (coarser > 0) add(*levels[level + 1], each * coarser);
+  return sum;
+}
+
+}  // namespace steradian

@@ -1,0 +1,119 @@
+#include "core/mip_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/texel.h"
+#include "reference/random_configurations.h"
+
+namespace steradian {
+namespace {
+
+using reference::Random;
+
+// texel(x, y, channel): 0 to 255.
+template <class Texel>
+std::vector<Image> picture(int width, int height, Texel texel) {
+  Image image{"", width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 4; ++c) image.rgba.push_back(static_cast<std::uint8_t>(texel(x, y, c)));
+  return {image};
+}
+
+TextureUse use_of(ColorSpace space) {
+  TextureUse use;
+  use.image = 0;
+  use.color_space = space;
+  use.wrap_u = use.wrap_v = Wrap::clamp_to_edge;
+  return use;
+}
+
+float any(Random& random, double from, double to) { return static_cast<float>(random.uniform(from, to)); }
+
+}  // namespace
+
+// Every texel of every level is the mean of what it stands for, by area, in linear light; stored in 8 bits, so half a code off.
+TEST(MipMaps, LevelsAreMeansByArea) {
+  Random random(3);
+  for (const auto& [width, height] : {std::pair{64, 32}, {37, 5}, {1, 19}, {3, 3}, {255, 130}}) {
+    const auto images = picture(width, height, [&](int, int, int) { return random.uniform(0, 255.99); });
+    const MipMaps maps(images);
+    for (const ColorSpace space : {ColorSpace::linear, ColorSpace::srgb}) {
+      const auto& levels = maps.levels(use_of(space));
+      ASSERT_EQ(levels.front(), &images[0]);
+      ASSERT_EQ(levels.back()->width * levels.back()->height, 1);
+      double sum = 0;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) sum += static_cast<double>(texel_of(images[0], x, y, space).y);
+      // Half a code of sRGB is at most 0.5 / 255 * 2.275 in linear light.
+      const double tolerance = 0.5 / 255 * (space == ColorSpace::srgb ? 2.275 : 1) + 1e-6;
+      EXPECT_NEAR(static_cast<double>(texel_of(*levels.back(), 0, 0, space).y), sum / (width * height), tolerance);
+      if (width % 4 != 0 || height % 4 != 0) continue;
+      const Image& second = *levels[2];
+      for (int y = 0; y < second.height; ++y)
+        for (int x = 0; x < second.width; ++x) {
+          double mean = 0;
+          for (int j = 0; j < 4; ++j)
+            for (int i = 0; i < 4; ++i) mean += static_cast<double>(texel_of(images[0], 4 * x + i, 4 * y + j, space).z) / 16;
+          ASSERT_NEAR(static_cast<double>(texel_of(second, x, y, space).z), mean, tolerance);
+        }
+    }
+  }
+}
+
+// A texture that is linear in place has the mean of its middle, over any footprint that stays within: all that is off is the
+// rounding of its levels to 8 bits.
+TEST(MipMaps, RampsKeepTheirMiddle) {
+  const auto images = picture(256, 256, [](int x, int y, int c) { return c == 0 ? x : c == 1 ? y : 255; });
+  const MipMaps maps(images);
+  const TextureUse use = use_of(ColorSpace::linear);
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const float reach = std::exp(any(random, -7, -2.2));
+    const TextureFootprint footprint{{any(random, -reach, reach), any(random, -reach, reach)},
+                                     {any(random, -reach, reach), any(random, -reach, reach)}};
+    const Vec2f t{any(random, 0.4, 0.6), any(random, 0.4, 0.6)};
+    const Vec4f found = sample_texture(maps, use, t, footprint);
+    EXPECT_NEAR(static_cast<double>(found.x), (static_cast<double>(t.x) * 256 - 0.5) / 255, 0.5 / 255 + 1e-4);
+    EXPECT_NEAR(static_cast<double>(found.y), (static_cast<double>(t.y) * 256 - 0.5) / 255, 0.5 / 255 + 1e-4);
+    EXPECT_NEAR(static_cast<double>(found.w), 1, 1e-6);
+  }
+}
+
+// Axes and coarseness, worked by hand: a footprint of 8 texels by 2, turned, in a transform that doubles.
+TEST(MipMaps, TapsLieAlongTheLongerAxis) {
+  TextureUse use = use_of(ColorSpace::linear);
+  use.uv[0] = use.uv[4] = 2;
+  const auto images = picture(64, 64, [](int, int, int) { return 7; });
+  const float c = 0.6f, s = 0.8f, texel = 1.0f / 64;
+  const TextureFootprint footprint{{0.5f * 2 * texel * -s, 0.5f * 2 * texel * c}, {0.5f * 8 * texel * c, 0.5f * 8 * texel * s}};
+  const TextureTaps taps = texture_taps(use, images[0], footprint);
+  EXPECT_TRUE(taps.covers);
+  EXPECT_EQ(taps.count, 4);
+  EXPECT_NEAR(static_cast<double>(taps.level), 1, 1e-5);
+  EXPECT_NEAR(std::fabs(static_cast<double>(taps.axis.x)), 8.0 / 64 * 0.6, 1e-6);
+  EXPECT_NEAR(std::fabs(static_cast<double>(taps.axis.y)), 8.0 / 64 * 0.8, 1e-6);
+  EXPECT_FALSE(texture_taps(use, images[0], {{0.4f * texel, 0}, {0, 0.4f * texel}}).covers);
+}
+
+// Footprints without measure and beyond it.
+TEST(MipMaps, AnyFootprintGivesAColour) {
+  Random random(9);
+  const auto images = picture(20, 30, [&](int, int, int) { return random.uniform(0, 255.99); });
+  const MipMaps maps(images);
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float a : {0.0f, 1e-30f, 1e-3f, 1.0f, 1e7f, 1e30f, inf, nan})
+    for (const float b : {0.0f, 1e-30f, 1e-3f, 1.0f, 1e7f, 1e30f, inf, nan})
+      for (const float t : {0.0f, 0.3f, -5.5f, 1e9f, inf, nan})
+        for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+          TextureUse use = use_of(ColorSpace::srgb);
+          use.wrap_u = wrap;
+          const Vec4f c = sample_texture(maps, use, {t, 0.5f}, {{a, b}, {b, -a}});
+          for (const float x : {c.x, c.y, c.z, c.w}) EXPECT_TRUE(x >= 0 && x <= 1.00001f) << a << " " << b << " " << t;
+        }
+}
+
+}  // namespace steradian

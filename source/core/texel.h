@@ -1,0 +1,14 @@
+// Single texels of an image, and the blend of four.
+#pragma once
+
+#include "steradian/texture.h"
+
+namespace steradian {
+
+// Texel (x, y), rgb linear.
+Vec4f texel_of(const Image& image, int x, int y, ColorSpace space);
+
+// At coordinates (0 to 1 over the picture) that are finite, wrapped as the use says, whatever its filter; rgb linear.
+Vec4f bilinear(const Image& image, const TextureUse& use, Vec2f uv);
+
+}  // namespace steradian
