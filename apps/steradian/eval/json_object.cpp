@@ -16,13 +16,14 @@ std::string Place::text() const {
 }
 
 void Problems::add(const Place& place, const std::string& problem, const std::string& hint) {
-  if (texts_.size() >= kMostProblems && problem != "unknown key") return;
-  texts_.emplace_back(Error(place.text(), problem, hint).what());
+  if (found_.size() >= kMostProblems && problem != "unknown key") return;
+  found_.emplace_back(place.text(), problem, hint);
 }
 
 void Problems::raise() const {
+  if (found_.size() == 1) throw found_.front();
   std::string all;
-  for (const std::string& text : texts_) all += (all.empty() ? "" : "; ") + text;
+  for (const Error& one : found_) all += (all.empty() ? "" : "; ") + std::string(one.what());
   throw Error("", all);
 }
 

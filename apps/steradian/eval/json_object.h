@@ -34,11 +34,11 @@ struct Place {
 class Problems {
  public:
   void add(const Place& place, const std::string& problem, const std::string& hint = {});
-  bool any() const { return !texts_.empty(); }
+  bool any() const { return !found_.empty(); }
   [[noreturn]] void raise() const;
 
  private:
-  std::vector<std::string> texts_;
+  std::vector<Error> found_;
 };
 
 // One key of an object that becomes a T.
