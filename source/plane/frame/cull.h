@@ -16,7 +16,7 @@ class BlockerList {
 
   std::vector<float> x, y, radius;
   std::vector<float> core;  // the radius of what may hide a light on its own; -1: never
-  std::vector<int> index;   // into FrameScene::blockers
+  std::vector<int> index;   // into FrameScene::blockers; of a disk's, into FrameScene::pairs
   std::size_t size = 0;
 
   void clear() { size = 0; }

@@ -1,28 +1,14 @@
 #include "plane/frame/cull.h"
 
-#include <array>
 #include <bit>
 #include <cstdint>
 
-#include "core/pack.h"
+#include "plane/frame/lane_bits.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
 
 using PackMask = Mask<Pack>;
-
-// The lanes of a mask as bits.
-STERADIAN_INLINE std::uint64_t bits_of(const PackMask& mask) {
-#if defined(__AVX512F__)
-  return static_cast<std::uint64_t>(static_cast<__mmask16>(mask.m));
-#else
-  std::uint64_t bits = 0;
-  alignas(64) std::array<float, kLanes> lanes;
-  store(lanes.data(), select(mask, PackReal(1.0), PackReal(0.0)));
-  for (std::size_t i = 0; i < kLanes; ++i) bits |= std::uint64_t{lanes[i] > 0} << i;
-  return bits;
-#endif
-}
 
 STERADIAN_INLINE void append(const BlockerList& from, std::size_t first, std::uint64_t bits, BlockerList& to) {
 #if defined(__AVX512F__)

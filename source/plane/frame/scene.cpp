@@ -10,6 +10,7 @@
 #include "plane/frame/blocker_bins.h"
 #include "plane/frame/chains.h"
 #include "plane/frame/emitters.h"
+#include "plane/frame/event_pairs.h"
 #include "plane/frame/overlap.h"
 #include "plane/frame/runs.h"
 
@@ -46,9 +47,9 @@ class Preparation {
       if (world_.scene.bodies[i].light) add_emitters(i);
     bins_ = BlockerBins(frame_.blockers);
     const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
-    slack_ = 32 * 0x1p-24 *
-             std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x), std::fabs(high.y - origin.y),
-                       world_.scene.width, world_.scene.height});
+    frame_.slack = 32 * 0x1p-24 *
+                   std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x),
+                             std::fabs(high.y - origin.y), world_.scene.width, world_.scene.height});
     if (!frame_.emitters.empty()) check_pairs();
     check_general();
     interior();
@@ -70,7 +71,7 @@ class Preparation {
   // A blocker with its outline, its place in a list and a tile's view of it.
   static constexpr std::size_t kBlockerBytes = sizeof(Blocker) + sizeof(PaddedOutline) + 2 * sizeof(Vec2d) + sizeof(Silhouette);
   // What it takes to hold a pair of a light's piece and a blocker in its range through the levels of a frame, and to look at it.
-  static constexpr std::size_t kPairBytes = 60, kPairSteps = 600;
+  static constexpr std::size_t kPairBytes = 60 + sizeof(EventPair), kPairSteps = 600;
 
   // A first look, before anything is made: a light without a range meets every body at least once for each of its pieces.
   void check_bodies() {
@@ -89,15 +90,18 @@ class Preparation {
   void check_pairs() {
     const BinCounts counts(bins_);
     std::uint64_t pairs = 0;
-    std::size_t pieces = 0;
+    std::size_t pieces = 0, of_disks = 0;
     for (const Emitter& e : frame_.emitters) {
       if (is_run(e)) continue;  // it takes work from its edges
-      pairs += counts.within(e.center, std::min(e.range, 1e8) + e.bound);
+      const std::size_t within = counts.within(e.center, std::min(e.range, 1e8) + e.bound);
+      pairs += within;
+      if (e.kind == Emitter::Kind::disk) of_disks += within;
       ++pieces;
     }
     const std::string what = fmt::format("the {} pairs of its {} pieces of light and what may block them", pairs, pieces);
     budget_.take_work(world_.scene.name, what, pairs * kPairSteps);
     budget_.take_memory(world_.scene.name, what, pairs * kPairBytes);
+    frame_.pairs.reserve(of_disks);
   }
 
   // Lights that only the general method serves are asked of every pixel on its own. What counts is the scene, not the picture:
@@ -155,6 +159,9 @@ class Preparation {
     b.y_axis = e.y;
     b.round = is_round(e);
     b.bound = b.round ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
+    b.first = frame_.vertices.size();
+    b.count = 1;
+    frame_.vertices.push_back(e.center);
     frame_.blockers.push_back(b);
   }
   // The outline as one convex counter-clockwise polygon, if it is one.
@@ -420,12 +427,15 @@ class Preparation {
       for (int edge = b.first_edge, end = edge + b.edges; edge < end; ++edge) consider(edge);
     });
     for (int k : overlapping) stand_in(e, k, list);
+    const bool events = e.kind == Emitter::Kind::disk;
+    auto pair = static_cast<int>(frame_.pairs.size());
+    if (events) append_event_pairs(frame_, e, list);
     for (int k : list) {
       const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
       const Vec2d center = b.center - world_.scene.origin;
-      const auto radius = static_cast<float>(b.bound + slack_);
+      const auto radius = static_cast<float>(b.bound + frame_.slack);
       frame_.nearby.add(static_cast<float>(center.x), static_cast<float>(center.y), radius,
-                        b.kind == Blocker::Kind::convex ? radius : -1.0f, k);
+                        b.kind == Blocker::Kind::convex ? radius : -1.0f, events ? pair++ : k);
     }
   }
 
@@ -498,7 +508,6 @@ class Preparation {
   Budget& budget_;
   std::uint64_t steps_ = 0;
   std::size_t blockers_held_ = 0;
-  double slack_ = 0;  // of circles in float: a few roundings of the scene's size
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plane/frame/cull.h"
+#include "plane/frame/events.h"
 #include "plane/frame/interior.h"
 #include "plane/frame/silhouette.h"
 #include "core/budget.h"
@@ -60,7 +61,7 @@ struct Blocker {
   int body = 0;
   Vec2d center;  // of a bounding circle
   double bound = 0;
-  std::size_t first = 0;  // convex: vertices, counter-clockwise; two for a segment
+  std::size_t first = 0;  // convex: vertices, counter-clockwise; two for a segment. Else its centre
   std::size_t count = 0;
   int outline = -1;
   int first_edge = -1, edges = 0;  // of a chain: its edges, blockers too; they stand for it where its hull is no blocker
@@ -83,6 +84,8 @@ struct FrameScene {
   std::vector<PaddedOutline> outlines;    // of convex blockers, by Blocker::outline
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
   std::vector<std::size_t> first_nearby;  // by emitter, and one more
+  std::vector<EventPair> pairs;           // of disks; BlockerList::index is among these for them
+  double slack = 0;                       // what rounding to float may move a place by
   std::vector<char> whole_run;            // by emitter: a run of which nothing else comes between edges and chord
   std::vector<LightInterior> interior;    // by body, for lights
   std::vector<char> convex;               // by body: all of a row within it is one run

@@ -130,8 +130,11 @@ struct TileBuffer {
   alignas(64) float red[kTilePixels], green[kTilePixels], blue[kTilePixels];
 };
 
+inline constexpr unsigned kAllBlocks = 0xffff;
+
 struct TileTable {
-  void (*add_light)(const TileLight& light, TileBuffer& tile);
+  // On blocks of 4 x 4 pixels: a set of bits, in the buffer's order.
+  void (*add_light)(const TileLight& light, TileBuffer& tile, unsigned blocks);
   // The buffer's first columns and rows as pixels of red, green and blue; `stride` floats from row to row.
   void (*write)(const TileBuffer& tile, int width, int height, float* out, std::size_t stride);
 };

@@ -75,12 +75,13 @@ STERADIAN_INLINE void add_colour(const TileLight& light, TileBuffer& tile, int i
   add(tile.blue + i, share * broadcast(light.blue));
 }
 
-void add_ranged_disk(const TileLight& light, TileBuffer& tile) {
+void add_ranged_disk(const TileLight& light, TileBuffer& tile, unsigned blocks) {
   DiskEnds ends;
   const PackReal inverse2 = broadcast(light.inverse_range * light.inverse_range);
   ends.rho2 = broadcast(light.radius * light.radius) * inverse2;
   int lit[kTilePixels / kLanes], lit_count = 0;
   for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
+    if ((blocks >> (i / 16) & 1) == 0) continue;
     const DiskView view(light, tile, i);
     const PackReal d2 = view.d2 * inverse2;
     Cut cut;
@@ -328,21 +329,23 @@ STERADIAN_INLINE void add_arc(const TileLight& light, TileBuffer& tile, int i) {
   add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * ramp);
 }
 
-__attribute__((flatten)) void add_arcs(const TileLight& light, TileBuffer& tile) {
-  for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) add_arc(light, tile, i);
+__attribute__((flatten)) void add_arcs(const TileLight& light, TileBuffer& tile, unsigned blocks) {
+  for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes))
+    if ((blocks >> (i / 16) & 1) != 0) add_arc(light, tile, i);
 }
 
-__attribute__((flatten)) void add_light(const TileLight& light, TileBuffer& tile) {
+__attribute__((flatten)) void add_light(const TileLight& light, TileBuffer& tile, unsigned blocks) {
   if (light.kind == TileKind::arc) {
-    add_arcs(light, tile);
+    add_arcs(light, tile, blocks);
     return;
   }
   const bool edge = light.kind == TileKind::edge;
   if (!edge && light.inverse_range > 0.0f) {
-    add_ranged_disk(light, tile);
+    add_ranged_disk(light, tile, blocks);
     return;
   }
   for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
+    if ((blocks >> (i / 16) & 1) == 0) continue;
     if (edge)
       add_edge(light, tile, i);
     else

@@ -10,6 +10,8 @@
 #include <memory>
 
 #include "core/float_mode.h"
+#include "plane/frame/event_walk.h"
+#include "plane/frame/hull.h"
 #include "plane/frame/leaf.h"
 #include "plane/frame/runs.h"
 
@@ -65,7 +67,7 @@ struct Level {
 class Worker {
  public:
   Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture)
-      : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame) {
+      : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame), events_(frame, grid) {
     std::fill(std::begin(inside_), std::end(inside_), kOutside);
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x) {
@@ -88,10 +90,13 @@ class Worker {
     if (stays_dark(top, x, y, kSides[0])) return;
     for (std::size_t e = 0; e < frame_.emitters.size();) {
       const Emitter& emitter = frame_.emitters[e];
-      if (frame_.general[static_cast<std::size_t>(emitter.body)] == 0) take_first(e, tile, top);
+      if (frame_.general[static_cast<std::size_t>(emitter.body)] == 0 && emitter.kind != Emitter::Kind::disk) take_first(e, tile, top);
       e += emitter.group;
     }
+    events_.enter_256(x, y, tile);
     descend(0, x, y);
+    tile_lights += events_.tile_lights;
+    tile_blockers += events_.tile_blockers;
   }
 
   std::uint64_t tile_lights = 0, tile_blockers = 0;
@@ -159,24 +164,10 @@ class Worker {
       const Vec2d n = e.normal;
       if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return false;
     }
-    // The hull's slanted sides are (half + t growth) over the cosine of their slope away from the axis, and a circle's
-    // distance to them shrinks by that cosine too. Where one circle nearly holds the other: the larger one's width.
-    const double growth = bound - half;
-    const double cosine2 = length2 > growth * growth ? 1 - growth * growth / length2 : 0;
-    HullOfCircles hull;
-    hull.x = static_cast<float>(tile.center.x - world_.scene.origin.x);
-    hull.y = static_cast<float>(tile.center.y - world_.scene.origin.y);
-    hull.axis_x = static_cast<float>(axis.x);
-    hull.axis_y = static_cast<float>(axis.y);
-    hull.inverse_length2 = length2 > 0 ? static_cast<float>(1 / length2) : 0;
-    const bool slanted = cosine2 > 0.04;
-    hull.base = static_cast<float>(slanted ? half : std::max(half, bound));
-    hull.growth = slanted ? static_cast<float>(growth) : 0;
-    hull.widen = slanted ? static_cast<float>(1 / std::sqrt(cosine2)) : 1;
-
     to.blockers.reserve_more(end - begin);
     if (hiders_.size() < end - begin) hiders_.resize(2 * (end - begin));
-    const std::size_t first = to.blockers.size, hiders = cull_.cull(hull, from, begin, end, to.blockers, hiders_.data());
+    const std::size_t first = to.blockers.size,
+                      hiders = cull_.cull(hull_of(tile, e, world_.scene.origin), from, begin, end, to.blockers, hiders_.data());
     for (std::size_t i = 0; i < hiders; ++i)
       if (hides(hiders_[i], e, tile)) {
         to.blockers.size = first;
@@ -238,6 +229,7 @@ class Worker {
         for (int i : from.bodies)
           if (touches(world_.boxes[static_cast<std::size_t>(i)], tile)) to.bodies.push_back(i);
         if (stays_dark(to, x + dx, y + dy, side)) continue;
+        if (side == 64) events_.enter_64(x + dx, y + dy);
         for (std::size_t e = 0; e < from.entries.size(); e += from.entries[e].group) take(from, e, tile, to);
         for (int i : from.general)
           if (in_range(static_cast<std::size_t>(i), tile)) to.general.push_back(i);
@@ -263,12 +255,13 @@ class Worker {
       const auto [light, visible] =
           leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
-      table_.add_light(light, buffer_);
+      table_.add_light(light, buffer_, kAllBlocks);
       ++tile_lights;
       tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count +
                                                   light.disk_count + light.span_count + light.body_count + light.chord_count +
                                                   light.deep_count + light.round_count + light.lens_count);
     }
+    if (!filled) events_.add_lights(x0, y0, tile, open_blocks(), buffer_, leaf_);
     table_.write(buffer_, std::min(kTileSide, grid_.width - x0), std::min(kTileSide, grid_.height - y0), &picture_.at(x0, y0).x,
                  3 * static_cast<std::size_t>(grid_.width));
     for (int i : marked_) {
@@ -278,6 +271,15 @@ class Worker {
     if (!level.general.empty()) add_general(level, tile, x0, y0);
     for (int i : marked_) inside_[i] = kOutside;
     marked_.clear();
+  }
+
+  // Blocks of which something is not filled.
+  std::uint32_t open_blocks() const {
+    int filled[16] = {};
+    for (int i : marked_) ++filled[i / kTileSide / 4 * 4 + i % kTileSide / 4];
+    std::uint32_t open = 0;
+    for (int b = 0; b < 16; ++b) open |= std::uint32_t{filled[b] < 16} << b;
+    return open;
   }
 
   // Lights without a rule of their own, one by one: the envelope of what touches the hull of tile and light.
@@ -386,6 +388,7 @@ class Worker {
   const TileTable& table_;
   Picture& picture_;
   LeafBuilder leaf_;
+  EventWalk events_;
   const CullTable& cull_ = cull_table_for(active_simd());
   std::vector<int> hiders_;
   Level levels_[kLevels];

@@ -1,0 +1,57 @@
+// The way of round lights down a frame: from squares of 256 pixels to 64 and to tiles of 16, with the pairs that matter to each.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "plane/frame/leaf.h"
+#include "plane/frame/scene.h"
+#include "plane/frame/tiles.h"
+
+namespace steradian::plane {
+
+class EventWalk {
+ public:
+  EventWalk(const FrameScene& frame, const PixelGrid& grid);
+
+  // What follows is about the 256 pixels from (x, y) on, then about 64 of them, then about a tile.
+  void enter_256(int x, int y, const TileArea& tile);
+  void enter_64(int x, int y);
+  // Adds the light on the tile's blocks in `open`; `general` takes what has no rule of its own here.
+  void add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general);
+
+  std::uint64_t tile_lights = 0, tile_blockers = 0;
+
+ private:
+  struct Entry {
+    int emitter;
+    std::size_t begin;
+    int count;
+  };
+  // By child: lights, and their pairs one after another.
+  struct Children {
+    std::vector<Entry> lights[16];
+    std::vector<int> pairs[16];
+    std::size_t used[16];
+  };
+
+  // Sixteen squares of so many pixels from (x, y) on: what does not depend on the light, and those in the picture.
+  class Squares;
+  void split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, Children& to) const;
+
+  const FrameScene& frame_;
+  const PixelGrid& grid_;
+  const EventTable& table_ = event_table_for(active_simd());
+  const TileTable& tiles_ = tile_table_for(active_simd());
+  const CullTable& cull_ = cull_table_for(active_simd());
+  float slack_;
+  std::vector<int> disks_;  // emitters
+  std::vector<int> hiders_;
+  std::vector<Entry> top_;
+  BlockerList top_pairs_;
+  Children of_256_, of_64_;
+  int x_256_ = 0, y_256_ = 0, x_64_ = 0, y_64_ = 0;
+  EventRest rest_;
+};
+
+}  // namespace steradian::plane
