@@ -28,7 +28,7 @@ struct PackLight {
 
   bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
   bool is_area() const { return !std::holds_alternative<packed::Punctual>(shape); }
-  bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // of the points of one tile (shadow_pass.h)
+  bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // of the points of one tile (shadow_tile.h)
   bool is_round() const { return is_area() && !is_polygon() && !is_pieces(); }
 
   // Calls use(shape) with the shape of a round light.

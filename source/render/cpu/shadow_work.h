@@ -1,0 +1,42 @@
+// A tile of the shadow pass in work, and its thread's memory.
+#pragma once
+
+#include "render/cpu/shadow_pass.h"
+#include "shadow/point_lanes.h"
+#include "shadow/visible.h"
+
+namespace steradian {
+
+// From less than ten half diagonals away, no integral takes a light's elements (least_distance2 of shapes/small_light.h).
+inline constexpr double kNeverSmall = 100;
+
+// What blocks light, as rays find it.
+class RayBlockers : public shadow::Blockers {
+ public:
+  explicit RayBlockers(const RayScene& rays) : rays_(rays) {}
+  bool between(Vec3d from, Vec3d to) const override { return rays_.between(from, to); }
+
+ private:
+  const RayScene& rays_;
+};
+
+struct ShadowPass::Work {
+  const std::vector<shadow::Viewpoint>* points = nullptr;
+  TileShadow* result = nullptr;
+  ShadowCounts* counts = nullptr;
+  shadow::EdgeArrays tile, group;
+  shadow::Scratch scratch;
+  shadow::VisibleRegion region;
+  shadow::PointLanes lanes;
+  std::vector<Vec3d> positions;
+  std::vector<std::uint32_t> slots, edges, crossing;
+  shadow::LightFrame base;             // of round lights: in whose coordinates the arrays are
+  bool turned = false;         // they are
+  bool in_lanes = false;       // the points' sides of the light have one outline
+  bool whole_outline = false;  // parts come with their light's polygon
+  bool cut_outs = false;       // whether the group's shaft meets any
+
+  const shadow::Viewpoint& at(std::uint32_t slot) const { return (*points)[slot]; }
+};
+
+}  // namespace steradian
