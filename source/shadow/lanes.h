@@ -72,13 +72,16 @@ struct SegmentLanes {
   // Where a segment stands from its start to its end: what arranging finds.
   LaneInts left;                      // the count on the left at the start
   LaneInts change, change_to_middle;  // of all crossings; of those before the middle
+  LaneInts low;                       // the least count of its pieces
   LaneBits known, crossed, bounds;
+  LaneBits tied;  // some crossing was decided by displacements: where it is says nothing of its order among others
 };
 
+// Padded by boxes that meet nothing; so are blocks, of kPadding segments in a row.
 struct BoxArrays {
-  float *low_x, *high_x, *low_y, *high_y;                          // over the lanes where it is present
-  std::uint32_t* order;                                            // which segment stands there
-  float *block_low_x, *block_high_x, *block_low_y, *block_high_y;  // of kPadding in a row
+  float *low_x, *high_x, *low_y, *high_y;  // over the lanes where it is present
+  std::uint32_t* order;                    // which segment stands there
+  float *block_low_x, *block_high_x, *block_low_y, *block_high_y;
 };
 
 // Where two segments cross, in the lanes of `mask`.
@@ -86,17 +89,16 @@ struct CrossingLanes {
   LaneReals t_e, t_f;
   std::uint32_t e, f;
   LaneBits mask;
+  LaneBits tied;                  // decided by displacements
   LaneBits e_to_left, f_to_left;  // e runs to f's left; f to e's
   LaneBits after_e, after_f;      // their middles
 };
 
-// A piece of a segment that others cross, in one lane.
+// A piece of a segment that others cross, in one lane, that bounds the region: on its left.
 struct CrossedPiece {
   float ax, ay, bx, by;
-  std::int32_t left, weight;
   std::uint32_t segment;
   std::uint16_t lane;
-  bool bounds;
 };
 
 // A list in memory that its owner makes larger.
@@ -121,16 +123,17 @@ struct ExactLanes {
 struct LaneWork {
   SegmentLanes* segments = nullptr;
   std::size_t count = 0;
+  std::uint32_t outline = 0;  // the first segment of the light's outline
   BoxArrays boxes;
   Room<CrossingLanes> crossings;
   Room<CrossedPiece> pieces;
   std::uint32_t *crossing_first = nullptr, *crossing_list = nullptr;  // by segment: count + 1; two for each crossing
+  LaneReals* sorted_t = nullptr;                                      // of a segment's crossings, from its start on: as many;
+  LaneInts* sorted_change = nullptr;                                  // of absent lanes behind the others, without a change
   std::uint32_t *end_first = nullptr, *ends = nullptr;                // by place: its segments' ends, 2 * segment + end
   LaneBits* shared_by_two = nullptr;                                  // by place: lanes where exactly two segments end there
   std::size_t place_count = 0;
   std::uint32_t *found = nullptr, *stack = nullptr, *events = nullptr;  // a number a segment
-  float* sorted_t = nullptr;                                            // a number a crossing and lane
-  std::int32_t* sorted_change = nullptr;
   ExactLanes exact;
 };
 
@@ -150,9 +153,11 @@ struct LaneTable {
   void (*bound)(const SegmentLanes* segments, std::size_t count, const BoxArrays& boxes);
   // All crossings, or false where there is no room for them.
   bool (*cross)(LaneWork& work);
-  // Counts along all segments, and the pieces of those that others cross, or false where there is no room.
-  bool (*count)(LaneWork& work, const LaneView& view);
-  // The lowest level and a place in it.
+  // Counts along all segments.
+  void (*count)(LaneWork& work, const LaneView& view);
+  // The lowest level, what bounds it, and the pieces of crossed segments that do, or false where there is no room.
+  bool (*cut)(LaneWork& work, LaneBits lanes, RegionLanes& result);
+  // A place in it.
   void (*region)(LaneWork& work, const LaneView& view, LaneBits lanes, RegionLanes& result);
   // How many edges bound it in some lane, and those edges, relative to the point: planes of a block of packed::Pieces.
   std::size_t (*count_edges)(const LaneWork& work, LaneBits lanes);

@@ -48,10 +48,55 @@ STERADIAN_INLINE float least_of(PackReal x) {
 #endif
 }
 
+STERADIAN_INLINE std::uint32_t free_at(const shadow::SegmentLanes& s, int end) {
+  return static_cast<std::uint32_t>(s.present) & ~static_cast<std::uint32_t>(end == 0 ? s.clipped_a : s.clipped_b);
+}
+STERADIAN_INLINE std::int32_t place_at(const shadow::SegmentLanes& s, int end) { return end == 0 ? s.place_a : s.place_b; }
+
+// Over the lanes of a mask: of values at(i).
+template <class At>
+STERADIAN_INLINE float least(std::uint32_t lanes, At at) {
+  PackReal result(1e9);
+  each_pack([&](std::size_t i) { result = min(result, select(mask_at(lanes, i), at(i), PackReal(1e9))); });
+  return least_of(result);
+}
+template <class At>
+STERADIAN_INLINE float largest(std::uint32_t lanes, At at) {
+  return -least(lanes, [&](std::size_t i) { return -at(i); });
+}
+
+// Calls use(segment) for those whose boxes may meet a range, from the place `first` on: first blocks by their boxes, then what is in
+// them.
+template <class Use>
+STERADIAN_INLINE void near(const shadow::BoxArrays& b, std::size_t count, std::size_t first, float low_x, float high_x, float low_y,
+                           float high_y, Use use) {
+  constexpr std::size_t kBlock = shadow::kPadding;
+  const PackReal lx = broadcast(low_x), hx = broadcast(high_x), ly = broadcast(low_y), hy = broadcast(high_y);
+  const auto meets = [&](const float* lows_x, const float* highs_x, const float* lows_y, const float* highs_y, std::size_t at) {
+    return lane_bits([&](std::size_t i) {
+      return load(lows_y + at + i) <= hy && load(highs_y + at + i) >= ly && load(lows_x + at + i) <= hx && load(highs_x + at + i) >= lx;
+    });
+  };
+  const auto from = [](std::size_t begin, std::size_t at) { return begin > at ? ~((1u << (begin - at)) - 1u) : ~0u; };
+  const std::size_t blocks = shadow::padded(count) / kBlock;
+  for (std::size_t group = first / kBlock / kBlock * kBlock; group < blocks; group += kBlock) {
+    const std::uint32_t some = meets(b.block_low_x, b.block_high_x, b.block_low_y, b.block_high_y, group) & from(first / kBlock, group);
+    for_each_bit(some, [&](std::size_t of) {
+      const std::size_t at = (group + of) * kBlock;
+      const std::uint32_t bits = meets(b.low_x, b.high_x, b.low_y, b.high_y, at) & from(first, at);
+      for_each_bit(bits, [&](std::size_t lane) { use(b.order[at + lane]); });
+    });
+  }
+}
+
+// Floats hold differences of cells exactly; a product is off by 2^-24 of itself, and so is the difference of two.
+STERADIAN_INLINE PackReal bound_of(PackReal p, PackReal q) { return PackReal(4e-7) * (abs(p) + abs(q)); }
+
 std::size_t see_in_lanes(const shadow::LaneEdges& edges, const shadow::LaneView& view, std::uint16_t* front, std::int32_t* place_of,
                          shadow::VertexLanes* vertices, std::size_t& vertex_count, shadow::SegmentLanes* to);
 void bound_in_lanes(const shadow::SegmentLanes* segments, std::size_t count, const shadow::BoxArrays& boxes);
 bool cross_in_lanes(shadow::LaneWork& work);
-bool count_in_lanes(shadow::LaneWork& work, const shadow::LaneView& view);
+void count_in_lanes(shadow::LaneWork& work, const shadow::LaneView& view);
+bool cut_in_lanes(shadow::LaneWork& work, shadow::LaneBits lanes, shadow::RegionLanes& result);
 
 STERADIAN_END_ISA

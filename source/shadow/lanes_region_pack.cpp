@@ -1,6 +1,4 @@
-// The region that shows, for sixteen points at once: its level, a place well inside, the edges that bound it.
-#include <climits>
-
+// The region that shows, for sixteen points at once: whether it is thin, a place well inside, the edges that bound it.
 #include "shadow/lanes_pack.h"
 #include "shadow/segments.h"
 
@@ -16,50 +14,16 @@ constexpr float kRoomEnough = kCells / 1024.0f;  // around a place: a ray's roun
 constexpr float kLeastRoom = kCells / 8192.0f;   // else the point looks for one by itself
 constexpr int kTrials = 4;
 
-// Lanes where a segment is one piece.
-STERADIAN_INLINE std::uint32_t whole_in(const SegmentLanes& s) {
-  const std::uint32_t length =
-      lane_bits([&](std::size_t i) { return abs(get(s.bx, i) - get(s.ax, i)) + abs(get(s.by, i) - get(s.ay, i)) > PackReal(0.0); });
-  return static_cast<std::uint32_t>(s.present) & ~static_cast<std::uint32_t>(s.crossed) & length;
-}
-
-STERADIAN_INLINE std::int32_t lower(const CrossedPiece& p) { return p.weight > 0 ? p.left - p.weight : p.left; }
-
-void find_levels(LaneWork& work, LaneInts& level) {
-  each_pack([&](std::size_t i) { put(level, i, PackInt(INT_MAX)); });
-  for (std::size_t s = 0; s < work.count; ++s) {
-    SegmentLanes& e = work.segments[s];
-    e.bounds = narrow(whole_in(e));
-    each_pack([&](std::size_t i) {
-      const PackInt left = get(e.left, i), low = lower_of(left, left - get(e.weight, i)), least = get(level, i);
-      const PackMask shows = mask_at(e.bounds, i);
-      put(level, i, select(shows, lower_of(least, select(low < PackInt(kHidden / 2), low, PackInt(INT_MAX))), least));
-    });
-  }
-  for (std::size_t k = 0; k < work.pieces.size; ++k) {
-    const CrossedPiece& p = work.pieces.data[k];
-    const std::int32_t low = lower(p);
-    if (low < kHidden / 2 && low < level.at[p.lane]) level.at[p.lane] = low;
-  }
-}
-
-// What bounds the level, with its area and perimeter in half sides. Returns the lanes where it is not thin.
-std::uint32_t find_bounds(LaneWork& work, const LaneInts& level) {
+// Lanes where the region is not thin, by its area and perimeter in half sides.
+std::uint32_t find_wide(const LaneWork& work) {
   LaneReals area{}, perimeter{};
   const PackReal zero(0.0), size = broadcast(kCellSize);
   for (std::size_t s = 0; s < work.count; ++s) {
-    SegmentLanes& e = work.segments[s];
-    std::uint32_t bounds = 0;
-    each_pack([&](std::size_t i) {
-      const PackInt left = get(e.left, i), right = left - get(e.weight, i);
-      bounds |= bits_of(lower_of(left, right) == get(level, i)) << i;
-    });
-    bounds &= e.bounds;
-    e.bounds = narrow(bounds);
-    if (bounds == 0) continue;
+    const SegmentLanes& e = work.segments[s];
+    if (e.bounds == 0) continue;
     each_pack([&](std::size_t i) {
       const PackReal ax = size * get(e.ax, i), ay = size * get(e.ay, i), dx = size * get(e.bx, i) - ax, dy = size * get(e.by, i) - ay;
-      const PackMask here = mask_at(bounds, i);
+      const PackMask here = mask_at(e.bounds, i);
       const std::uint32_t backwards = bits_of(get(e.weight, i) > PackInt(0)) << i;  // less on the right
       const PackReal twice = ax * dy - ay * dx;
       put(area, i, get(area, i) + select(here, select(mask_at(backwards, i), -twice, twice), zero));
@@ -67,11 +31,9 @@ std::uint32_t find_bounds(LaneWork& work, const LaneInts& level) {
     });
   }
   for (std::size_t k = 0; k < work.pieces.size; ++k) {
-    CrossedPiece& p = work.pieces.data[k];
-    p.bounds = lower(p) == level.at[p.lane];
-    if (!p.bounds) continue;
-    const float dx = p.bx - p.ax, dy = p.by - p.ay, twice = (p.ax * dy - p.ay * dx) * (kCellSize * kCellSize);
-    area.at[p.lane] += p.weight > 0 ? -twice : twice;
+    const CrossedPiece& p = work.pieces.data[k];
+    const float dx = p.bx - p.ax, dy = p.by - p.ay;
+    area.at[p.lane] += (p.ax * dy - p.ay * dx) * (kCellSize * kCellSize);
     perimeter.at[p.lane] += __builtin_sqrtf(dx * dx + dy * dy) * kCellSize;
   }
   return lane_bits([&](std::size_t i) { return get(area, i) > PackReal(2.0) * broadcast(kThin) * get(perimeter, i); });
@@ -117,16 +79,15 @@ void find_longest(const LaneWork& work, std::uint32_t lanes, const Longest& befo
   for (std::size_t k = 0; k < work.pieces.size; ++k) {
     const CrossedPiece& p = work.pieces.data[k];
     const std::size_t lane = p.lane;
-    if (!p.bounds || (lanes >> lane & 1) == 0) continue;
+    if ((lanes >> lane & 1) == 0) continue;
     const float dx = p.bx - p.ax, dy = p.by - p.ay, length2 = dx * dx + dy * dy;
     const auto number = static_cast<std::int32_t>(work.count + k);
     const float last = before.length2.at[lane];
     if (!(length2 < last || (length2 <= last && number > before.number.at[lane])) || !(length2 > found.length2.at[lane])) continue;
-    const float sign = p.weight > 0 ? -1.0f : 1.0f;
     found.x.at[lane] = 0.5f * (p.ax + p.bx);
     found.y.at[lane] = 0.5f * (p.ay + p.by);
-    found.nx.at[lane] = -sign * dy;
-    found.ny.at[lane] = sign * dx;
+    found.nx.at[lane] = -dy;
+    found.ny.at[lane] = dx;
     found.length2.at[lane] = length2;
     found.number.at[lane] = number;
     found.segment.at[lane] = static_cast<std::int32_t>(p.segment);
@@ -226,10 +187,7 @@ struct Writer {
 }  // namespace
 
 static __attribute__((flatten)) void region_in_lanes(LaneWork& work, const LaneView& view, LaneBits lanes, RegionLanes& result) {
-  find_levels(work, result.level);
-  const std::uint32_t none = lane_bits([&](std::size_t i) { return get(result.level, i) == PackInt(INT_MAX); });
-  result.none = narrow(none & lanes);
-  std::uint32_t todo = find_bounds(work, result.level) & lanes & ~none;
+  std::uint32_t todo = find_wide(work) & lanes & ~static_cast<std::uint32_t>(result.none);
   const std::uint32_t wanted = todo;
   LaneReals best{}, x, y, room;
   Longest before, longest;
@@ -264,8 +222,7 @@ static std::size_t count_edges_in_lanes(const LaneWork& work, LaneBits lanes) {
   std::size_t whole = 0, most = 0;
   std::size_t crossed[kPoints] = {};
   for (std::size_t s = 0; s < work.count; ++s) whole += (work.segments[s].bounds & lanes) != 0;
-  for (std::size_t k = 0; k < work.pieces.size; ++k)
-    if (work.pieces.data[k].bounds) ++crossed[work.pieces.data[k].lane];
+  for (std::size_t k = 0; k < work.pieces.size; ++k) ++crossed[work.pieces.data[k].lane];
   for (std::size_t lane = 0; lane < kPoints; ++lane)
     if ((lanes >> lane & 1) != 0 && crossed[lane] > most) most = crossed[lane];
   return whole + most;
@@ -299,7 +256,7 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
   std::size_t crossed[kPoints] = {}, rows = 0;
   for (std::size_t k = 0; k < work.pieces.size; ++k) {
     const CrossedPiece& p = work.pieces.data[k];
-    if (!p.bounds || (lanes >> p.lane & 1) == 0) continue;
+    if ((lanes >> p.lane & 1) == 0) continue;
     const std::size_t row = crossed[p.lane]++;
     if (row == rows) {
       each_pack([&](std::size_t i) {
@@ -308,11 +265,10 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
       ++rows;
     }
     float* cell = to + row * kEdge + p.lane;
-    const bool backwards = p.weight > 0;
-    cell[0] = backwards ? p.bx : p.ax;
-    cell[kPoints] = backwards ? p.by : p.ay;
-    cell[2 * kPoints] = backwards ? p.ax : p.bx;
-    cell[3 * kPoints] = backwards ? p.ay : p.by;
+    cell[0] = p.ax;
+    cell[kPoints] = p.ay;
+    cell[2 * kPoints] = p.bx;
+    cell[3 * kPoints] = p.by;
   }
   for (std::size_t row = 0; row < rows; ++row) {
     float* edge = to + row * kEdge;
@@ -325,8 +281,8 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
 }
 
 const LaneTable& lane_table() {
-  static constexpr LaneTable table = {see_in_lanes,    bound_in_lanes,       cross_in_lanes,      count_in_lanes,
-                                      region_in_lanes, count_edges_in_lanes, write_edges_in_lanes};
+  static constexpr LaneTable table = {see_in_lanes, bound_in_lanes,  cross_in_lanes,       count_in_lanes,
+                                      cut_in_lanes, region_in_lanes, count_edges_in_lanes, write_edges_in_lanes};
   return table;
 }
 

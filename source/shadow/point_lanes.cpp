@@ -159,7 +159,7 @@ void PointLanes::make_room() {
   const std::size_t n = segments_.size(), room = padded(n);
   if (order_.size() < room) {
     for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_, &unsorted_}) v->resize(room);
-    for (std::vector<float>* v : {&block_low_x_, &block_high_x_, &block_low_y_, &block_high_y_}) v->resize(room / kPadding);
+    for (std::vector<float>* v : {&block_low_x_, &block_high_x_, &block_low_y_, &block_high_y_}) v->resize(padded(room / kPadding));
     order_.resize(room);
     found_.resize(room);
     events_.resize(room);
@@ -211,6 +211,10 @@ void PointLanes::sort_boxes(const LaneTable& packs) {
     block_high_x_[block] = *std::max_element(high_x_.begin() + first, high_x_.begin() + last);
     block_high_y_[block] = *std::max_element(high_y_.begin() + first, high_y_.begin() + last);
   }
+  for (std::size_t block = room / kPadding; block < padded(room / kPadding); ++block) {
+    block_low_x_[block] = block_low_y_[block] = kFar;
+    block_high_x_[block] = block_high_y_[block] = -kFar;
+  }
 }
 
 void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points,
@@ -230,6 +234,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   grow(segments_, edges.edge_count() + outline.size() + 2);
   edge_segments_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), vertex_count_, segments_.data());
   work_.count = edge_segments_;
+  work_.outline = static_cast<std::uint32_t>(edge_segments_);
   occluded_ = 0;
   for (std::size_t s = 0; s < edge_segments_; ++s) occluded_ |= segments_[s].present;
   LaneBits arranged = occluded_;
@@ -257,15 +262,16 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
     crossings_.resize(2 * crossings_.size() + 64);
   }
   grow(crossing_list_, 2 * work_.crossings.size);
-  grow(sorted_t_, 2 * kPoints * work_.crossings.size);
-  grow(sorted_change_, 2 * kPoints * work_.crossings.size);
+  grow(sorted_t_, 2 * work_.crossings.size);
+  grow(sorted_change_, 2 * work_.crossings.size);
   work_.crossing_list = crossing_list_.data();
   work_.sorted_t = sorted_t_.data();
   work_.sorted_change = sorted_change_.data();
+  packs.count(work_, view_);
   while (true) {
     work_.pieces.data = pieces_.data();
     work_.pieces.capacity = pieces_.size();
-    if (packs.count(work_, view_)) break;
+    if (packs.cut(work_, arranged, region_)) break;
     pieces_.resize(2 * pieces_.size() + 256);
   }
   packs.region(work_, view_, arranged, region_);

@@ -52,7 +52,7 @@ class PointLanes {
     }
     for (std::size_t k = 0; k < work_.pieces.size; ++k) {
       const CrossedPiece& p = pieces_[k];
-      if (p.bounds && p.lane == lane) in_frame(p.ax, p.ay, p.bx, p.by, p.weight > 0);
+      if (p.lane == lane) in_frame(p.ax, p.ay, p.bx, p.by, false);
     }
   }
 
@@ -86,8 +86,9 @@ class PointLanes {
   std::vector<SegmentLanes> segments_;
   std::vector<CrossingLanes> crossings_;
   std::vector<CrossedPiece> pieces_;
-  std::vector<float> low_x_, high_x_, low_y_, high_y_, unsorted_, block_low_x_, block_high_x_, block_low_y_, block_high_y_, sorted_t_;
-  std::vector<std::int32_t> sorted_change_;
+  std::vector<float> low_x_, high_x_, low_y_, high_y_, unsorted_, block_low_x_, block_high_x_, block_low_y_, block_high_y_;
+  std::vector<LaneReals> sorted_t_;
+  std::vector<LaneInts> sorted_change_;
   std::vector<std::uint32_t> order_, crossing_first_, crossing_list_, end_first_, ends_, found_, stack_, events_;
   std::vector<LaneBits> shared_by_two_;
   SegmentSet horizon_;

@@ -49,7 +49,8 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
 }
 
 // The edges of lanes that see a part.
-void ShadowPass::add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes, Work& work) const {
+void ShadowPass::add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes,
+                           Work& work) const {
   TileShadow::Batch& batch = work.result->batch_with_room();
   const std::size_t first = batch.slots.size();
   batch.slots.resize(first + shadow::kPoints, kNoSlot);

@@ -42,8 +42,7 @@ double stratified_share(const LightFrame& frame, const Viewpoint& at, Counts cou
 
 template <class Counts>
 double share_past_cut_outs_of(const RayScene& rays, const LightFrame& frame, const Viewpoint& at, Counts counts) {
-  return stratified_share(frame, at, counts,
-                          [&](Vec3d to) { return !rays.between(at.position, at.position + to, Casters::cut_outs); });
+  return stratified_share(frame, at, counts, [&](Vec3d to) { return !rays.between(at.position, at.position + to, Casters::cut_outs); });
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct ShadowPass::Work {
   shadow::PointLanes lanes;
   std::vector<Vec3d> positions;
   std::vector<std::uint32_t> slots, edges, crossing;
-  shadow::LightFrame base;             // of round lights: in whose coordinates the arrays are
+  shadow::LightFrame base;     // of round lights: in whose coordinates the arrays are
   bool turned = false;         // they are
   bool in_lanes = false;       // the points' sides of the light have one outline
   bool whole_outline = false;  // parts come with their light's polygon
