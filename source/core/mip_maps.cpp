@@ -75,8 +75,7 @@ std::uint8_t code_of(float x, bool srgb) {
 Image coded(const LinearImage& from, ColorSpace space) {
   Image image{"", from.width, from.height, {}};
   image.rgba.reserve(from.rgba.size());
-  for (std::size_t i = 0; i < from.rgba.size(); ++i)
-    image.rgba.push_back(code_of(from.rgba[i], space == ColorSpace::srgb && i % 4 != 3));
+  for (std::size_t i = 0; i < from.rgba.size(); ++i) image.rgba.push_back(code_of(from.rgba[i], space == ColorSpace::srgb && i % 4 != 3));
   return image;
 }
 
@@ -105,9 +104,8 @@ const std::vector<const Image*>& MipMaps::levels(const TextureUse& use) const {
     const Image& whole = *levels.whole.front();
     LinearImage image{whole.width, whole.height, {}};
     while (image.width > 1 || image.height > 1) {
-      image = image.rgba.empty()
-                  ? halved(whole.width, whole.height, [&](int x, int y) { return texel_of(whole, x, y, use.color_space); })
-                  : halved(image.width, image.height, [&](int x, int y) { return texel_of(image, x, y); });
+      image = image.rgba.empty() ? halved(whole.width, whole.height, [&](int x, int y) { return texel_of(whole, x, y, use.color_space); })
+                                 : halved(image.width, image.height, [&](int x, int y) { return texel_of(image, x, y); });
       levels.smaller.push_back(coded(image, use.color_space));
     }
     levels.all.push_back(&whole);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrals/ltc/shipped_lobe.h"
+#include "integrals/ltc/texture_mean.h"
 
 namespace steradian {
 namespace {
@@ -19,9 +20,10 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
               const K::mat3& frame, const K::LtcMatrix& m, const std::optional<K::GgxView>& ggx = std::nullopt) {
   K k;
   const auto turned = [&](Vec3d v) { return transform_transposed(frame, integrals::to_kernel<double>(v)); };
-  if (const auto mean = tree.mean_under(
-          {m, ggx, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())}, texture.finest()))
-    return *mean;
+  TextureView<double> view{
+      m, ggx.has_value(), {}, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())};
+  if (ggx) view.ggx = *ggx;
+  if (const auto mean = mean_under(tree, view, texture.finest())) return *mean;
   // Any view serves: the lobe is where its matrix says.
   const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
   integrals::LtcVector<double> integral({m});

@@ -30,6 +30,7 @@ class TexturedLight {
   Vec3f seen_by_ggx(const ShadingPoint& at, double alpha) const;
 
   const FilteredTexture& texture() const { return texture_; }
+  const TextureTree& tree() const { return tree_; }
 
  private:
   PreparedPolygon polygon_;

@@ -98,8 +98,7 @@ TEST(Textures, FootprintsFollowTheNextPixel) {
   for (int i = 0; i < 500; ++i) {
     Mesh mesh;
     mesh.indices = {0, 1, 2};
-    for (int k = 0; k < 3; ++k)
-      mesh.positions.push_back(static_cast<Vec3f>(Vec3d{any(-3, 3), any(-3, 3), any(-9, -2)}));
+    for (int k = 0; k < 3; ++k) mesh.positions.push_back(static_cast<Vec3f>(Vec3d{any(-3, 3), any(-3, 3), any(-9, -2)}));
     const Vec3d p0 = static_cast<Vec3d>(mesh.positions[0]), e1 = static_cast<Vec3d>(mesh.positions[1]) - p0,
                 e2 = static_cast<Vec3d>(mesh.positions[2]) - p0, n = cross(e1, e2);
     const Vec3d right{0.002, 0, 0}, down{0, -0.002, 0}, forward{0, 0, -1};

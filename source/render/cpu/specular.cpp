@@ -14,6 +14,7 @@
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/phong.h"
 #include "render/cpu/sheen.h"
+#include "render/cpu/textured_means.h"
 #include "scene/table_file.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
@@ -125,7 +126,8 @@ SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
       tables_(!table.empty()                      ? ltc_pack_tables(scene::read_classic_table(table))
               : method.ggx == Method::ltc         ? method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables()
                       : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
-                                                  : LtcPackTables{}) {}
+                                                  : LtcPackTables{}),
+      compact_tables_(ltc_compact_pack_tables()) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;
@@ -165,10 +167,16 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
         add_coloured(tile.radiance.z, lobe.f0.z, lobe.f90.z, plain, fresnel, light->radiance.z);
         continue;
       }
+      TileVector seen;
+      alignas(64) TilePlane found, wanted;
+      for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
+      textured_means_table_for(active_simd())
+          .ggx(*light->textured, points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y), compact_tables_, wanted.data(),
+               {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
       for (std::size_t i = 0; i < kTilePixels; ++i) {
-        if (!(plain[i] > 0 || fresnel[i] > 0)) continue;
+        if (!(wanted[i] > 0)) continue;
         const double lobe_width = width(static_cast<double>(lobe.alpha_x[i]), static_cast<double>(lobe.alpha_y[i]));
-        const Vec3f radiance = light->textured->seen_by_ggx(shading_point(tile, lobe.normal, i), lobe_width);
+        const Vec3f radiance = found[i] > 0 ? get(seen, i) : light->textured->seen_by_ggx(shading_point(tile, lobe.normal, i), lobe_width);
         const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
         add_to(tile.radiance, i, radiance * (f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i]));
       }

@@ -34,6 +34,7 @@ class SpecularPass {
 
   const DirectMethod method_;
   const LtcPackTables tables_;
+  const LtcPackTables compact_tables_;  // that tell how wide a lobe is
 };
 
 }  // namespace steradian
