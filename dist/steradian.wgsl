@@ -2123,6 +2123,119 @@ fn steradian_ellipsoid_outline(to_center: vec3f, s: mat3x3f, inverse: mat3x3f) -
     return outline;
 }
 
+// ==== far_light ====
+
+// Far lights: one surface element in the place of a light, and how far off that and what is interpolated can be.
+//
+// The irradiance vector of a light does not depend on the receiver's normal as long as no horizon cuts the light, and is smooth
+// in the receiver's place: so one polynomial over the places of many receivers may stand for the light. Both bounds here rest on one
+// fact. Along any line, the k-th derivative of an element's vector over k! is at most (k + 1) |area| / R^(k + 2), R the distance: in the
+// plane of the line the vector is a sum of 1/r^2 and 1/conj(r)^2, whose coefficients are U_k(cos) and k + 1. It is sharp towards the
+// element, and holds for r / r^3, the vector of spheres and points, too.
+// Frame: any. Vectors go from the receiver to the light. Errors are shares of |area| / R^2, what an element sends at most; R is
+// the least distance between any receiver and any point of the light.
+
+// Irradiance vector of an element of radiance 1; 0 from behind.
+//
+//   area  unit normal to the lit side, times the area [m^2]
+//   r     to the element [m]
+//
+// Degenerate: at the element it is finite.
+fn steradian_far_element_vector(area: vec3f, r: vec3f) -> vec3f {
+    let inverse = 1.0 / max(dot(r, r), steradian_smallest_divisor());
+    return (r * inverse) * (max(-dot(area, r), 0.0) * inverse);
+}
+
+// Irradiance vector of a ball of radiance 1 that covers 1 m^2, wholly above the horizon: exact at any distance.
+//
+// Source: Lambert 1760. Degenerate: at the centre it is finite.
+fn steradian_far_ball_vector(r: vec3f) -> vec3f {
+    let inverse = inverseSqrt(max(dot(r, r), steradian_smallest_divisor()));
+    return (r * inverse) * (inverse * inverse);
+}
+
+// Error of one element in the light's centroid: what is linear over the light it has exactly.
+//
+//   deviation2  mean square distance of the light's points from the centroid
+//   distance2   R^2 > 0
+fn steradian_far_error_of_one(deviation2: f32, distance2: f32) -> f32 { return 3.0 * deviation2 / distance2; }
+
+// Error of four elements with the light's first and second moments (light_elements.glsl).
+//
+//   third      mean cubed distances from the centroid, the light's and the elements' together
+//   fourth     the same of fourth powers
+//   symmetric  the light is its own mirror image about its centroid: then no cubic part is left
+fn steradian_far_error_of_four(third: f32, fourth: f32, symmetric: bool, distance2: f32) -> f32 {
+    let by_third = 4.0 * third * inverseSqrt(distance2);
+    let by_fourth = 5.0 * fourth / distance2;
+    return select(by_third, min(by_third, by_fourth), symmetric) / distance2;
+}
+
+// Error of one element of a flat light, clamped to 0 below the receiver's horizon, where the horizon may cut the light.
+//
+//   top           greatest height of the light above the horizon [m], not negative
+//   deviation_up  root of the mean square height of the light's points about its centroid's
+//   deviation     root of deviation2
+//   distance      R > 0
+//
+// The irradiance is the mean of max(height, 0) times k = -n'.r / r^4, whose slope is at most 3 / R^4. With k held, a mean differs from the
+// centroid's value by half of the mean distance of the heights from it at most; what k changes is the second part. Nor do both
+// exceed top / R.
+fn steradian_far_error_across_horizon(top: f32, deviation_up: f32, deviation: f32, distance: f32) -> f32 {
+    let inverse = 1.0 / distance;
+    return min(top * inverse, (0.5 * deviation_up + 3.0 * top * deviation * inverse) * inverse);
+}
+
+// Error of a polynomial through Chebyshev's nodes along an axis.
+//
+//   nodes     their number, at least 1
+//   reach     half the length of the interval
+//   distance  R > 0
+fn steradian_far_error_of_nodes(nodes: i32, reach: f32, distance: f32) -> f32 {
+    let step = reach / (2.0 * distance);
+    var power = 2.0 * f32(nodes + 1);
+    for (var i: i32 = 0; i < nodes; i++) {
+        power = power * step;
+    }
+    return power;
+}
+
+// Upper bound of Schlick's (1 - v.h)^5 where the cosine of half the angle between view and light is at least c, and of how fast it
+// turns with the light's direction [1/rad].
+fn steradian_far_grazing(c: f32) -> vec2f {
+    let x = clamp(1.0 - c, 0.0, 1.0);
+    let x2 = x * x;
+    return vec2f(x2 * x2 * x, 2.5 * x2 * x2 * sqrt(max(1.0 - (1.0 - x) * (1.0 - x), 0.0)));
+}
+
+// Error of a polynomial through Chebyshev's nodes of the vector times (1 - v.h)^5, v the direction to an eye that stays.
+//
+//   view_distance  least distance of the receivers from the eye, > 0
+//   least_square   least square of v.h over receivers and light: (1 + v.l) / 2
+//
+// By Cauchy's inequality over discs of three radii in the complex plane. A step of radius rho times a unit vector turns l by at most
+// x = rho / (R - rho), v by y alike, and v.l by x + y + x y; the vector grows to 1 / (R - rho)^2.
+// Degenerate: large where v.h may vanish, at the root's singularity.
+fn steradian_far_error_of_grazing_nodes(nodes: i32, reach: f32, distance: f32, view_distance: f32, least_square: f32) -> f32 {
+    let room = min(distance, view_distance);
+    var best = 1.0e6;
+    for (var k: i32 = 1; k < 4; k++) {
+        let rho = 0.2 * f32(k) * room;
+        let x = rho / (distance - rho);
+        let y = rho / (view_distance - rho);
+        let left = least_square - 0.5 * (x + y + x * y);
+        let grazing = steradian_far_grazing(sqrt(max(left, 0.0))).x;
+        let step = reach / (2.0 * rho);
+        let growth = 1.0 + x;
+        var power = 2.0 * growth * growth * grazing;
+        for (var i: i32 = 0; i < nodes; i++) {
+            power = power * step;
+        }
+        best = select(best, min(best, power), left > 0.0);
+    }
+    return best;
+}
+
 // ==== punctual ====
 
 // Point and spot lights of glTF (KHR_lights_punctual): what arrives at a point from one direction.

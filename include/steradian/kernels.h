@@ -37,6 +37,7 @@ struct Kernels {
 
 #include "outline/polygon.glsl"
 #include "outline/light_elements.glsl"
+#include "outline/far_light.glsl"
 #include "outline/conic.glsl"
 #include "outline/ellipse.glsl"
 #include "outline/capsule.glsl"
