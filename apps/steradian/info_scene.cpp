@@ -68,6 +68,10 @@ Json punctual_light_facts(const PunctualLight& light) {
     const auto degrees = [](double cosine) { return rounded(std::acos(cosine) * 180 / std::numbers::pi); };
     facts["angles"] = {degrees(light.cos_inner), degrees(light.cos_outer)};
   }
+  if (light.profile != nullptr) {
+    facts["flux"] = rounded(luminance(light.intensity) * luminous_flux(*light.profile));
+    facts["direction"] = numbers(light.direction);
+  }
   if (std::isfinite(light.range)) facts["range"] = light.range;
   return facts;
 }

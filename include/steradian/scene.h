@@ -13,6 +13,7 @@
 
 #include "steradian/area_light.h"
 #include "steradian/environment.h"
+#include "steradian/light_profile.h"
 #include "steradian/material.h"
 #include "steradian/texture.h"
 #include "steradian/vector.h"
@@ -106,6 +107,8 @@ struct PunctualLight {
   double range = std::numeric_limits<double>::infinity();
   double cos_inner = 1;  // spot: full inside, none outside, glTF's square falloff between
   double cos_outer = 0.70710678118654752;
+  std::shared_ptr<const LightProfile> profile{};  // of a point: candela by direction, which `intensity` multiplies; null: 1 everywhere
+  ProfileAxes profile_axes{};
 };
 
 // A perspective camera. x right, y up, z against the view: orthonormal.

@@ -16,6 +16,7 @@
 #include "steradian/half_vector.h"
 #include "steradian/indirect.h"
 #include "steradian/kernels.h"
+#include "steradian/light_profile.h"
 #include "steradian/limits.h"
 #include "steradian/load_scene.h"
 #include "steradian/ltc.h"

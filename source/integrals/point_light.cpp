@@ -19,7 +19,11 @@ Vec3d point_light_radiance(const PointLight& light, const ShadingPoint& at, cons
   const Vec3d to_light = light.position - at.position;
   const double distance = length(to_light);
   if (!(distance > 0)) return {};
-  return lobe_towards(normalized(to_light), at, material) * light.intensity / distance / distance;
+  const Vec3d l = normalized(to_light), from = -l;
+  const double candela = light.profile == nullptr
+                             ? 1
+                             : intensity(*light.profile, {dot(from, light.axes.x), dot(from, light.axes.y), dot(from, light.axes.aim)});
+  return lobe_towards(l, at, material) * light.intensity * candela / distance / distance;
 }
 
 Vec3d directional_light_radiance(const DirectionalLight& light, const ShadingPoint& at, const Material& material) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
+#include <span>
 
 namespace steradian::scene {
 namespace {
@@ -190,6 +193,49 @@ void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene
   });
 }
 
+namespace {
+
+std::shared_ptr<const LightProfile> read_profile(const GltfDocument& document, const JsonCursor& json) {
+  std::span<const std::uint8_t> bytes;
+  std::string name = json.place();
+  if (const auto uri = json.find("uri")) {
+    bytes = read_uri(document, *uri);
+    if (!uri->as_text().starts_with("data:")) name += ": " + uri->as_text();
+  } else if (json.has("bufferView")) {
+    bytes = view_bytes(document, json.index("bufferView", document.count("bufferViews"), "bufferView"));
+  } else {
+    json.fail("has neither \"uri\" nor \"bufferView\"");
+  }
+  document.budget().take_memory(name, "its profile", bytes.size() * 32);
+  return std::make_shared<const LightProfile>(
+      read_light_profile_from_memory({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, document.budget().limits()));
+}
+
+// Lights that a profile describes: candela times the node's multiplier and colour, aimed along its -z.
+void add_profile_lights(const GltfDocument& document, const GltfNodes& nodes, std::vector<PunctualLight>& lights) {
+  constexpr const char* kExtension = "EXT_lights_ies";
+  std::map<std::string, std::shared_ptr<const LightProfile>> read;  // by place
+  for_each_light(document, nodes, kExtension, [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+    PunctualLight light;
+    light.name = json.text("name", node.text("name", ""));
+    light.position = world.t;
+    check_reach(node, light.position, "the light");
+    light.direction = normalized(world.vector({0, 0, -1}));
+    const JsonCursor use = *find_extension(node, kExtension);
+    const Vec3d color = use.vector("color", {1, 1, 1});
+    if (color.x < 0 || color.y < 0 || color.z < 0) use.at("color").fail("components must not be negative");
+    light.intensity = color * use.number("multiplier", 1, 0, kMostIntensity);
+    auto& profile = read[json.place()];
+    if (profile == nullptr) profile = read_profile(document, json);
+    light.profile = profile;
+    light.profile_axes = profile_axes(light.direction, world.x);
+    if (dot(light.profile_axes.y, world.y) < 0) light.profile_axes.y = -light.profile_axes.y;
+    lights.push_back(std::move(light));
+  });
+}
+
+}  // namespace
+
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes) {
   std::vector<PunctualLight> result;
   for_each_light(document, nodes, "KHR_lights_punctual", [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
@@ -216,6 +262,7 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
     }
     result.push_back(light);
   });
+  add_profile_lights(document, nodes, result);
   return result;
 }
 

@@ -1,4 +1,4 @@
-// EXT_lights_area and KHR_lights_punctual.
+// EXT_lights_area, KHR_lights_punctual and EXT_lights_ies.
 #pragma once
 
 #include "scene/gltf_nodes.h"
@@ -10,6 +10,7 @@ namespace steradian::scene {
 // sees it.
 void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene);
 
+// Of both extensions.
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes);
 
 // The triangles of a light's shape: a fan for flat ones, 64 x 32 quadrilaterals for an ellipsoid, 64 x 33 for a capsule.

@@ -1,6 +1,9 @@
 // What lights are beside area lights, as what asks for light names them.
 #pragma once
 
+#include <memory>
+
+#include "steradian/light_profile.h"
 #include "steradian/shape.h"
 
 namespace steradian {
@@ -14,7 +17,9 @@ inline Shape capsule_or_line(Vec3d end_a, Vec3d end_b, double radius) {
 // Without size.
 struct PointLight {
   Vec3d position;
-  Vec3d intensity{1, 1, 1};  // W/sr or candela, linear RGB
+  Vec3d intensity{1, 1, 1};                       // W/sr or candela, linear RGB
+  std::shared_ptr<const LightProfile> profile{};  // candela by direction, which intensity multiplies; null: 1 everywhere
+  ProfileAxes axes{};
 };
 
 // Parallel light.

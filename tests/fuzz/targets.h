@@ -22,5 +22,6 @@ void picture(Input input);    // EXR, PNG and JPEG as pictures
 void texture(Input input);    // PNG and JPEG as textures
 void table(Input input);      // fitted tables
 void samples(Input input);    // measured reflection
+void profile(Input input);    // IES and EULUMDAT, and what they answer
 
 }  // namespace steradian::fuzz

@@ -22,10 +22,26 @@ struct LightKeys {
   double radius = 0;
   Capsule shape;  // without its radius
   PointLight point_light;
+  Vec3d aim{0, -1, 0}, towards_x{1, 0, 0};  // of its profile
   DirectionalLight directional_light;
 };
 
 using LightField = Field<LightKeys>;
+
+// A file's profile; the last file is kept for the lines that name it again.
+std::shared_ptr<const LightProfile> read_profile(Problems& problems, const Place& place, Json value) {
+  const std::string_view name = read_string(problems, place, value);
+  if (!value.is_string()) return nullptr;
+  thread_local std::pair<std::string, std::shared_ptr<const LightProfile>> last;
+  try {
+    if (last.first != name || last.second == nullptr)
+      last = {std::string(name), std::make_shared<const LightProfile>(read_light_profile(std::string(name)))};
+    return last.second;
+  } catch (const Error& e) {
+    problems.add(place, e.what());
+    return nullptr;
+  }
+}
 
 constexpr LightField kRadiance = {"radiance",
                                   [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radiance = read_colour(p, at, v); }};
@@ -67,6 +83,9 @@ constexpr LightField kCapsuleFields[] = {
 constexpr LightField kPointFields[] = {
     {"position", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
     {"intensity", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
+    {"profile", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.profile = read_profile(p, at, v); }},
+    {"aim", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.aim = read_direction(p, at, v); }},
+    {"tangent", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.towards_x = read_direction(p, at, v); }},
 };
 
 constexpr LightField kDirectionalFields[] = {
@@ -95,7 +114,10 @@ Light disk_of(LightKeys&& k) { return flat(Ellipse{k.center, k.x, k.y}, k); }
 Light ellipsoid_of(LightKeys&& k) { return solid(Ellipsoid{k.center, k.x, k.y, k.z}, k); }
 Light sphere_of(LightKeys&& k) { return solid(Ellipsoid{k.center, {k.radius, 0, 0}, {0, k.radius, 0}, {0, 0, k.radius}}, k); }
 Light capsule_of(LightKeys&& k) { return solid(capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k); }
-Light point_of(LightKeys&& k) { return k.point_light; }
+Light point_of(LightKeys&& k) {
+  k.point_light.axes = profile_axes(k.aim, k.towards_x);
+  return k.point_light;
+}
 Light directional_of(LightKeys&& k) { return k.directional_light; }
 
 struct LightRow {

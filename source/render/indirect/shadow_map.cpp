@@ -9,6 +9,7 @@
 #include "core/float_mode.h"
 #include "render/cpu/surface.h"
 #include "scene/gltf_lights.h"
+#include "shapes/punctual.h"
 
 namespace steradian::indirect {
 namespace {
@@ -60,13 +61,18 @@ Emitter spot(const PunctualLight& light) {
 // Equal solid angles over the sphere. Wide spot lights too: their square would reach the horizon.
 Emitter sphere(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
-  return {luminance(light.intensity) * 4 * kPi, [=](int i, int j, int side) {
+  const packed::Punctual source = packed::prepare(light);
+  const double power = source.profile != nullptr ? luminous_flux(*source.profile) : 4 * kPi;
+  return {luminance(light.intensity) * power, [=](int i, int j, int side) {
             LightRay r;
             const double z = 1 - 2 * (j + 0.5) / side, s = std::sqrt(1 - z * z), phi = 2 * kPi * (i + 0.5) / side;
             r.origin = light.position;
             r.direction = frame.to_world({s * std::cos(phi), s * std::sin(phi), z});
             r.solid_angle = 4 * kPi / (static_cast<double>(side) * side);
-            const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, r.direction) : 1;
+            const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, r.direction)
+                                   : source.profile != nullptr
+                                       ? packed::profile_intensity(source, r.direction.x, r.direction.y, r.direction.z)
+                                       : 1;
             r.flux = light.intensity * (falloff * r.solid_angle);
             r.range = light.range;
             return r;

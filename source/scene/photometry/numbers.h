@@ -1,0 +1,42 @@
+// The texts of photometric files: lines with their numbers, and numbers with the line that they stand in.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace steradian::scene {
+
+class PhotometryText {
+ public:
+  PhotometryText(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+
+  bool at_end() const { return at_ >= text_.size(); }
+  std::string_view line();  // the next one, without its end
+  std::size_t line_number() const { return number_; }
+
+  // The next number, on this line or a later one, between blanks and commas. what: "a vertical angle", for messages.
+  double number(const std::string& what, double low, double high);
+  std::size_t count(const std::string& what, std::size_t low, std::size_t high);
+  std::vector<double> rising_numbers(const std::string& what, std::size_t size, double low, double high);
+  // Whether nothing but blanks follows, and the end mark of old systems.
+  bool nothing_follows();
+
+  std::size_t size() const { return text_.size(); }
+  // Throws Error that names the file and the line.
+  [[noreturn]] void fail(const std::string& problem, const std::string& hint = {}) const;
+
+ private:
+  void skip_blanks();
+
+  std::string_view text_;
+  std::string name_;
+  std::size_t at_ = 0, number_ = 1;
+  std::size_t last_line_ = 1;  // of what was read last
+};
+
+// The number that all of a text is, blanks around it aside; where it is none, false.
+bool read_whole_number(std::string_view text, double& value);
+
+}  // namespace steradian::scene

@@ -1,0 +1,102 @@
+#include "steradian/light_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shapes/punctual.h"
+
+namespace steradian {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Between which two of the rising angles a value lies, and how far on; both the one where there is one. Precondition: within them.
+struct Between {
+  std::size_t low, high;
+  double share;
+};
+Between find(const std::vector<double>& angles, double at) {
+  if (angles.size() == 1) return {0, 0, 0};
+  const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, at);
+  const auto high = static_cast<std::size_t>(above - angles.begin());
+  return {high - 1, high, std::clamp((at - angles[high - 1]) / (angles[high] - angles[high - 1]), 0.0, 1.0)};
+}
+
+// Angles are known to a rounding of their own: what lies on the first or last one counts as within.
+bool is_within(const std::vector<double>& angles, double at) {
+  constexpr double kRounding = 1e-9;
+  return angles.size() == 1 || (at >= angles.front() - kRounding && at <= angles.back() + kRounding);
+}
+
+}  // namespace
+
+double intensity(const LightProfile& profile, Vec3d d) {
+  if (profile.candela.empty() || d == Vec3d{}) return 0;
+  double vertical, horizontal;
+  if (profile.type == LightProfile::Type::c) {
+    vertical = std::atan2(std::hypot(d.x, d.y), d.z) / kDegree;
+    horizontal = std::atan2(d.y, d.x) / kDegree;
+    if (horizontal < 0) horizontal += 360;
+  } else {
+    vertical = std::atan2(d.x, d.z) / kDegree;
+    horizontal = std::atan2(-d.y, std::hypot(d.x, d.z)) / kDegree;
+  }
+  if (!is_within(profile.vertical, vertical) || !is_within(profile.horizontal, horizontal)) return 0;
+  const Between v = find(profile.vertical, vertical), h = find(profile.horizontal, horizontal);
+  const auto along = [&](std::size_t plane) {
+    const double* of = &profile.candela[plane * profile.vertical.size()];
+    return of[v.low] + v.share * (of[v.high] - of[v.low]);
+  };
+  return along(h.low) + h.share * (along(h.high) - along(h.low));
+}
+
+namespace {
+
+// The integral of weight(t) times what is linear from (a, value_a) to (b, value_b), for the weight sin; a, b in radians.
+double times_sine(double a, double b, double value_a, double value_b) {
+  if (b - a < 1e-4) return (b - a) * std::sin((a + b) / 2) * (value_a + value_b) / 2;  // the differences below cancel
+  const double slope = (value_b - value_a) / (b - a);
+  return value_a * std::cos(a) - value_b * std::cos(b) + slope * (std::sin(b) - std::sin(a));
+}
+
+}  // namespace
+
+double luminous_flux(const LightProfile& profile) {
+  if (profile.candela.empty()) return 0;
+  const std::vector<double>&v = profile.vertical, &h = profile.horizontal;
+  const auto value = [&](std::size_t plane, std::size_t angle) { return profile.candela[plane * v.size() + angle]; };
+  double sum = 0;
+  if (profile.type == LightProfile::Type::c) {
+    // Solid angle: sine of the vertical angle. Over a horizontal step the mean of both planes is exact.
+    for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+      const auto band = [&](std::size_t plane) {
+        return times_sine(v[i] * kDegree, v[i + 1] * kDegree, value(plane, i), value(plane, i + 1));
+      };
+      if (h.size() == 1) sum += 2 * std::numbers::pi * band(0);
+      for (std::size_t k = 0; k + 1 < h.size(); ++k) sum += (h[k + 1] - h[k]) * kDegree * (band(k) + band(k + 1)) / 2;
+    }
+    return sum;
+  }
+  // Of b: cosine of the horizontal angle, the sine of what is left to 90 degrees.
+  for (std::size_t k = 0; k + 1 < h.size(); ++k)
+    for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+      const auto mean = [&](std::size_t plane) { return (value(plane, i) + value(plane, i + 1)) / 2; };
+      sum += (v[i + 1] - v[i]) * kDegree * times_sine((90 - h[k + 1]) * kDegree, (90 - h[k]) * kDegree, mean(k + 1), mean(k));
+    }
+  return sum;
+}
+
+double packed::profile_intensity(const Punctual& light, double x, double y, double z) {
+  const Vec3d d{x, y, z};
+  return intensity(*light.profile, {dot(d, light.axes.x), dot(d, light.axes.y), dot(d, light.axes.aim)});
+}
+
+ProfileAxes profile_axes(Vec3d aim, Vec3d towards_x) {
+  aim = normalized(aim);
+  const Frame frame = Frame::from_normal_and_tangent(aim, towards_x);
+  // Counter-clockwise as seen from behind, where aim points away.
+  return {frame.x, cross(frame.x, aim), aim};
+}
+
+}  // namespace steradian
