@@ -13,51 +13,18 @@ black pictures of files with triangles, or of drawings made to shine, end with e
 """
 import argparse
 import re
-import struct
 import subprocess
 import sys
 import tempfile
 import time
-import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from png_files import read_png, write_png  # noqa: E402
 
 WIDTH, HEIGHT, COLUMNS = 160, 120, 8  # of a field of the sheet
 SIZE = f"{WIDTH}x{HEIGHT}"
 GREY = bytes([90, 90, 90]) * WIDTH
-
-
-def read_png(path):
-    """Rows of 8-bit RGB."""
-    data = Path(path).read_bytes()
-    at, packed, width, height, kind = 8, b"", 0, 0, 0
-    while at < len(data):
-        length, name = struct.unpack_from(">I4s", data, at)
-        if name == b"IHDR":
-            width, height, _, kind = struct.unpack_from(">IIBB", data, at + 8)
-        if name == b"IDAT":
-            packed += data[at + 8 : at + 8 + length]
-        at += 12 + length
-    step = {2: 3, 6: 4}[kind]
-    raw, rows, before = zlib.decompress(packed), [], bytearray(width * step)
-    for y in range(height):
-        code, line = raw[y * (width * step + 1)], bytearray(raw[y * (width * step + 1) + 1 : (y + 1) * (width * step + 1)])
-        for x in range(len(line)):
-            a, b = line[x - step] if x >= step else 0, before[x]
-            c = before[x - step] if x >= step else 0
-            nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]  # Paeth
-            line[x] = (line[x] + (0, a, b, (a + b) // 2, nearest)[code]) & 255
-        rows.append(b"".join(bytes(line[x : x + 3]) for x in range(0, len(line), step)))
-        before = line
-    return rows
-
-
-def write_png(path, rows):
-    def chunk(name, body):
-        return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
-
-    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
-    body = zlib.compress(b"".join(b"\0" + row for row in rows))
-    Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", body) + chunk(b"IEND", b""))
 
 
 def shining(svg, folder):

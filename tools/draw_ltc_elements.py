@@ -9,7 +9,7 @@ sphere. Standard library only.
 import math
 import sys
 
-from ltc_experiments import write_png
+from png_files import write_png
 
 SIDE, GAP = 120, 6
 ROWS = (("a", (0.25, 0.5, 1.0, 2.0, 4.0)), ("b", (-0.8, -0.4, 0.0, 0.4, 0.8)), ("c", (-0.8, -0.4, 0.0, 0.4, 0.8)),

@@ -15,7 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scenes"))
-from contact_sheet import read_png, write_png  # noqa: E402
+from png_files import read_png, write_png  # noqa: E402
 from make_scenes import grille  # noqa: E402
 
 SIZE, STRIP_SIZE, FROM, TO = "192x120", "240x150", -0.6, 0.8  # the light's x

@@ -19,6 +19,7 @@ from functools import partial
 
 import ltc_experiments
 from ltc_experiments import ROOT
+from png_files import read_png, write_png
 
 print = partial(print, flush=True)
 
@@ -134,10 +135,10 @@ EXPOSURE = {"ring": "0", "hall": "1", "arcade": "0"}
 def difference_of(bench, a, b, times):
     """A picture of the bytes' difference, enlarged, about the middle grey."""
     rows = [bytes(min(255, max(0, 128 + times * (x - y))) for x, y in zip(p, q))
-            for p, q in zip(ltc_experiments.read_png(a), ltc_experiments.read_png(b))]
+            for p, q in zip(read_png(a), read_png(b))]
     bench.made += 1
     path = os.path.join(bench.folder, "%d.png" % bench.made)
-    ltc_experiments.write_png(path, rows)
+    write_png(path, rows)
     return path
 
 

@@ -12,71 +12,18 @@ import argparse
 import json
 import math
 import os
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 from functools import partial
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "scenes"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import make_scenes  # noqa: E402
+from png_files import read_png, write_png  # noqa: E402
 
 print = partial(print, flush=True)  # a table's rows take minutes
-
-
-def read_png(path):
-    """Rows of RGB bytes of an 8-bit RGB file."""
-    with open(path, "rb") as f:
-        data = f.read()
-    position, packed = 8, b""
-    while position < len(data):
-        size, kind = struct.unpack(">I4s", data[position:position + 8])
-        body = data[position + 8:position + 8 + size]
-        position += 12 + size
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", body[:10])
-            assert (depth, color) == (8, 2), path
-        elif kind == b"IDAT":
-            packed += body
-    raw, rows, above = zlib.decompress(packed), [], bytes(3 * width)
-    for y in range(height):
-        line = raw[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
-        row = bytearray(line[1:])
-        for i in range(3 * width):
-            a, b, c = (row[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
-            if line[0] == 1:
-                p = a
-            elif line[0] == 2:
-                p = b
-            elif line[0] == 3:
-                p = (a + b) // 2
-            elif line[0] == 4:
-                p = min((a, b, c), key=lambda x: abs(a + b - c - x))
-            else:
-                p = 0
-            row[i] = (row[i] + p) & 255
-        rows.append(bytes(row))
-        above = row
-    return rows
-
-
-def write_png(path, rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    # Each row as differences from the pixels on its left (filter 1) or from the row above (2), whichever are smaller.
-    above, filtered = bytes(len(rows[0])), []
-    for row in rows:
-        left = bytes((a - b) & 255 for a, b in zip(row, bytes(3) + row))
-        up = bytes((a - b) & 255 for a, b in zip(row, above))
-        size = lambda r: sum(min(x, 256 - x) for x in r)
-        filtered.append(b"\1" + left if size(left) < size(up) else b"\2" + up)
-        above = row
-    packed = zlib.compress(b"".join(filtered), 9)
-    with open(path, "wb") as f:
-        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)) +
-                chunk(b"IDAT", packed) + chunk(b"IEND", b""))
 
 
 class Bench:
