@@ -51,13 +51,13 @@ template <class R>
 struct Extreme {
   R score, index, x, y, mx, my;
   template <class M>
-  STERADIAN_INLINE void take(M better, R new_score, R k, R vx, R vy, R nx, R ny) {
-    score = select(better, new_score, score);
-    index = select(better, k, index);
-    x = select(better, vx, x);
-    y = select(better, vy, y);
-    mx = select(better, nx, mx);
-    my = select(better, ny, my);
+  STERADIAN_INLINE void take(M better, const Extreme& other) {
+    score = select(better, other.score, score);
+    index = select(better, other.index, index);
+    x = select(better, other.x, x);
+    y = select(better, other.y, y);
+    mx = select(better, other.mx, mx);
+    my = select(better, other.my, my);
   }
 };
 
@@ -78,21 +78,24 @@ STERADIAN_INLINE EventLines<R> convex_event_lines(const R* x, const R* y, int co
     near2 = min(d2, near2);
   }
   const R to_near = inversesqrt(max(near2, R(1e-30))), nx = near_x * to_near, ny = near_y * to_near;
-  events::Extreme<R> inner_low, inner_high, outer_low, outer_high;
-  for (int k = 0; k < count; ++k) {
+  // Of both tangents through a vertex: which lies lowest, which highest.
+  struct Tangents {
+    events::Extreme<R> low, high;
+  };
+  const auto tangents_through = [&](int k) {
     const R inverse = inversesqrt(max(x[k] * x[k] + y[k] * y[k], R(1e-30)));
     const R ux = x[k] * inverse, uy = y[k] * inverse, along = min(r * inverse, R(1.0)), across = sqrt(max(R(1.0) - along * along, R(0.0)));
     const R lx = along * ux - across * uy, ly = along * uy + across * ux, hx = along * ux + across * uy, hy = along * uy - across * ux;
-    const R low = nx * lx + ny * ly, high = nx * hx + ny * hy, index(k);
-    if (k == 0) {
-      inner_low = outer_low = {low, index, x[k], y[k], lx, ly};
-      inner_high = outer_high = {high, index, x[k], y[k], hx, hy};
-      continue;
-    }
-    inner_low.take(low > inner_low.score, low, index, x[k], y[k], lx, ly);
-    outer_low.take(low < outer_low.score, low, index, x[k], y[k], lx, ly);
-    inner_high.take(high > inner_high.score, high, index, x[k], y[k], hx, hy);
-    outer_high.take(high < outer_high.score, high, index, x[k], y[k], hx, hy);
+    return Tangents{{nx * lx + ny * ly, R(k), x[k], y[k], lx, ly}, {nx * hx + ny * hy, R(k), x[k], y[k], hx, hy}};
+  };
+  const Tangents first = tangents_through(0);
+  events::Extreme<R> inner_low = first.low, inner_high = first.high, outer_low = first.low, outer_high = first.high;
+  for (int k = 1; k < count; ++k) {
+    const Tangents t = tangents_through(k);
+    inner_low.take(t.low.score > inner_low.score, t.low);
+    outer_low.take(t.low.score < outer_low.score, t.low);
+    inner_high.take(t.high.score > inner_high.score, t.high);
+    outer_high.take(t.high.score < outer_high.score, t.high);
   }
   EventLines<R> lines;
   lines.inner_low = event_line(inner_low.mx, inner_low.my, r);
