@@ -10,7 +10,7 @@ void add_ltc(BenchList& list);
 void add_eval(BenchList& list);
 void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
-void add_closed_form(BenchList& list);
+void add_ggx(BenchList& list);
 void add_plane(BenchList& list);
 void add_frame(BenchList& list);
 void add_indirect(BenchList& list);
@@ -23,7 +23,7 @@ inline BenchList all_benches() {
   add_eval(list);
   add_derivatives(list);
   add_phong(list);
-  add_closed_form(list);
+  add_ggx(list);
   add_plane(list);
   add_frame(list);
   add_indirect(list);

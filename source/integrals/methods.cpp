@@ -66,9 +66,8 @@ RadianceResult closed_form(const PreparedPolygon& light, const ShadingPoint& at,
 }
 
 RadianceResult half_vector(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
-  const int arcs = options.quality == Quality::draft ? 3 : options.quality == Quality::normal ? 4 : 8;
   const auto evaluate = options.precision == Precision::float_ ? half_vector_radiance_float : half_vector_radiance;
-  return answer(Method::half_vector, evaluate(light, at, m, {.arcs = arcs}));
+  return answer(Method::half_vector, evaluate(light, at, m, half_vector_options(options.quality)));
 }
 
 // In high quality, the classic tables have Fresnel's beside them.

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "steradian/half_vector.h"
 #include "steradian/material.h"
 #include "steradian/polygon_derivatives.h"
 #include "steradian/polygon_light.h"
@@ -40,6 +41,11 @@ const Row* find(Method method, const Material& lobe, Quality quality);
 
 // The same. Throws Error, which names the methods that serve the lobe, also where the row does not have the precision.
 const Row& resolve(Method method, const Material& lobe, Precision precision, Quality quality);
+
+// The arcs of half vectors at a quality.
+constexpr HalfVectorOptions half_vector_options(Quality quality) {
+  return {quality == Quality::draft ? 3 : quality == Quality::normal ? 4 : 8, ArcSplit::pole_mapped};
+}
 
 // 0, as a method says it: nothing of the light is seen.
 RadianceResult nothing(Method method);

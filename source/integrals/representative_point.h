@@ -27,7 +27,10 @@ class RepresentativePoint {
   }
   vec3 end(const vec3& u) const { return u; }
   void add(const vec3& a, const vec3& b) {
-    walk_ = K().representative_add_edge(walk_, mirror_, a, b);
+    const auto next = K().representative_add_edge(walk_, mirror_, a, b);
+    // Where other lanes of a pack are cut by the horizon, this one gets edges without length, whose place is nowhere on its outline.
+    const auto counts = dot(b - a, b - a) > Real<S>(1e-14);
+    walk_ = {next.turn, select(counts, next.nearest, walk_.nearest), select(counts, next.cosine, walk_.cosine)};
     solid_angle_ = K().solid_angle_add_edge(solid_angle_, a, b);
   }
   Part<S> finish(Mask<S> reversed) {

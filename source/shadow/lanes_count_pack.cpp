@@ -173,7 +173,8 @@ void list_crossings(const LaneWork& work) {
   for (std::size_t s = 1; s <= work.count; ++s) first[s] += first[s - 1];
   for (std::size_t k = work.crossings.size; k-- > 0;) {
     const CrossingLanes& c = work.crossings.data[k];
-    const auto add = [&](std::uint32_t number, std::uint32_t by, const LaneReals& t, std::uint32_t to_left, std::uint32_t after, int which) {
+    const auto add = [&](std::uint32_t number, std::uint32_t by, const LaneReals& t, std::uint32_t to_left, std::uint32_t after,
+                         int which) {
       const std::uint32_t at = --first[number];
       work.crossing_list[at] = static_cast<std::uint32_t>(2 * k) + (which != 0);
       SegmentLanes& s = work.segments[number];

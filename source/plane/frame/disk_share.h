@@ -49,7 +49,7 @@ struct DiskWindow {
   explicit DiskWindow(const EventLight& l) : light(l), range(broadcast(1 / l.inverse_range)) {}
 
   struct Seen {
-    PackReal reach;  // in the scene's units, as all x are
+    PackReal reach;              // in the scene's units, as all x are
     PackReal d2, radius, scale;  // R = 1
     STERADIAN_INLINE PackReal share(PackReal x) const {
       x *= scale;
@@ -120,8 +120,9 @@ struct DiskQuadratics {
     STERADIAN_INLINE PackReal share(PackReal x, PackReal s0, PackReal s1) const {
       x *= scale;
       const PackReal y = x * inverse_rho, x2 = x * x, y2 = y * y;
-      const PackReal h1 = PackReal(1.99503785) +
-                          y2 * (PackReal(-0.256803777) + y2 * (PackReal(-0.370334077) + y2 * (PackReal(0.485533376) - PackReal(0.282124238) * y2)));
+      const PackReal h1 =
+          PackReal(1.99503785) +
+          y2 * (PackReal(-0.256803777) + y2 * (PackReal(-0.370334077) + y2 * (PackReal(0.485533376) - PackReal(0.282124238) * y2)));
       const PackReal h2 = PackReal(1.03550204) + y2 * (PackReal(-1.71832842) + PackReal(0.677070776) * y2);
       return x * (s0 + x2 * (s1 + x2 * (number(of.s_[6]) + x2 * number(of.s_[7])))) + rho2 * y * (e * h1 - PackReal(2.0) * rho2 * h2);
     }
@@ -137,7 +138,14 @@ struct DiskQuadratics {
   STERADIAN_INLINE Seen at(int block, PackReal px, PackReal py) const {
     const PackReal scale = broadcast(light_.inverse_range), rho = broadcast(light_.radius) * scale, rho2 = rho * rho;
     const PackReal x = (broadcast(light_.x) - px) * scale, y = (broadcast(light_.y) - py) * scale, w = x * x + y * y;
-    return {reach_within_range(w, rho) * range_, w - broadcast(w_[block]), scale, inverse_rho_, rho2, PackReal(2.0) - PackReal(2.0) * w - rho2, *this, block};
+    return {reach_within_range(w, rho) * range_,
+            w - broadcast(w_[block]),
+            scale,
+            inverse_rho_,
+            rho2,
+            PackReal(2.0) - PackReal(2.0) * w - rho2,
+            *this,
+            block};
   }
 
  private:

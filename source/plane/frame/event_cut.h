@@ -49,8 +49,8 @@ class EventEnds {
 
   // Adds the light on the blocks; `within` are those in which one of the items may stand within the light. An item is a set of blocks
   // in its upper 16 bits and a pair in its lower 32. Blocks' centres are relative to the light's.
-  STERADIAN_INLINE void add_to(std::uint32_t blocks, std::uint32_t within, const std::uint64_t* items, const std::uint64_t* last, float* kept,
-                               const PackReal* block_x, const PackReal* block_y) {
+  STERADIAN_INLINE void add_to(std::uint32_t blocks, std::uint32_t within, const std::uint64_t* items, const std::uint64_t* last,
+                               float* kept, const PackReal* block_x, const PackReal* block_y) {
     if (light_.inverse_range > 0.0f) {
       const DiskQuadratics far(light_, block_x, block_y);
       add_with(blocks & far.blocks, within, items, last, kept, far);
@@ -113,7 +113,8 @@ class EventEnds {
     if (pair.kind == EventPair::Kind::round) {
       const RoundEnds round(pair, light_, px, py);
       // What is behind is on the other's far side; all of it may be, where the separator is short of the blocker.
-      const PackReal from = select(round.begins_ahead, round.begin, PackReal(-1e6)), to = select(round.ends_ahead, round.end, PackReal(1e6));
+      const PackReal from = select(round.begins_ahead, round.begin, PackReal(-1e6)),
+                     to = select(round.ends_ahead, round.end, PackReal(1e6));
       cut.take(from, to, nearer && (round.begins_ahead || round.ends_ahead) && from < to);
       return;
     }

@@ -61,11 +61,13 @@ struct Pair {
   }
   double end(Vec2d p, const Lines& l) const {
     if (vertices.empty()) return tangent(p, 1);
-    return over_chain(l.end_first, l.end_last, [&](double a, int k) { return std::max(a, place(p, k)); }, -1e9);
+    return over_chain(
+        l.end_first, l.end_last, [&](double a, int k) { return std::max(a, place(p, k)); }, -1e9);
   }
   double begin(Vec2d p, const Lines& l) const {
     if (vertices.empty()) return tangent(p, -1);
-    return over_chain(l.begin_first, l.begin_last, [&](double a, int k) { return std::min(a, place(p, k)); }, 1e9);
+    return over_chain(
+        l.begin_first, l.begin_last, [&](double a, int k) { return std::min(a, place(p, k)); }, 1e9);
   }
   template <class F>
   double over_chain(D first, D last, F f, double value) const {

@@ -23,7 +23,7 @@ struct EventPair {
   // x, y, c by rising number of EventLines: inner low and high, separator, outer low and high, chord. Of a lens nothing is taken where
   // all of the first three are below 0. A line that is never crossed is 0, 0, +-kNever.
   float lines[6][3];
-  float radius;        // of a round blocker
+  float radius;  // of a round blocker
   std::int32_t blocker;
   std::int32_t first;  // its vertices, or a round one's centre, in FrameScene::vertices
   Kind kind;
@@ -62,8 +62,8 @@ struct EventLight {
   float red, green, blue;
   float block;  // the side of a block
   EventSquares blocks;
-  std::uint32_t open;       // the blocks that want light
-  const Vec2d* vertices;    // of the scene
+  std::uint32_t open;     // the blocks that want light
+  const Vec2d* vertices;  // of the scene
   const EventPair* pairs;
 };
 

@@ -6,6 +6,17 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
+// The corners of a round light gather about the mirrored view.
+template <class Integral>
+STERADIAN_INLINE auto integrate_outline(const PackLight& light, const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
+                                        const PackVec3& view, double exponent, Integral& integral) {
+  const auto shading = seen.shading(view);
+  if (light.is_pieces()) return integrate(PiecesOutline{seen, frame}, shading, integral);
+  if (!light.is_round()) return integrate(PolygonOutline{{seen, frame, p}}, shading, integral);
+  const AboutLobe about = {PackKernels().phong_mirror(view), PackReal(1 / std::sqrt(exponent + 1)), 12};
+  return integrate(RoundOutline{seen, frame, p, about}, shading, integral);
+}
+
 // A function for each method, so that it holds one walk in registers.
 template <class Share>
 __attribute__((flatten, noinline)) void radiance_by(const Share& share, double exponent, const PhongOptions& options,
@@ -16,10 +27,8 @@ __attribute__((flatten, noinline)) void radiance_by(const Share& share, double e
     const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
     const auto frame = k.frame_from_normal(n);
     const SeenLight seen(light, p, i);
-    const auto shading = seen.shading(transform_transposed(frame, v));
-    const auto r = light.is_pieces() ? integrate(PiecesOutline{seen, frame}, shading, integral)
-                                     : integrate(PolygonOutline{{seen, frame, p}}, shading, integral);
-    store(result + i, r.x);
+    const PackVec3 view = transform_transposed(frame, v);
+    store(result + i, integrate_outline(light, seen, frame, p, view, exponent, integral).x);
   }
 }
 

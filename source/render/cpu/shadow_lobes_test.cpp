@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/z_test.h"
+#include "render/cpu/judged_pictures.h"
 #include "render/cpu/camera_rays.h"
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
@@ -246,15 +247,7 @@ TEST(ShadowedLobes, AgreeWithRaysUnderEveryKindOfLight) {
     if (light.name != "glowing box") scene.meshes.resize(without_box);
     scene.area_lights = light.area;
     scene.punctual_lights = light.punctual;
-    options.method = "auto";
-    options.shadows = Shadows::off;
-    const Picture open = render(scene, options);
-    options.shadows = Shadows::exact;
-    const Picture analytic = render(scene, options);
-    options.method = "reference";
-    options.target_error = 0.05;
-    Picture reference = render(scene, options);
-    image::add_variance_of_rare_samples(reference, open);
+    auto [open, analytic, reference] = judged_pictures(scene, options, 0.05);
     std::size_t parts = 0;
     for (std::size_t i = 0; i < open.pixels.size(); ++i) {
       const float share = reference.pixels[i].x / std::max(open.pixels[i].x, 1e-9f);
@@ -296,15 +289,7 @@ TEST(ShadowedLobes, CutOutsLetThroughWhatRaysFind) {
   const AreaLight panel{panel_shape(), kColor}, ball{Ellipsoid{kCenter, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}}, kColor};
   for (const AreaLight& light : {panel, ball}) {
     scene.area_lights = {light};
-    options.method = "auto";
-    options.shadows = Shadows::off;
-    const Picture open = render(scene, options);
-    options.shadows = Shadows::exact;
-    const Picture analytic = render(scene, options);
-    options.method = "reference";
-    options.target_error = 0.05;
-    Picture reference = render(scene, options);
-    image::add_variance_of_rare_samples(reference, open);
+    auto [open, analytic, reference] = judged_pictures(scene, options, 0.05);
     // Spread by the cosine alone, so for the diffuse strip.
     for (std::size_t i = 0; i < open.pixels.size(); ++i)
       reference.layers.at("variance")[i] += open.pixels[i] * open.pixels[i] * (0.25f / 64);

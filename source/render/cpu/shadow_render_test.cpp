@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "image/z_test.h"
+#include "render/cpu/judged_pictures.h"
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
@@ -98,15 +99,7 @@ TEST(ShadowRender, AgreesWithTheReferenceAtEveryPixel) {
   for (const AreaLight& light : {panel(), disk(), ball(), tube()}) {
     Scene scene = still_life();
     scene.area_lights = {light};
-    RenderOptions options = small();
-    options.shadows = Shadows::exact;
-    const Picture analytic = render(scene, options);
-    options.method = "reference";
-    options.target_error = 0.02;
-    Picture reference = render(scene, options);
-    options.method = "auto";
-    options.shadows = Shadows::off;
-    add_variance_of_rare_samples(reference, render(scene, options));
+    const auto [open, analytic, reference] = judged_pictures(scene, small(), 0.02);
     // Round lights: polygons of 24 corners against 64 in the reference, 1e-3 of the light at most, which is a larger share of
     // what a penumbra leaves.
     const ZTest z = z_test(analytic, reference, std::holds_alternative<Polygon>(light.shape) ? 2e-4 : 5e-3);
@@ -183,13 +176,7 @@ TEST(ShadowRender, ASmoothTerminatorIsTheSameToRays) {
   const Scene scene = ball_scene(16, 8);
   RenderOptions options = small();
   options.terminator = Terminator::smooth;
-  const Picture analytic = render(scene, options);
-  options.method = "reference";
-  options.target_error = 0.02;
-  Picture reference = render(scene, options);
-  options.method = "auto";
-  options.shadows = Shadows::off;
-  add_variance_of_rare_samples(reference, render(scene, options));
+  const auto [open, analytic, reference] = judged_pictures(scene, options, 0.02);
   const ZTest z = z_test(analytic, reference, 2e-4);
   EXPECT_GT(z.tested, 500u);
   EXPECT_GE(z.share(), 0.9975) << "worst " << z.worst;

@@ -10,8 +10,10 @@
 #include "integrals/ltc/textured_light.h"
 #include "lobes/lobe.h"
 #include "render/cpu/closed_form.h"
+#include "render/cpu/comparison.h"
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
+#include "render/cpu/half_vector.h"
 #include "render/cpu/phong.h"
 #include "render/cpu/sheen.h"
 #include "render/cpu/textured_means.h"
@@ -123,10 +125,11 @@ Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, co
 
 SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
     : method_(method),
-      tables_(!table.empty()                      ? ltc_pack_tables(scene::read_classic_table(table))
-              : method.ggx == Method::ltc         ? method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables()
-                      : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
-                                                  : LtcPackTables{}),
+      tables_(!table.empty()                       ? ltc_pack_tables(scene::read_classic_table(table))
+              : method.ggx == Method::ltc_clipless ? ltc_classic_pack_tables()
+              : method.ggx == Method::ltc          ? method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables()
+                       : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
+                                                   : LtcPackTables{}),
       compact_tables_(ltc_compact_pack_tables()) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
@@ -145,7 +148,20 @@ bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, cons
     closed_form_table_for(active_simd()).ggx(light, points, method_.quality, sums.specular, sums.grazing);
     return true;
   }
-  if (method_.ggx != Method::ltc && method_.ggx != Method::ltc_compact) return false;
+  switch (method_.ggx) {
+    case Method::half_vector:
+      half_vector_table_for(active_simd()).ggx(light, points, methods::half_vector_options(method_.quality), sums.specular, sums.grazing);
+      return true;
+    case Method::ltc_clipless:
+      comparison_table_for(active_simd()).clipless(light, points, tables_, sums.specular, sums.grazing);
+      return true;
+    case Method::representative_point:
+      comparison_table_for(active_simd()).representative_point(light, points, sums.specular, sums.grazing);
+      return true;
+    case Method::ltc:
+    case Method::ltc_compact: break;
+    default: return false;
+  }
   const LtcPackTable& table = ltc_pack_table_for(active_simd());
   (method_.ggx == Method::ltc ? table.classic : table.compact)(light, points, tables_, sums);
   return true;
@@ -216,18 +232,49 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
   }
 }
 
+// As the layers' lobes go. False where the lobe asks for what those do not have.
+bool SpecularPass::add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
+                                    const std::vector<const PackLight*>& lights) const {
+  if (m.brdf != Brdf::ggx || !m.shadowing || m.multiple_scattering || m.tangent != Vec3d{} || method_.row_for(m).method != method_.ggx)
+    return false;
+  alignas(64) TilePlane alpha_x, alpha_y;
+  alpha_x.fill(static_cast<float>(m.alpha_x));
+  alpha_y.fill(static_cast<float>(m.alpha_y));
+  Lobe lobe = {tile.normal, alpha_x, alpha_y, {}, {}};
+  const auto fill = [&](TileVector& v, Vec3d value) {
+    const auto f = static_cast<Vec3f>(value);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const bool here = tile.material[i] == &surface;
+      v.x[i] = here ? f.x : 0;
+      v.y[i] = here ? f.y : 0;
+      v.z[i] = here ? f.z : 0;
+    }
+  };
+  fill(lobe.f0, m.f0);
+  fill(lobe.f90, m.f90);
+  add_ggx(tile, lobe, lights);
+  return true;
+}
+
 void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
   const std::set<const SurfaceMaterial*> materials(tile.material.begin(), tile.material.end());
   for (const SurfaceMaterial* surface : materials) {
     if (surface == nullptr) continue;
     for (const Material& material : surface->specular_override) {
-      if (material.brdf == Brdf::lambert) continue;
+      if (material.brdf == Brdf::lambert || add_ggx_override(tile, *surface, material, lights)) continue;
       const methods::Row& row = method_.row_for(material);
       for (const PackLight* light : lights) {
-        if (material.brdf == Brdf::phong && !material.foreshortening && (light->is_polygon() || light->is_pieces())) {
+        const bool phong = material.brdf == Brdf::phong && !material.foreshortening;
+        const bool microfacets = material.brdf == Brdf::beckmann || material.brdf == Brdf::blinn_phong;
+        if (light->is_area() && (phong || (microfacets && row.method == Method::half_vector))) {
           alignas(64) TilePlane result;
-          phong_table_for(active_simd()).radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
-          const Vec3f factor = light->radiance * static_cast<Vec3f>(material.albedo);
+          if (phong)
+            phong_table_for(active_simd())
+                .radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
+          else
+            half_vector_table_for(active_simd())
+                .lobe(*light, points_of(tile), material, methods::half_vector_options(method_.quality), result.data());
+          const Vec3f factor = phong ? light->radiance * static_cast<Vec3f>(material.albedo) : light->radiance;
           for (std::size_t i = 0; i < kTilePixels; ++i)
             if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);
           continue;

@@ -29,6 +29,8 @@ class SpecularPass {
   struct Lobe;
   void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
   void add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+  bool add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
+                        const std::vector<const PackLight*>& lights) const;
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
 

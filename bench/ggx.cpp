@@ -1,0 +1,134 @@
+// kernel/closed-form/quad and its draft and high qualities, and the other ways to GGX, Beckmann and Blinn-Phong lobes: one quad on
+// 16,384 pixels of a floor seen at a slant.
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "benches.h"
+#include "render/cpu/closed_form.h"
+#include "render/cpu/comparison.h"
+#include "render/cpu/half_vector.h"
+
+namespace steradian::bench {
+namespace {
+
+constexpr int kSide = 128;
+
+struct Floor {
+  std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, zero, alpha, plain, fresnel;
+  PackLight light;
+
+  Points points() const {
+    return {x.size(),
+            {x.data(), y.data(), z.data()},
+            {nx.data(), ny.data(), nz.data()},
+            {vx.data(), vy.data(), vz.data()},
+            {zero.data(), zero.data(), zero.data()},
+            alpha.data(),
+            alpha.data()};
+  }
+};
+
+// A floor of 8 by 8 m with gentle waves in its normals, an eye 2 m above its edge, an upright quad that dips below it, and
+// roughness from 0.1 to 0.85 from left to right. Pixels come in blocks of 4 by 4, as the renderer's tiles have them.
+std::shared_ptr<Floor> make_floor() {
+  auto floor = std::make_shared<Floor>();
+  for (int slot = 0; slot < kSide * kSide; ++slot) {
+    const int block = slot / 16, within = slot % 16;
+    const double i = block % (kSide / 4) * 4 + within % 4, j = block / (kSide / 4) * 4 + within / 4;
+    const Vec3d p{8 * (i + 0.5) / kSide - 4, 0, 8 * (j + 0.5) / kSide};
+    const Vec3d n = normalized(Vec3d{0.1 * std::sin(3 * p.x), 1.0, 0.1 * std::cos(2 * p.z)});
+    const Vec3d v = normalized(Vec3d{0, 2, 9} - p);
+    const double roughness = 0.1 + 0.75 * i / kSide;
+    const auto put = [](std::vector<float>& a, std::vector<float>& b, std::vector<float>& c, Vec3d w) {
+      a.push_back(static_cast<float>(w.x));
+      b.push_back(static_cast<float>(w.y));
+      c.push_back(static_cast<float>(w.z));
+    };
+    put(floor->x, floor->y, floor->z, p);
+    put(floor->nx, floor->ny, floor->nz, n);
+    put(floor->vx, floor->vy, floor->vz, v);
+    floor->alpha.push_back(static_cast<float>(roughness * roughness));
+  }
+  floor->zero.resize(floor->x.size());
+  floor->plain.resize(floor->x.size());
+  floor->fresnel.resize(floor->x.size());
+  PolygonLight quad;
+  quad.vertices = {{-1, -0.3, -0.5}, {1, -0.3, -0.5}, {1, 1.5, -0.7}, {-1, 1.5, -0.7}};
+  floor->light = prepare_light(prepare_polygon(quad));
+  return floor;
+}
+
+using Run = std::function<void(Floor&, Simd)>;
+
+Bench packs(const std::string& name, const Run& run, Simd simd) {
+  auto floor = make_floor();
+  return {name, floor->x.size(), name_of(simd), [floor, run, simd] {
+            run(*floor, simd);
+            keep(floor->plain.front());
+          }};
+}
+
+Run closed_form(Quality quality) {
+  return
+      [quality](Floor& f, Simd simd) { closed_form_table_for(simd).ggx(f.light, f.points(), quality, f.plain.data(), f.fresnel.data()); };
+}
+
+Run half_vector_ggx() {
+  return [](Floor& f, Simd simd) { half_vector_table_for(simd).ggx(f.light, f.points(), {}, f.plain.data(), f.fresnel.data()); };
+}
+
+Run half_vector(const Material& lobe) {
+  return [lobe](Floor& f, Simd simd) { half_vector_table_for(simd).lobe(f.light, f.points(), lobe, {}, f.plain.data()); };
+}
+
+Run clipless() {
+  return [tables = ltc_classic_pack_tables()](Floor& f, Simd simd) {
+    comparison_table_for(simd).clipless(f.light, f.points(), tables, f.plain.data(), f.fresnel.data());
+  };
+}
+
+Run representative_point() {
+  return
+      [](Floor& f, Simd simd) { comparison_table_for(simd).representative_point(f.light, f.points(), f.plain.data(), f.fresnel.data()); };
+}
+
+Material beckmann() {
+  Material m;
+  m.brdf = Brdf::beckmann;
+  m.alpha_x = m.alpha_y = 0.25;
+  return m;
+}
+
+Material blinn_phong() {
+  Material m;
+  m.brdf = Brdf::blinn_phong;
+  m.exponent = 32;
+  return m;
+}
+
+}  // namespace
+
+void add_ggx(BenchList& list) {
+  const std::pair<const char*, Run> named[] = {
+      {"kernel/closed-form/quad", closed_form(Quality::normal)},
+      {"kernel/closed-form-draft/quad", closed_form(Quality::draft)},
+      {"kernel/closed-form-high/quad", closed_form(Quality::high)},
+      {"kernel/half-vector/ggx/quad", half_vector_ggx()},
+      {"kernel/half-vector/beckmann/quad", half_vector(beckmann())},
+      {"kernel/half-vector/blinn-phong/quad", half_vector(blinn_phong())},
+      {"kernel/ltc-clipless/quad", clipless()},
+      {"kernel/representative-point/quad", representative_point()},
+  };
+  for (const auto& [title, run] : named) {
+    const std::string name = title;
+    list.add(name, [name, run](const BenchOptions& options) { return packs(name, run, options.simd); });
+    for (const Simd simd : available_simd()) {
+      const std::string one = name + "/" + name_of(simd);
+      list.add(one, [one, run, simd](const BenchOptions&) { return packs(one, run, simd); });
+    }
+  }
+}
+
+}  // namespace steradian::bench

@@ -1,0 +1,30 @@
+// For tests: a picture with exact shadows beside what judges it.
+#pragma once
+
+#include "image/z_test.h"
+#include "steradian/render.h"
+
+namespace steradian {
+
+struct JudgedPictures {
+  Picture open;       // by the method `auto`, without shadows
+  Picture analytic;   // by the method `auto`, with exact shadows
+  Picture reference;  // by rays, with their variance, rare samples' included
+};
+
+// options: of all three but method, shadows and target error.
+inline JudgedPictures judged_pictures(const Scene& scene, RenderOptions options, double target_error) {
+  JudgedPictures p;
+  options.method = "auto";
+  options.shadows = Shadows::off;
+  p.open = render(scene, options);
+  options.shadows = Shadows::exact;
+  p.analytic = render(scene, options);
+  options.method = "reference";
+  options.target_error = target_error;
+  p.reference = render(scene, options);
+  image::add_variance_of_rare_samples(p.reference, p.open);
+  return p;
+}
+
+}  // namespace steradian
