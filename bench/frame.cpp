@@ -3,7 +3,10 @@
 //   frame/direct/METHOD/1080p   a floor that fills the picture under one quad light; diffuse for `exact`, with a GGX lobe
 //                               on top for the others. The lighting is the passes `direct` and `specular`.
 //   frame/rays/arcade/1080p     primary rays of the colonnade alone
-//   frame/lights/N              a diffuse floor under N quad lights at 320 x 180
+//   frame/lights/N              a diffuse floor under N quad lights at 320 x 180, added up as `--lights auto` does
+//   frame/lights/N/all          the same one by one
+//   frame/lights/hall/N         a diffuse hall of 40 x 10 x 60 m with N small lights below its ceiling, on its walls and above its floor,
+//                               at 1080p; /all: one by one
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,7 +14,9 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benches.h"
@@ -89,11 +94,69 @@ Bench direct(const std::string& name, const std::string& method, int threads) {
   return bench_of(name, frame);
 }
 
-Bench lights(const std::string& name, int count) {
+// What the hall is lit by: 70 of 100 near the ceiling, tilted up to 29 degrees, 20 on walls, 10 lamps of any direction.
+AreaLight hall_light(std::mt19937& random, double size) {
+  // Not std::uniform_real_distribution, whose numbers are the library's choice.
+  const auto uniform = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) / 4294967296.0); };
+  const double kind = uniform(0, 1), z = uniform(-30, 30), a = size * uniform(0.5, 1.5), b = size * uniform(0.5, 1.5);
+  Vec3d center{uniform(-20, 20), uniform(9, 9.9), z}, normal{uniform(-0.4, 0.4), -1, uniform(-0.4, 0.4)};
+  if (kind >= 0.9) {
+    center.y = uniform(0.4, 2);
+    normal = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+  } else if (kind >= 0.7) {
+    const double side = kind < 0.8 ? -1 : 1;
+    center = {19.9 * side, uniform(1, 9), z};
+    normal = {-side, uniform(-0.3, 0.3), uniform(-0.3, 0.3)};
+  }
+  const steradian::Frame frame = steradian::Frame::from_normal(normalized(normal));
+  const Vec3d x = frame.x * a, y = frame.y * b;
+  AreaLight light;
+  light.shape = Polygon{{center - x - y, center + x - y, center + x + y, center - x + y}, {}};
+  light.radiance = {uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1)};
+  return light;
+}
+
+Mesh wall(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
+  Mesh mesh;
+  mesh.positions = {a, b, c, d};
+  mesh.normals.assign(4, normalized(cross(b - a, d - a)));
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+Scene hall(int count) {
+  Scene scene;
+  scene.materials = {diffuse()};
+  scene.meshes = {
+      wall({-20, 0, 30}, {20, 0, 30}, {20, 0, -30}, {-20, 0, -30}), wall({-20, 10, -30}, {20, 10, -30}, {20, 10, 30}, {-20, 10, 30}),
+      wall({-20, 0, 30}, {-20, 0, -30}, {-20, 10, -30}, {-20, 10, 30}), wall({20, 0, -30}, {20, 0, 30}, {20, 10, 30}, {20, 10, -30}),
+      wall({-20, 0, -30}, {20, 0, -30}, {20, 10, -30}, {-20, 10, -30})};
+  Camera camera;
+  camera.position = {0, 1.7, 29};
+  camera.yfov = 0.9;
+  scene.cameras = {camera};
+  std::mt19937 random(1);
+  for (int i = 0; i < count; ++i) scene.area_lights.push_back(hall_light(random, 0.25 * std::sqrt(1000.0 / count)));
+  return scene;
+}
+
+Bench hall_lights(const std::string& name, int count, LightSum sum) {
+  auto frame = std::make_shared<Frame>();
+  frame->scene = hall(count);
+  frame->options.width = kWidth;
+  frame->options.height = kHeight;
+  frame->options.method = "exact";
+  frame->options.lights = sum;
+  frame->options.threads = 1;
+  return bench_of(name, frame);
+}
+
+Bench lights(const std::string& name, int count, LightSum sum) {
   auto frame = std::make_shared<Frame>();
   frame->scene = floor_scene();
   frame->scene.materials[0] = diffuse();
   frame->scene.area_lights = ceiling(count);
+  frame->options.lights = sum;
   frame->options.width = 320;
   frame->options.height = 180;
   frame->options.method = "exact";
@@ -148,10 +211,18 @@ void add_frame(BenchList& list) {
   for (const std::string method : {"exact", "ltc-compact", "ltc", "closed-form"})
     add(list, "frame/direct/" + method + "/1080p", [=](const std::string& name, int threads) { return direct(name, method, threads); });
   if (std::filesystem::exists(arcade())) add(list, "frame/rays/arcade/1080p", rays);
-  for (const int count : {1, 10, 100, 1000}) {
-    const std::string name = "frame/lights/" + std::to_string(count);
-    list.add(name, [=](const BenchOptions&) { return lights(name, count); });
-  }
+  const std::pair<const char*, LightSum> sums[] = {{"", LightSum::automatic}, {"/all", LightSum::all}};
+  for (const int count : {1, 10, 16, 64, 100, 1000, 10000})
+    for (const auto& [suffix, sum] : sums) {
+      const std::string name = "frame/lights/" + std::to_string(count) + suffix;
+      list.add(name, [=, sum = sum](const BenchOptions&) { return lights(name, count, sum); });
+    }
+  for (const int count : {100, 1000, 10000, 100000})
+    for (const auto& [suffix, sum] : sums) {
+      if (count > 1000 && sum == LightSum::all) continue;  // a minute a frame
+      const std::string name = "frame/lights/hall/" + std::to_string(count) + suffix;
+      list.add(name, [=, sum = sum](const BenchOptions&) { return hall_lights(name, count, sum); });
+    }
 }
 
 }  // namespace steradian::bench

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|textured_floor|ring|arcade|hall ...]
+"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|textured_floor|ring|arcade|hall|stadium ...]
 
 Standard library only; the same bytes on every machine: coordinates are rounded before they become floats.
 """
@@ -152,6 +152,14 @@ class Gltf:
         lights = self.json.setdefault("extensions", {}).setdefault(extension, {"lights": []})["lights"]
         lights.append({"name": name, **light})
         self.node(name, extensions={extension: {"light": len(lights) - 1}}, **node)
+
+    def lamp(self, name, light):
+        """An area light for any number of nodes: the function takes their name and place."""
+        self.use("EXT_lights_area")
+        lights = self.json.setdefault("extensions", {}).setdefault("EXT_lights_area", {"lights": []})["lights"]
+        lights.append({"name": name, **light})
+        number = len(lights) - 1
+        return lambda **node: self.node(name, extensions={"EXT_lights_area": {"light": number}}, **node)
 
     def area_light(self, name, light, **node):
         self.light("EXT_lights_area", name, light, **node)
@@ -607,8 +615,84 @@ def grille():
     return g
 
 
+def facing(direction):
+    """The rotation that turns a light's -Z along a direction, its x level."""
+    length = math.sqrt(sum(c * c for c in direction))
+    x, y, z = (c / length for c in direction)
+    yaw, pitch = math.atan2(-x, -z), math.asin(max(-1.0, min(1.0, y)))
+    sy, cy, sp, cp = math.sin(yaw / 2), math.cos(yaw / 2), math.sin(pitch / 2), math.cos(pitch / 2)
+    return [rounded(c) for c in (cy * sp, sy * cp, -sy * sp, cy * cp)]
+
+
+def stadium():
+    """A stadium at night: 10,000 lamps, of which 2,400 under the roof, 6,600 along the steps and 1,000 boards around the pitch."""
+    g = Gltf()
+    grass = [g.diffuse("grass %d" % i, c) for i, c in enumerate(((0.10, 0.26, 0.07), (0.13, 0.32, 0.09)))]
+    white, concrete, track = g.diffuse("line", (0.75, 0.75, 0.72)), g.diffuse("concrete", (0.42, 0.42, 0.44)), g.diffuse("track", (0.32, 0.13, 0.09))
+
+    def ellipse(k, a):
+        """Terrace k of 15, at the angle a."""
+        return (66.0 + 2.4 * k) * math.cos(a), (47.0 + 2.4 * k) * math.sin(a)
+
+    g.node("track", mesh=g.mesh("track", plate((-80, -0.02, 60), (80, -0.02, 60), (80, -0.02, -60), (-80, -0.02, -60)), track))
+    for i in range(14):
+        x = -52.5 + 7.5 * i
+        g.node("grass", mesh=g.mesh("grass", plate((x, 0, 34), (x + 7.5, 0, 34), (x + 7.5, 0, -34), (x, 0, -34)), grass[i % 2]))
+    lines = Shape()
+    for x0, x1, z0, z1 in ((-52.5, 52.5, -34, -33.8), (-52.5, 52.5, 33.8, 34), (-52.5, -52.3, -34, 34), (52.3, 52.5, -34, 34), (-0.1, 0.1, -34, 34),
+                           (-36, -35.8, -20, 20), (35.8, 36, -20, 20), (-52.5, -36, -20.2, -20), (-52.5, -36, 20, 20.2), (36, 52.5, -20.2, -20),
+                           (36, 52.5, 20, 20.2)):
+        lines.quad((x0, 0.01, z1), (x1, 0.01, z1), (x1, 0.01, z0), (x0, 0.01, z0))
+    circle = 72
+    for i in range(circle):
+        a, b = 2 * math.pi * i / circle, 2 * math.pi * (i + 1) / circle
+        p = [(r * math.cos(t), 0.01, -r * math.sin(t)) for r, t in ((9.05, a), (9.25, a), (9.25, b), (9.05, b))]
+        lines.quad(*p)
+    g.node("lines", mesh=g.mesh("lines", lines, white))
+
+    # Treads and risers: level, then up, from the pitch outwards; a wall behind the last.
+    steps, columns, rows = Shape(), 120, 15
+    for k in range(rows):
+        y = 1.5 + 1.6 * k
+        for i in range(columns):
+            a, b = 2 * math.pi * i / columns, 2 * math.pi * (i + 1) / columns
+            (x0, z0), (x1, z1), (x2, z2), (x3, z3) = ellipse(k, a), ellipse(k, b), ellipse(k + 1, b), ellipse(k + 1, a)
+            low = 0.0 if k == 0 else y - 1.6
+            steps.quad((x0, low, z0), (x1, low, z1), (x1, y, z1), (x0, y, z0))
+            steps.quad((x0, y, z0), (x1, y, z1), (x2, y, z2), (x3, y, z3))
+            if k == rows - 1:
+                steps.quad((x3, y, z3), (x2, y, z2), (x2, 34.0, z2), (x3, 34.0, z3))
+    g.node("steps", mesh=g.mesh("steps", steps, concrete))
+
+    roof = [g.lamp("roof", {"type": "rect", "color": c, "intensity": 26000.0, "size": 0.5, "rect": {"aspect": 1.0}}) for c in
+            ([1.0, 0.93, 0.84], [0.84, 0.92, 1.0])]
+    for i in range(2400):
+        a, row = 2 * math.pi * (i // 3) / 800, i % 3
+        x, z = ellipse(12.5 - row, a)
+        aim = (0.55 * x * (0.2 + 0.8 * (i % 7) / 6) - x, -31.0, 0.45 * z * (0.2 + 0.8 * (i % 5) / 4) - z)
+        roof[i // 300 % 2](translation=[rounded(x), 33.5, rounded(z)], rotation=facing(aim))
+    colors = ([1.0, 0.42, 0.10], [1.0, 0.72, 0.30], [0.25, 0.45, 1.0], [0.75, 0.25, 0.95])
+    step = [g.lamp("step", {"type": "rect", "color": c, "intensity": 2600.0, "size": 0.12, "rect": {"aspect": 3.0}}) for c in colors]
+    for i in range(6600):
+        k, n = 1 + i // 471, i % 471
+        a = 2 * math.pi * (n + 0.5 * (k % 2)) / 471
+        x, z = ellipse(k - 0.02, a)
+        step[int(8 * a / (2 * math.pi)) % 4](translation=[rounded(x), rounded(1.5 + 1.6 * (k - 1) + 1.1), rounded(z)], rotation=facing((-x, -40.0, -z * 1.4)))
+    board = [g.lamp("board", {"type": "rect", "color": c, "intensity": 900.0, "size": 0.8, "rect": {"aspect": 0.6}}) for c in
+             ([0.1, 0.7, 1.0], [1.0, 0.25, 0.15], [0.95, 0.95, 0.9], [0.3, 1.0, 0.35])]
+    for i in range(1000):
+        long = i < 600
+        t = ((i % 300 + 0.5) / 300 if long else (i - 600) % 200 / 200 + 0.0025) * 2 - 1
+        side = 1.0 if (i < 300 if long else i < 800) else -1.0
+        x, z = (52.0 * t, 37.0 * side) if long else (56.0 * side, 36.0 * t)
+        board[i // 25 % 4](translation=[rounded(x), 0.5, rounded(z)], rotation=facing((0, -0.1, -side) if long else (-side, -0.1, 0)))
+    g.camera("main", [38.0, 19.0, 66.0], [-14.0, 3.0, -14.0], 0.85)
+    g.camera("pitch", [-20.0, 1.7, 20.0], [20.0, 6.0, -20.0], 0.9)
+    return g
+
+
 SCENES = {"room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
-          "ring": ring, "arcade": arcade, "hall": hall}
+          "ring": ring, "arcade": arcade, "hall": hall, "stadium": stadium}
 
 
 def main():

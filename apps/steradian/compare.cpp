@@ -29,7 +29,7 @@ struct Options {
   std::string scene, output, size, exposure = "auto", shadows = "off";
   std::vector<std::string> methods;
   bool settings = true;
-  int max_lights = 256;
+  std::optional<int> max_lights;
   Limits limits;
   RenderOptions render;
 };
@@ -309,7 +309,8 @@ void add_compare(CLI::App& app, Exit&) {
   verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
   verb->add_option("--exposure", options->exposure, "of the page and of FLIP: stops, or auto")->group("Picture");
   verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
-  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")->check(CLI::Range(1, 1 << 20));
+  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
+      ->check(CLI::Range(1, 1 << 20));
   verb->add_option("--spp", r.spp, "of sampled and marched, in the table")->check(CLI::Range(1, 1 << 20))->group("Sampling");
   verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
       ->check(CLI::Range(1e-6, 1.0))

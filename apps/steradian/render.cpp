@@ -35,9 +35,10 @@ constexpr const char* kDefaultSize = "1280x720";
 struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
-                             exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black";
+                             exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black",
+                             light_sum = "auto";
   std::vector<std::string> lights;
-  int max_lights = 256;
+  std::optional<int> max_lights;
   Limits limits;
   bool moments = false, multiple_scattering = false, spp_given = false, resume = false;
   RenderOptions render;
@@ -78,6 +79,11 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
           {"environment_spots", stats.environment_spots},
           {"diffuse_residual", stats.diffuse_residual},
           {"shadow_fallback", stats.shadow_fallback},
+          {"light_sum", stats.light_tree ? "tree" : "all"},
+          {"light_elements", stats.light_elements},
+          {"light_outlines", stats.light_outlines},
+          {"light_bound_max", stats.light_bound_max},
+          {"light_bound_mean", stats.light_bound_mean},
           {"total_ms", stats.total_ms}};
 }
 
@@ -109,7 +115,7 @@ std::string identity_of(const Options& options, const Scene& scene) {
   const RenderOptions& r = options.render;
   return fmt::format(
              "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} {} | scattering {}",
-             version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights,
+             version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights.value_or(0),
              fmt::join(options.lights, ","), options.light_units, options.environment, options.background, r.camera, r.method,
              options.quality, options.shadows, options.terminator, options.multiple_scattering) +
          fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", options.indirect, r.indirect.virtual_lights,
@@ -138,6 +144,7 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
   refuse_without_effect(verb, {{"--spp", samples, "--method sampled or --indirect path"},
                                {"--target-error", r.method == "reference", "--method reference"},
                                {"--terminator", options.shadows != "off", "--shadows on or exact"},
+                               {"--light-error", options.light_sum != "all", "--lights auto or tree"},
                                {"--resume", samples || r.method == "reference", "--method reference or sampled, or --indirect path"},
                                {"--vpls", points, bounce},
                                {"--indirect-pairs", points, bounce},
@@ -165,6 +172,8 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
                                {"--indirect-clamp", false, third},
                                {"--max-lights", false, third},
                                {"--light", false, third},
+                               {"--lights", false, third},
+                               {"--light-error", false, third},
                                {"--environment", false, third},
                                {"--background", false, third},
                                {"--light-units", false, third},
@@ -209,6 +218,7 @@ void run(const CLI::App& verb, Options& options) {
   parse_size(options.size, render_options);
   render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
   render_options.terminator = options.terminator == "smooth" ? Terminator::smooth : Terminator::strict;
+  render_options.lights = options.light_sum == "all" ? LightSum::all : options.light_sum == "tree" ? LightSum::tree : LightSum::automatic;
   render_options.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
 
   refuse_unused_in_space(verb, options);
@@ -268,6 +278,7 @@ void run(const CLI::App& verb, Options& options) {
                       {"steradian.aa", std::to_string(render_options.aa)},
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)}};
+  if (stats.light_tree) picture.metadata["steradian.light_error"] = fmt::format("{}", render_options.light_error);
   write_picture(picture, options.output, exposure);
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
@@ -322,7 +333,16 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--indirect-clamp", options->indirect_clamp, "soft bound of near virtual lights, by their area")
       ->check(CLI::IsMember({"on", "off"}))
       ->group("Light");
-  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first")->check(CLI::Range(1, 1 << 20))->group("Light");
+  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
+      ->check(CLI::Range(1, 1 << 20))
+      ->group("Light");
+  verb->add_option("--lights", options->light_sum,
+                   "diffuse light: all one by one, far ones together (tree) within a bound (layer light_bound); auto: tree from 64 on")
+      ->check(CLI::IsMember({"auto", "all", "tree"}))
+      ->group("Light");
+  verb->add_option("--light-error", r.light_error, "of tree: error of each light, as a share of what it sends where it faces best")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->group("Light");
   verb->add_option("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
       ->check(CLI::IsMember({"default", "none", "sun", "studio"}))
       ->group("Light");

@@ -1,6 +1,7 @@
 // load_scene: a glTF 2.0 file (.gltf or .glb) to a Scene. What is read and what is not: docs/scenes.md.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,8 @@ enum class AddedLight { standard, none, sun, studio };
 enum class LightUnits { from_generator, candela, watt };
 
 struct LoadOptions {
-  int max_lights = 256;  // area lights kept, strongest first (AreaLight::power); at least 1
+  // Area lights kept, strongest first (AreaLight::power); at least 1. None: 256, and room for every mesh and single light, up to 65,536.
+  std::optional<int> max_lights = {};
   Limits limits{};
   std::string environment = {};  // as load_environment takes it; empty: the file's own (EXT_lights_image_based), if any
   LightUnits light_units = LightUnits::from_generator;

@@ -22,6 +22,10 @@ enum class Shadows { off, on, exact };
 // vertices' normals describe; points are lit from there, and no triangle hides what lies below its own horizon.
 enum class Terminator { strict, smooth };
 
+// How area lights add up. all: each by itself at every pixel. tree: the diffuse light of those far from a group of neighbouring pixels
+// together, within a bound; see docs/manylights.md. automatic: tree from 64 lights on.
+enum class LightSum { automatic, all, tree };
+
 struct RenderOptions {
   int width = 1280;
   int height = 720;
@@ -31,11 +35,13 @@ struct RenderOptions {
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
   Terminator terminator = Terminator::strict;  // of shadows; without them it has no effect
-  bool background = true;                      // the camera sees the scene's environment; false: black
-  int aa = 1;                                  // primary samples a pixel, at the same places in every pixel
-  int spp = 16;                                // of `sampled`: light and lobe sample pairs per light and primary sample
-  double target_error = 0.01;                  // of `reference`: rms of the standard error over rms of the picture
-  IndirectOptions indirect;                    // one bounce, at the first primary sample of each pixel; see indirect.h
+  LightSum lights = LightSum::automatic;
+  double light_error = 1e-2;   // of tree: of each light, as a share of what it sends to a surface that faces it as nearly as possible
+  bool background = true;      // the camera sees the scene's environment; false: black
+  int aa = 1;                  // primary samples a pixel, at the same places in every pixel
+  int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
+  double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
+  IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   int threads = 0;                                                        // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
@@ -63,6 +69,11 @@ struct RenderStats {
   std::size_t triangles = 0;
   double environment_spots = 0;       // share of the environment's light that polygon lights carry
   double diffuse_residual = 0;        // bound of the rms error of the rest's irradiance over its mean
+  bool light_tree = false;            // many lights were added up together; the layer "light_bound" says how far each pixel may be off
+  double light_elements = 0;          // lights that were one or four elements at a point by themselves, on average over diffuse points
+  double light_outlines = 0;          // and that were walked around
+  double light_bound_max = 0;         // the layer's largest value ...
+  double light_bound_mean = 0;        // ... and its mean, over pixels and channels
   double shadow_fallback = 0;         // share of pairs of a surface and a light whose shadows rays have estimated
   std::vector<std::string> warnings;  // what the method leaves out, a sentence each
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -38,6 +39,15 @@ std::vector<std::size_t> sources(const Scene& scene) {
     for (const std::int32_t light : scene.meshes[m].triangle_lights)
       if (light >= 0) source[static_cast<std::size_t>(light)] = m;
   return source;
+}
+
+constexpr std::size_t kFewest = 256, kMost = 65536;  // kept where nobody says how many
+
+// How many sources shine.
+std::size_t count_of(const std::vector<std::size_t>& source, const std::vector<std::size_t>& with_power) {
+  std::set<std::size_t> shining;
+  for (const std::size_t i : with_power) shining.insert(source[i]);
+  return shining.size();
 }
 
 // Which lights of one source to keep, `count` of them: those that hold the middles of as many equal parts of its power, in the file's
@@ -165,16 +175,17 @@ void remove_others(Scene& scene, const std::vector<bool>& keep) {
 
 }  // namespace
 
-KeptLights keep_strongest(Scene& scene, std::size_t most, Budget& budget, const std::string& path) {
+KeptLights keep_strongest(Scene& scene, std::optional<std::size_t> wanted, Budget& budget, const std::string& path) {
   KeptLights result;
   std::vector<std::size_t> with_power;
   std::vector<bool> keep(scene.area_lights.size(), false);
   for (std::size_t i = 0; i < scene.area_lights.size(); ++i)
     if (scene.area_lights[i].power > 0) with_power.push_back(i), keep[i] = true;
   result.without_power = scene.area_lights.size() - with_power.size();
-  if (most < with_power.size()) {
-    const std::vector<std::size_t> source = sources(scene);
-    keep = choose(scene.area_lights, source, scene.meshes.size() + scene.area_lights.size(), with_power, most);
+  const std::vector<std::size_t> source = sources(scene);
+  result.most = wanted.value_or(std::clamp(count_of(source, with_power), kFewest, kMost));
+  if (result.most < with_power.size()) {
+    keep = choose(scene.area_lights, source, scene.meshes.size() + scene.area_lights.size(), with_power, result.most);
     merge_into_kept(scene, source, with_power, keep, budget, path, result);
   }
   remove_others(scene, keep);

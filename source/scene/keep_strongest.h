@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "core/budget.h"
@@ -10,6 +11,7 @@
 namespace steradian::scene {
 
 struct KeptLights {
+  std::size_t most = 0;                        // that were to be kept
   std::size_t without_power = 0;               // dropped: without area or radiance
   std::size_t merged = 0;                      // into others of their meshes
   std::size_t dropped = 0;                     // for want of one
@@ -22,6 +24,9 @@ struct KeptLights {
 // its share of the power, spread evenly over it. The power of a mesh's other polygons goes to the nearest that is kept of it and faces the
 // same way (where none does: to the nearest), whose radiance grows. Throws Error where finding those would exceed the budget; path: of the
 // file, for its message.
-KeptLights keep_strongest(Scene& scene, std::size_t most, Budget& budget, const std::string& path);
+//
+// most: none: 256, or as many as there are meshes and single lights that shine, but no more than 65,536: what one pass may add up together
+// (RenderOptions::lights) is not to be lost by a file's default.
+KeptLights keep_strongest(Scene& scene, std::optional<std::size_t> most, Budget& budget, const std::string& path);
 
 }  // namespace steradian::scene

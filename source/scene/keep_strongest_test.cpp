@@ -114,6 +114,19 @@ TEST(KeepStrongest, RefusesMorePairsThanTheBudgetHas) {
   EXPECT_THROW(keep_strongest(scene, 60, budget, "a test"), Error);
 }
 
+TEST(KeepStrongest, GivesEveryMeshAPlaceWhereNobodySaysHowMany) {
+  std::vector<Mesh> meshes;
+  for (int i = 0; i < 300; ++i) meshes.push_back(ribbon(2, {3.0 * i, 0, 0}));
+  Scene scene = emitting(meshes, 1);
+  ASSERT_EQ(scene.area_lights.size(), 600u);
+  Budget budget;
+  const KeptLights kept = keep_strongest(scene, {}, budget, "a test");
+  EXPECT_EQ(kept.most, 300u);
+  EXPECT_EQ(kept.dropped, 0u);
+  EXPECT_EQ(kept.merged, 300u);
+  EXPECT_EQ(scene.area_lights.size(), 300u);
+}
+
 TEST(KeepStrongest, IsSaidOfAFile) {
   GltfTestFile f;
   std::vector<float> positions;

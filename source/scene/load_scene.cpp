@@ -60,8 +60,8 @@ std::string percent(double share) {
   return text;
 }
 
-void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, const LoadOptions& options, Warnings& warnings) {
-  const std::string most = std::to_string(options.max_lights) + " are kept (max-lights)";
+void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, Warnings& warnings) {
+  const std::string most = std::to_string(kept.most) + " are kept (max-lights)";
   if (without_area > 0) warnings.say(counted(without_area, "emissive triangle") + " without area dropped");
   if (kept.without_power > 0) warnings.say(counted(kept.without_power, "area light") + " without area or radiance dropped");
   if (kept.merged > 0)
@@ -118,8 +118,9 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   scene.environment = read_image_based_light(document, textures);
   add_area_lights(document, nodes, scene);
   const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
-  say_what_was_dropped(keep_strongest(scene, static_cast<std::size_t>(options.max_lights), document.budget(), document.path), without_area,
-                       options, warnings);
+  std::optional<std::size_t> most;
+  if (options.max_lights) most = static_cast<std::size_t>(*options.max_lights);
+  say_what_was_dropped(keep_strongest(scene, most, document.budget(), document.path), without_area, warnings);
 
   measure_bounds(scene);
   check_extent(scene, document.path);
@@ -148,7 +149,8 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
 }
 
 LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {
-  if (options.max_lights < 1) throw Error("max_lights", "is " + std::to_string(options.max_lights) + ", must be at least 1");
+  if (options.max_lights && *options.max_lights < 1)
+    throw Error("max_lights", "is " + std::to_string(*options.max_lights) + ", must be at least 1");
   try {
     return read_scene(read_gltf(file, path, budget), options);
   } catch (const std::bad_alloc&) {

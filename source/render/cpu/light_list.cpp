@@ -166,7 +166,7 @@ std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light,
   return packed::prepare(cut);
 }
 
-ReachingLights lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile) {
+ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceTile& tile) {
   Box positions, normals;
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (tile.material[i] == nullptr) continue;
@@ -176,13 +176,13 @@ ReachingLights lights_reaching(const std::vector<PackLight>& lights, const Surfa
   }
   const Vec3d low{positions.x.low, positions.y.low, positions.z.low}, high{positions.x.high, positions.y.high, positions.z.high};
   ReachingLights result;
-  for (const PackLight& light : lights) {
-    if (!reaches(light, positions, normals)) continue;
-    result.lights.push_back(&light);
-    if (!light.is_polygon()) continue;
-    std::optional<packed::Polygon> cut = with_long_edges_cut(light.polygon, (low + high) / 2, length(high - low) / 2);
+  for (const PackLight* light : lights) {
+    if (!reaches(*light, positions, normals)) continue;
+    result.lights.push_back(light);
+    if (!light->is_polygon()) continue;
+    std::optional<packed::Polygon> cut = with_long_edges_cut(light->polygon, (low + high) / 2, length(high - low) / 2);
     if (!cut) continue;
-    result.cut.push_back(std::make_unique<PackLight>(light));
+    result.cut.push_back(std::make_unique<PackLight>(*light));
     result.cut.back()->shape = std::move(*cut);
     result.lights.back() = result.cut.back().get();
   }

@@ -55,7 +55,7 @@ struct ReachingLights {
 };
 
 // By conservative bounds of positions and normals against the light's plane and the surfaces' horizons.
-ReachingLights lights_reaching(const std::vector<PackLight>& lights, const SurfaceTile& tile);
+ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceTile& tile);
 
 // The polygon with corners between those of its edges that points of the ball see under nearly half a turn: an edge whose ends are all but
 // opposite leaves single precision no direction in between. The same outline; empty where no edge is as long.

@@ -23,6 +23,7 @@
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
 #include "render/environment/environment_light.h"
+#include "render/lights/many_lights.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -83,6 +84,7 @@ class Renderer {
         rays_(scene),
         environment_(prepare_environment(scene)),
         lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
+        many_lights_(prepare_many_lights()),
         direct_(direct_table_for(active_simd())),
         maps_(scene.images),
         shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, &maps_,
@@ -133,6 +135,14 @@ class Renderer {
       stats.environment_spots = environment_->share_of_spots();
       stats.diffuse_residual = environment_->diffuse_residual();
     }
+    if (many_lights_) {
+      stats.light_tree = true;
+      lights::Counts all;
+      for (const auto& work : light_work_) all += lights::ManyLights::counts(*work);
+      const double points = std::max(static_cast<double>(all.points), 1.0);
+      stats.light_elements = static_cast<double>(all.elements) / points;
+      stats.light_outlines = static_cast<double>(all.outlines) / points;
+    }
     if (shadows_) {
       stats.passes.push_back(shadow_clock_.time(threads_));
       ShadowCounts counts;
@@ -163,6 +173,19 @@ class Renderer {
     return light;
   }
 
+  static std::vector<const PackLight*> pointers_to(const std::vector<PackLight>& lights) {
+    std::vector<const PackLight*> pointers;
+    for (const PackLight& light : lights) pointers.push_back(&light);
+    return pointers;
+  }
+
+  std::unique_ptr<const lights::ManyLights> prepare_many_lights() {
+    constexpr std::size_t kMany = 64;  // from here on automatic takes the tree
+    const bool wanted = options_.lights == LightSum::tree || (options_.lights == LightSum::automatic && lights_.size() >= kMany);
+    if (!wanted || method_.estimates()) return nullptr;
+    return std::make_unique<const lights::ManyLights>(lights_, camera_.origin(), static_cast<float>(options_.light_error));
+  }
+
   int tile_count() const { return tiles_x_ * tiles_y_; }
 
   TileArea area(int index) const {
@@ -178,6 +201,7 @@ class Renderer {
       picture = Picture(options_.width, options_.height);
       state.done.assign(tiles, 0);
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
+      if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
         (picture.layers.count("variance") != 0) != method_.estimates())
@@ -309,8 +333,25 @@ class Renderer {
     return pairs;
   }
 
+  // The same of many lights, the diffuse light of those far off together.
+  void add_many_lights(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+    if (method_.exact_diffuse && tile.any_diffuse)
+      direct_clock_.run([&] {
+        std::vector<const PackLight*> together, plain;
+        for (const PackLight* light : lights) (many_lights_->serves(*light) ? together : plain).push_back(light);
+        many_lights_->add_diffuse(tile, together, *light_bounds_.local(), *light_work_.local());
+        const std::vector<const PackLight*> untextured = without_textured(plain);
+        if (!untextured.empty()) direct_.add_diffuse(tile, untextured.data(), untextured.size());
+        if (untextured.size() < plain.size()) add_diffuse_from_textured(tile, plain);
+      });
+    const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), *light_bounds_.local()};
+    specular_clock_.run([&] { specular_.add(tile, lights, SpecularPass::Walk::specular_alone, &far); });
+  }
+
   // What the lights send without sampling, nothing between.
   void add_light(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+    constexpr std::size_t kFew = 8;  // are done before cells are
+    if (many_lights_ && lights.size() > kFew) return add_many_lights(tile, lights);
     if (method_.exact_diffuse && tile.any_diffuse)
       direct_clock_.run([&] {
         std::vector<const PackLight*> plain = without_textured(lights);
@@ -420,11 +461,19 @@ class Renderer {
   // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
   void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture) {
     const float weight = 1.0f / static_cast<float>(options_.aa);
-    const auto reaching = lights_reaching(lights_, tile);
-    if (shadows_) {
-      add_shadowed(tile, reaching.lights);
+    TileVector* bounds = many_lights_ ? light_bounds_.local().get() : nullptr;
+    std::vector<Vec3f>* bound_layer = many_lights_ ? &picture.layers.at("light_bound") : nullptr;
+    if (bounds != nullptr) *bounds = {};
+    const bool diffuse_alone = !(tile.any_specular || tile.any_sheen || tile.any_coat || tile.any_override);
+    if (many_lights_ && !shadows_ && diffuse_alone) {
+      add_light(tile, light_pointers_);  // it finds out by itself whom they reach
     } else {
-      add_light(tile, reaching.lights);
+      const auto reaching = lights_reaching(light_pointers_, tile);
+      if (shadows_) {
+        add_shadowed(tile, reaching.lights);
+      } else {
+        add_light(tile, reaching.lights);
+      }
     }
     if (environment_ && !method_.estimates()) environment_clock_.run([&] { add_environment(tile); });
     if (method_.estimates())
@@ -446,6 +495,11 @@ class Renderer {
         const Vec3f radiance{tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]};
         const Vec3f share = shares != nullptr ? Vec3f{shares->x[i], shares->y[i], shares->z[i]} : Vec3f{1, 1, 1};
         picture.at(a.x + x, a.y + y) += radiance * share * weight;
+        if (bounds != nullptr) {
+          const auto pixel =
+              static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(a.x + x);
+          (*bound_layer)[pixel] += Vec3f{bounds->x[i], bounds->y[i], bounds->z[i]} * share * weight;
+        }
       }
   }
 
@@ -490,6 +544,8 @@ class Renderer {
   double environment_build_ms_ = 0;
   const std::unique_ptr<const environment::EnvironmentLight> environment_;  // null without one
   const std::vector<PackLight> lights_;
+  const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
+  const std::unique_ptr<const lights::ManyLights> many_lights_;  // null where each light is done by itself
   const DirectTable& direct_;
   const MipMaps maps_;
   const Shading shading_;
@@ -500,6 +556,8 @@ class Renderer {
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
   std::optional<ShadowPass> shadows_;
+  tbb::enumerable_thread_specific<lights::ManyLights::WorkPointer> light_work_{[] { return lights::ManyLights::make_work(); }};
+  tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> light_bounds_{[] { return std::make_unique<TileVector>(); }};
   tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"},
@@ -517,6 +575,14 @@ Picture render(const Scene& scene, const RenderOptions& options, RenderStats* st
   Picture picture = renderer.render(kept);
   kept.complete = !renderer.stopped();
   if (stats != nullptr) renderer.report(*stats);
+  if (const auto layer = picture.layers.find("light_bound"); stats != nullptr && layer != picture.layers.end()) {
+    double sum = 0;
+    for (const Vec3f& bound : layer->second) {
+      stats->light_bound_max = std::max(stats->light_bound_max, static_cast<double>(std::max({bound.x, bound.y, bound.z})));
+      sum += static_cast<double>(bound.x + bound.y + bound.z) / 3;
+    }
+    stats->light_bound_mean = sum / static_cast<double>(std::max<std::size_t>(layer->second.size(), 1));
+  }
   return picture;
 }
 

@@ -17,6 +17,7 @@
 #include "render/cpu/phong.h"
 #include "render/cpu/sheen.h"
 #include "render/cpu/textured_means.h"
+#include "render/lights/lobe_elements.h"
 #include "scene/table_file.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
@@ -214,6 +215,67 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
   }
 }
 
+// Elements serve sixteen points at a time. A light's other points stand side by side for its outline.
+void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights, const Far& far) const {
+  std::vector<const PackLight*> together, others;
+  std::vector<std::uint32_t> numbers;
+  for (const PackLight* light : lights) {
+    const std::int32_t number = far.lights.number_of[light->index];
+    if (number >= 0 && light->is_polygon() && far.lights.area[static_cast<std::size_t>(number)] > 0) {
+      together.push_back(light);
+      numbers.push_back(static_cast<std::uint32_t>(number));
+    } else {
+      others.push_back(light);
+    }
+  }
+  const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
+  const lights::LobeElementTable& elements = lobe_element_table_for(active_simd());
+  lights::LobeSums sums = {};
+  std::vector<std::uint64_t> left(numbers.size(), 0);
+  (method_.ggx == Method::ltc ? elements.classic : elements.compact)(far.lights, numbers.data(), numbers.size(), points, tables_, far.error,
+                                                                     sums, left.data());
+  const auto reflected = [&](std::size_t i, Vec3f plain, Vec3f fresnel) {
+    return get(lobe.f0, i) * (plain - fresnel) + get(lobe.f90, i) * fresnel;
+  };
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    add_to(tile.radiance, i, reflected(i, get(sums.specular, i), get(sums.grazing, i)));
+    add_to(far.bound, i, reflected(i, get(sums.specular_error, i), get(sums.grazing_error, i)));
+  }
+
+  const LtcPackTable& outlines = ltc_pack_table_for(active_simd());
+  TileVector position, normal, view;
+  alignas(64) TilePlane alpha, plain, fresnel;
+  std::array<std::size_t, kTilePixels> slots;
+  for (std::size_t n = 0; n < together.size(); ++n) {
+    Points some;
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if ((left[n] >> i / 16 & 1) == 0) continue;
+      const std::size_t k = some.count++;
+      slots[k] = i;
+      position.x[k] = tile.position.x[i];
+      position.y[k] = tile.position.y[i];
+      position.z[k] = tile.position.z[i];
+      normal.x[k] = lobe.normal.x[i];
+      normal.y[k] = lobe.normal.y[i];
+      normal.z[k] = lobe.normal.z[i];
+      view.x[k] = tile.view.x[i];
+      view.y[k] = tile.view.y[i];
+      view.z[k] = tile.view.z[i];
+      alpha[k] = lobe.alpha_x[i];
+    }
+    if (some.count == 0) continue;
+    some.position = arrays_of(position);
+    some.normal = arrays_of(normal);
+    some.view = arrays_of(view);
+    some.alpha_x = some.alpha_y = alpha.data();
+    const LtcSums one = {nullptr, plain.data(), fresnel.data()};
+    (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(*together[n], some, tables_, one);
+    const Vec3f light = together[n]->radiance;
+    for (std::size_t k = 0; k < some.count; ++k) add_to(tile.radiance, slots[k], reflected(slots[k], light * plain[k], light * fresnel[k]));
+  }
+  if (!others.empty()) add_ggx(tile, lobe, others);
+}
+
 // By its cubature whatever the method of GGX.
 void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
   alignas(64) TilePlane plain;
@@ -293,8 +355,17 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
   }
 }
 
-void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
-  if (tile.any_specular) add_ggx(tile, {tile.normal, tile.alpha_x, tile.alpha_y, tile.f0, tile.f90, true}, lights);
+void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk, const Far* far) const {
+  // The lobe times (1 - v.h)^5 of quality high has a table of its own, and no elements.
+  const bool elements =
+      far != nullptr && (method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact) && tables_.fresnel_matrix.size == 0;
+  const auto add_lobe = [&](const Lobe& lobe) {
+    if (elements)
+      add_far_ggx(tile, lobe, lights, *far);
+    else
+      add_ggx(tile, lobe, lights);
+  };
+  if (tile.any_specular) add_lobe({tile.normal, tile.alpha_x, tile.alpha_y, tile.f0, tile.f90, walk == Walk::both_lobes});
   if (tile.any_sheen) add_sheen(tile, lights);
   if (tile.any_coat) {
     Lobe coat = {tile.coat_normal, tile.coat_alpha, tile.coat_alpha, {}, {}};
@@ -302,7 +373,7 @@ void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& l
       coat.f0.x[i] = coat.f0.y[i] = coat.f0.z[i] = tile.coat[i] * kCoatF0;
       coat.f90.x[i] = coat.f90.y[i] = coat.f90.z[i] = tile.coat[i];
     }
-    add_ggx(tile, coat, lights);
+    add_lobe(coat);
   }
   if (tile.any_override) add_overrides(tile, lights);
 }

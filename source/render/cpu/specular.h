@@ -12,6 +12,10 @@
 
 namespace steradian {
 
+namespace lights {
+struct FarLights;
+}
+
 // The lobes of metallic-roughness surfaces and their coats run on packs; so do Phong lobes under flat lights. Other
 // lobes, and the methods that exist for comparison only, run point by point in float.
 class SpecularPass {
@@ -22,12 +26,20 @@ class SpecularPass {
   // Whether add() also brings the diffuse light of a light: a walk along a polygon serves both lobes.
   bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;
 
-  // Adds the specular light of the lights to tile.radiance, and the diffuse light that it brings.
-  void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+  // Adds the specular light of the lights to tile.radiance, and the diffuse light that it brings, if that is wanted.
+  enum class Walk { both_lobes, specular_alone };
+  // far: flat lights are elements where they err by no more than that, in methods of transformed cosines; `bound` grows by what they err.
+  struct Far {
+    const lights::FarLights& lights;
+    float error;
+    TileVector& bound;
+  };
+  void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk = Walk::both_lobes, const Far* far = nullptr) const;
 
  private:
   struct Lobe;
   void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
+  void add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights, const Far& far) const;
   void add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   bool add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
                         const std::vector<const PackLight*>& lights) const;

@@ -1,0 +1,76 @@
+// ManyLights: the diffuse light of any number of area lights on a tile, with a bound of what it is off.
+//
+// Receivers are gathered in cells: boxes about points of one surface. A light far from a cell is an element at the cell's nodes, and
+// one polynomial through them stands for all such lights, at every point and for every normal there. What is nearer goes to the two
+// halves of the cell; what is left at the end is an element at every point or, next to the light and across horizons, its outline.
+// See docs/manylights.md.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/cpu/irradiance.h"
+#include "render/cpu/light_list.h"
+#include "render/lights/cell.h"
+#include "render/lights/receiver_cells.h"
+
+namespace steradian::lights {
+
+// What was done, over all tiles.
+struct Counts {
+  std::uint64_t points = 0;    // that many lights lit
+  std::uint64_t elements = 0;  // pairs of a point and a light: elements at the point
+  std::uint64_t outlines = 0;  // and outlines
+
+  void operator+=(const Counts& more) {
+    points += more.points;
+    elements += more.elements;
+    outlines += more.outlines;
+  }
+};
+
+class ManyLights {
+ public:
+  // error: as a share of what a light sends at most, per light; see RenderOptions::light_error. Keeps the reference.
+  ManyLights(const std::vector<PackLight>& lights, Vec3f eye, float error);
+
+  bool serves(const PackLight& light) const { return far_.number_of[light.index] >= 0; }
+
+  const FarLights& lights() const { return far_; }
+  float error() const { return error_; }
+
+  struct Work;  // a thread's memory
+  struct DeleteWork {
+    void operator()(Work* work) const;
+  };
+  using WorkPointer = std::unique_ptr<Work, DeleteWork>;
+  static WorkPointer make_work();
+
+  // Adds the radiance of the diffuse lobe under some lights, all of which it serves, to tile.radiance, and to `bound` how far each
+  // channel may be off.
+  void add_diffuse(SurfaceTile& tile, const std::vector<const PackLight*>& lights, TileVector& bound, Work& work) const;
+
+  static const Counts& counts(const Work& work);
+
+ private:
+  struct Numbers;
+  struct Bound;
+  struct Outer;
+  void add_in_order(SurfaceTile& tile, Slots slots, Numbers numbers, TileVector& bound, Work& work) const;
+  void add_to_cell(SurfaceTile& tile, Slots slots, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+                   TileVector& bound, Work& work) const;
+  void add_to_points(SurfaceTile& tile, Slots slots, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+                     TileVector& bound, Work& work) const;
+  void add_outline(const PackLight& light, const Cell& cell, Receivers& receivers) const;
+  float distance_of_lights(const Cell& cell, Numbers numbers) const;
+  void add_element(std::uint32_t number, const Element& element, bool four, Elements& elements) const;
+  Element element_of(std::uint32_t number, const Cell& cell) const;
+
+  const FarLights far_;
+  const Vec3f eye_;
+  const float error_;
+  const CellTable& packs_;
+  const IrradianceTable& outlines_;
+};
+
+}  // namespace steradian::lights
