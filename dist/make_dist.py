@@ -12,6 +12,7 @@ Tokens are replaced and nothing else: comments, line breaks and the order of eve
 needs is left out. Every name at file scope begins with steradian_, a struct's with Steradian.
 """
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -525,6 +526,8 @@ def main():
             path.parent.mkdir(exist_ok=True)
             path.write_text(text)
     print(f"{len(written)} files, {stale} stale")
+    if job != "--check":  # web/three-steradian carries a part of dist/es; its own test checks it
+        subprocess.run([sys.executable, ROOT / "web" / "three-steradian" / "make_package.py"], check=True)
     sys.exit(stale > 0)
 
 

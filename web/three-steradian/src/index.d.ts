@@ -1,0 +1,62 @@
+import { Color, ColorRepresentation, MeshStandardMaterial, Object3D, Vector2, Vector3 } from 'three';
+
+/** What the lights of this package have in common. They shine along their local -z, as RectAreaLight does. */
+export class AreaLight extends Object3D {
+	constructor( color?: ColorRepresentation, intensity?: number );
+	color: Color;
+	/** Radiance: nits or W/(m2 sr). */
+	intensity: number;
+}
+
+/** A flat light of any simple outline. */
+export class PolygonAreaLight extends AreaLight {
+	/** outline: points of the local plane z = 0, in either order. */
+	constructor( color: ColorRepresentation, intensity: number, outline: Vector2[] );
+	readonly isPolygonAreaLight: true;
+	/** Read when an AreaLightSet is made into a program. */
+	twoSided: boolean;
+	outline: Vector2[];
+}
+
+/** A disk, or an ellipse. */
+export class DiskAreaLight extends AreaLight {
+	constructor( color?: ColorRepresentation, intensity?: number, radiusX?: number, radiusY?: number );
+	readonly isDiskAreaLight: true;
+	radiusX: number;
+	radiusY: number;
+}
+
+/** A ball that shines to all sides. */
+export class SphereAreaLight extends AreaLight {
+	constructor( color?: ColorRepresentation, intensity?: number, radius?: number );
+	readonly isSphereAreaLight: true;
+	radius: number;
+}
+
+/** The lights that patched materials see, besides three's RectAreaLights. Its members may move; which they are is fixed. */
+export class AreaLightSet {
+	constructor( lights?: AreaLight[] );
+	readonly lights: AreaLight[];
+	readonly vectors: { value: Vector3[] };
+	readonly radiances: { value: Vector3[] };
+	update(): void;
+	key(): string;
+	shader(): string;
+}
+
+export interface SteradianOptions {
+	/** 'compact': a table of 4 KB in the shader (default). 'closed-form': exact up to 0.2 %, several times the work. */
+	method?: 'compact' | 'closed-form';
+	/** Lights other than RectAreaLight. */
+	lights?: AreaLightSet;
+	/** false: three's own way for its RectAreaLights. */
+	rects?: boolean;
+}
+
+/** Makes a material see area lights by this library. Returns it. */
+export function useSteradian<M extends MeshStandardMaterial>( material: M, options?: SteradianOptions ): M;
+
+/** Drop-in for RectAreaLightUniformsLib. */
+export class SteradianRectAreaLightUniformsLib {
+	static init(): void;
+}
