@@ -1,6 +1,7 @@
 // plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
 // 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
-// marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes.
+// marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
+// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "benches.h"
 #include "plane/frame/drawing.h"
 #include "plane/frame/light_field.h"
-#include "steradian/plane.h"
+#include "steradian/plane_bounce.h"
 
 namespace steradian::bench {
 namespace {
@@ -86,6 +87,35 @@ Bench points(LightField field, const char* name, PlaneMethod method) {
   return result;
 }
 
+// A closed room of boxes, four lamps in it.
+PlaneScene room_of(int boxes) {
+  PlaneScene scene = make_light_field({4, boxes, std::numeric_limits<double>::infinity(), 14, 30}, kSeed);
+  for (PlaneBody& body : scene.bodies)
+    if (!body.light) body.albedo = Vec3d{0.75, 0.75, 0.75};
+  scene.bodies.push_back(plane_polygon({{-20, -20}, {1940, -20}, {1940, 1100}, {-20, 1100}}));
+  scene.bodies.back().contours.push_back({{1, 1}, {1, 1079}, {1919, 1079}, {1919, 1}});
+  scene.bodies.back().albedo = Vec3d{0.75, 0.75, 0.75};
+  return scene;
+}
+
+Bench bounces(int boxes) {
+  auto world = std::make_shared<PlaneWorld>(room_of(boxes));
+  const std::size_t elements = PlaneBounces(*world).stats().elements;
+  return {"plane/bounce/" + std::to_string(boxes), elements, "scalar", [world] { keep(PlaneBounces(*world).stats().error); }};
+}
+
+Bench bounce_frame(int boxes, const BenchOptions& options) {
+  auto world = std::make_shared<PlaneWorld>(room_of(boxes));
+  auto solved = std::make_shared<PlaneBounces>(*world);
+  auto picture = std::make_shared<Picture>();
+  return {"plane/bounce-frame/" + std::to_string(boxes), std::size_t{1920} * 1080, name_of(options.simd), [world, solved, picture] {
+            PlaneFrameOptions frame = one_thread();
+            frame.bounces = solved.get();
+            render_plane_into(*picture, *world, frame);
+            keep(picture->pixels.front());
+          }};
+}
+
 std::string suffix(const plane::Drawing& drawing) { return drawing.shape + "-" + drawing.emission; }
 
 Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
@@ -105,6 +135,10 @@ Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
 void add_plane(BenchList& list) {
   for (const plane::Drawing& drawing : plane::all_drawings())
     list.add("plane/drawing/" + suffix(drawing), [drawing](const BenchOptions& o) { return drawn(drawing, o); });
+  for (int boxes : {10, 50}) {
+    list.add("plane/bounce/" + std::to_string(boxes), [boxes](const BenchOptions&) { return bounces(boxes); });
+    list.add("plane/bounce-frame/" + std::to_string(boxes), [boxes](const BenchOptions& o) { return bounce_frame(boxes, o); });
+  }
   for (const LightField& field : kLightFields) {
     list.add("plane/frame/" + suffix(field), [field](const BenchOptions& o) { return cold(field, o); });
     list.add("plane/warm/" + suffix(field), [field](const BenchOptions& o) { return warm(field, o); });

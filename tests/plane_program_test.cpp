@@ -67,6 +67,28 @@ TEST_F(Program, RenderOfAPlaneEqualsItsQueries) {
   EXPECT_GT(brightest, 0.1);
 }
 
+TEST_F(Program, RenderOfAPlaneWithItsBouncesEqualsItsQueries) {
+  const std::string svg = folder / "scene.svg", exr = folder / "a.exr", stats = folder / "s.json";
+  std::ofstream(svg)
+      << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 64 48'>"
+         "<path d='M0 0H64V48H0ZM4 4V44H60V4Z' fill-rule='evenodd' data-albedo='0.7 0.5 0.3'/>"
+         "<rect x='30' y='4' width='3' height='28' fill='#fff'/><circle class='light' cx='14' cy='14' r='3' fill='#fff'/></svg>";
+  ASSERT_EQ(run({"render", svg, "-o", exr, "--bounces", "all", "--stats", stats}).status, 0);
+  const Picture picture = read_picture(exr);
+  const json s = json::parse(contents(stats));
+  EXPECT_GT(s["bounces"]["elements"].get<int>(), 100);
+  EXPECT_LT(s["bounces"]["error"].get<double>(), 0.02);
+  const json answer =
+      json::parse(run({"eval", "--plane"}, json{{"scene", svg}, {"position", {50.5, 10.5}}, {"bounces", "all"}}.dump() + "\n").out);
+  const json once =
+      json::parse(run({"eval", "--plane"}, json{{"scene", svg}, {"position", {50.5, 10.5}}, {"bounces", 1}}.dump() + "\n").out);
+  EXPECT_NEAR(answer["mean_radiance"][0].get<double>(), static_cast<double>(picture.at(50, 10).x), 2e-5);
+  EXPECT_NEAR(answer["bounce_error"][0].get<double>(), static_cast<double>(picture.layers.at("bounce_error")[50 + 10 * 64].x), 2e-5);
+  EXPECT_GT(answer["mean_radiance"][0].get<double>(), once["mean_radiance"][0].get<double>()) << "behind the wall";
+  EXPECT_NE(run({"render", svg, "-o", exr, "--bounces", "all", "--method", "sampled"}).status, 0);
+  EXPECT_NE(run({"render", svg, "-o", exr, "--bounces", "many"}).status, 0);
+}
+
 TEST_F(Program, RenderOfAPlaneLeavesOccludersClear) {
   const std::string svg = folder / "scene.svg", png = folder / "a.png";
   std::ofstream(svg) << kScene;

@@ -4,8 +4,9 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "steradian/plane.h"
+#include "steradian/plane_bounce.h"
 
 namespace steradian::app {
 
@@ -24,10 +25,12 @@ class PlaneAnswers {
 
  private:
   const PlaneWorld& world(const std::string& path);
+  const PlaneBounces& bounces(const std::string& path, int count);
   std::string answer(std::string_view line);
 
   PlaneQueryDefaults defaults_;
   std::map<std::string, PlaneWorld> worlds_;
+  std::map<std::pair<std::string, int>, PlaneBounces> bounces_;
 };
 
 }  // namespace steradian::app

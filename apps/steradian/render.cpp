@@ -36,7 +36,7 @@ struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
                              exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black",
-                             light_sum = "auto";
+                             light_sum = "auto", bounces = "0";
   std::vector<std::string> lights;
   std::optional<int> max_lights;
   Limits limits;
@@ -152,7 +152,8 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--indirect-shadows", points, bounce},
                                {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
                                {"--moments", false, "a plane scene (.svg)"},
-                               {"--occluders", false, "a plane scene (.svg)"}});
+                               {"--occluders", false, "a plane scene (.svg)"},
+                               {"--bounces", false, "a plane scene (.svg)"}});
 }
 
 // Of the plane: the options of three dimensions have none.
@@ -181,7 +182,8 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
                                {"--target-error", false, third},
                                {"--resume", false, third},
                                {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
-                               {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"}});
+                               {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
+                               {"--bounces", method == "auto" || method == "exact", "--method exact"}});
 }
 
 // A plane scene has its own size, one unit a pixel, and its own methods.
@@ -198,6 +200,7 @@ void run_plane(Options& options) {
     job.frame.width = options.render.width;
     job.frame.height = options.render.height;
   }
+  job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
   job.frame.moments = options.moments;
@@ -378,6 +381,14 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
       ->check(CLI::IsMember({"black", "fill", "clear"}))
       ->group("Picture");
+  verb->add_option("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
+            return number || text == "all" ? std::string() : "give a number of bounces, or all";
+          },
+          "N|all"))
+      ->group("Light");
   verb->callback([options, spp, verb] {
     options->spp_given = spp->count() > 0;
     run(*verb, *options);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/atomic_file.h"
 #include "core/progress.h"
@@ -40,6 +41,16 @@ void render_plane_scene(const PlaneRender& job) {
   }
   const PlaneWorld world(std::move(loaded.scene), job.limits);
 
+  std::optional<PlaneBounces> bounces;
+  if (job.bounces != 0) {
+    PlaneBounceOptions how;
+    how.bounces = job.bounces;
+    how.limits = job.limits;
+    bounces.emplace(world, how);
+    options.bounces = &*bounces;
+    options.bounce_error = job.output.ends_with(".exr");
+  }
+
   std::unique_ptr<Progress> progress;
   std::once_flag once;
   options.progress = [&](std::uint64_t, std::uint64_t total) {
@@ -57,25 +68,30 @@ void render_plane_scene(const PlaneRender& job) {
                       {"steradian.spp", std::to_string(options.sampling.spp)},
                       {"steradian.seed", std::to_string(options.sampling.seed)},
                       {"steradian.exposure", fmt::format("{}", job.exposure)}};
+  if (bounces) picture.metadata["steradian.bounces"] = job.bounces == kAllBounces ? "all" : std::to_string(job.bounces);
   write_picture(picture, job.output, job.exposure);
   if (job.stats.empty()) return;
   const nlohmann::ordered_json passes = {{{"name", "prepare"}, {"ms", stats.prepare_ms}}, {{"name", "frame"}, {"ms", stats.frame_ms}}};
-  const nlohmann::ordered_json json = {{"version", version()},
-                                       {"command", command_line()},
-                                       {"backend", "cpu"},
-                                       {"device", "cpu"},
-                                       {"simd", name_of(active_simd())},
-                                       {"threads", stats.threads},
-                                       {"width", picture.width},
-                                       {"height", picture.height},
-                                       {"seed", options.sampling.seed},
-                                       {"lights", stats.lights},
-                                       {"occluders", stats.occluders},
-                                       {"tile_lights", stats.tile_lights},
-                                       {"tile_blockers", stats.tile_blockers},
-                                       {"method", name_of(options.method)},
-                                       {"passes", passes},
-                                       {"total_ms", stats.prepare_ms + stats.frame_ms}};
+  nlohmann::ordered_json json = {{"version", version()},
+                                 {"command", command_line()},
+                                 {"backend", "cpu"},
+                                 {"device", "cpu"},
+                                 {"simd", name_of(active_simd())},
+                                 {"threads", stats.threads},
+                                 {"width", picture.width},
+                                 {"height", picture.height},
+                                 {"seed", options.sampling.seed},
+                                 {"lights", stats.lights},
+                                 {"occluders", stats.occluders},
+                                 {"tile_lights", stats.tile_lights},
+                                 {"tile_blockers", stats.tile_blockers},
+                                 {"method", name_of(options.method)},
+                                 {"passes", passes},
+                                 {"total_ms", stats.prepare_ms + stats.frame_ms}};
+  if (bounces) {
+    const PlaneBounceStats& b = bounces->stats();
+    json["bounces"] = {{"elements", b.elements}, {"rounds", b.rounds}, {"sweeps", b.sweeps}, {"ms", b.ms}, {"error", b.error}};
+  }
   write_file(job.stats, json.dump(2) + "\n");
 }
 

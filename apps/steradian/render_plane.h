@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "steradian/plane.h"
+#include "steradian/plane_bounce.h"
 
 namespace steradian::app {
 
@@ -12,6 +12,7 @@ struct PlaneRender {
   std::string scene, output, method, stats;  // method "auto" is exact
   PlaneFrameOptions frame;
   float exposure = 0;
+  int bounces = 0;  // kAllBounces: all
   Limits limits;
 };
 

@@ -64,8 +64,9 @@ struct PlaneBody {
   Vec2d center, x_axis, y_axis;
   double radius = 0;
   std::optional<PlaneEmission> light;  // an occluder has none
-  Vec3d color;                         // linear RGB, to draw an occluder with; of no effect on light
-  std::string name;                    // the SVG id, for messages
+  Vec3d color;                         // linear RGB, to draw an occluder with, and what it reflects where no albedo is given
+  std::optional<Vec3d> albedo;  // the share of the light that its outline sends on (plane_bounce.h); none: `color`, of a light nothing
+  std::string name;             // the SVG id, for messages
 };
 
 PlaneBody plane_polygon(std::vector<Vec2d> vertices);
@@ -137,15 +138,19 @@ enum class PlaneOccluders {
   clear,  // nothing: layer "alpha" is 0 in them and 1 elsewhere
 };
 
+class PlaneBounces;  // plane_bounce.h
+
 struct PlaneFrameOptions {
   int width = 0, height = 0;  // pixels; 0: the scene's own size, one unit a pixel
   PlaneMethod method = PlaneMethod::exact;
   PlaneSampling sampling;
   PlaneOccluders occluders = PlaneOccluders::black;
-  bool moments = false;  // layers "moment_x" and "moment_y"; in double, pixel by pixel
-  int aa = 1;            // point values a pixel, on a square grid (rounded up to a square number)
-  int threads = 0;       // 0: all
-  Limits limits;         // of the picture, and of the lights and blockers that may meet in it
+  const PlaneBounces* bounces = nullptr;  // of the same world: their light, too; of `exact` without moments
+  bool bounce_error = false;              // layer "bounce_error": how far it may be off
+  bool moments = false;                   // layers "moment_x" and "moment_y"; in double, pixel by pixel
+  int aa = 1;                             // point values a pixel, on a square grid (rounded up to a square number)
+  int threads = 0;                        // 0: all
+  Limits limits;                          // of the picture, and of the lights and blockers that may meet in it
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
 };
 

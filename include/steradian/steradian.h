@@ -25,6 +25,7 @@
 #include "steradian/phong.h"
 #include "steradian/picture.h"
 #include "steradian/plane.h"
+#include "steradian/plane_bounce.h"
 #include "steradian/polygon_derivatives.h"
 #include "steradian/polygon_light.h"
 #include "steradian/radiance.h"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the plane scenes beside this file: lamps, room, city, logo. The same bytes on every machine."""
+"""Writes the plane scenes beside this file: lamps, room, city, logo, bounce. The same bytes on every machine."""
 import math
 import pathlib
 
@@ -117,7 +117,23 @@ def logo():
     write("logo.svg", "A ring with a gradient and holes", 640, 400, body)
 
 
+def bounce():
+    # One lamp behind a screen in the left room; the right one has what walls send through the door.
+    body = """<path d="M0 0H640V400H0Z M20 20V380H620V20Z" fill-rule="evenodd" fill="#e8e2d6" data-albedo="0.8"/>
+<rect x="20" y="20" width="8" height="360" fill="#d8452e" data-albedo="0.75 0.12 0.08"/>
+<rect x="612" y="20" width="8" height="360" fill="#3a9a4a" data-albedo="0.1 0.6 0.15"/>
+<rect x="270" y="20" width="14" height="230" fill="#e8e2d6" data-albedo="0.8"/>
+<polyline points="120,150 150,190 200,190 230,150" fill="none" stroke="#e8e2d6" data-albedo="0.8"/>
+<g data-albedo="0.7"><rect x="70" y="290" width="50" height="50" transform="rotate(20 95 315)" fill="#d8d0c0"/>
+<circle cx="420" cy="130" r="34" fill="#d8d0c0"/><rect x="500" y="250" width="70" height="26" rx="13" fill="#d8d0c0"/>
+<rect x="352" y="290" width="44" height="44" transform="rotate(-25 374 312)" fill="#3d6bd8" data-albedo="0.12 0.25 0.8"/></g>
+<circle class="light" cx="175" cy="150" r="9" fill="#fff3dc" data-intensity="9"/>
+"""
+    write("bounce.svg", "Two rooms, one lamp, and what their walls send on", 640, 400, body)
+
+
 lamps()
 room()
 city()
 logo()
+bounce()

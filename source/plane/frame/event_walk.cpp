@@ -108,7 +108,7 @@ void EventWalk::add_lights(int x, int y, const TileArea& tile, std::uint32_t ope
   for (const Entry& entry : of_64_.lights[child]) {
     const Emitter& e = frame_.emitters[static_cast<std::size_t>(entry.emitter)];
     light.blocks = blocks.from(e);
-    const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
+    const PlaneEmission& emission = emission_of(frame_, e);
     light.x = static_cast<float>(e.center.x - tile.center.x);
     light.y = static_cast<float>(e.center.y - tile.center.y);
     light.radius = static_cast<float>(e.radius);

@@ -10,6 +10,7 @@
 
 #include "core/budget.h"
 #include "plane/frame/tiles.h"
+#include "plane/frame/wall_emitters.h"
 #include "steradian/error.h"
 
 namespace steradian::plane {
@@ -55,7 +56,13 @@ void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const P
   std::atomic<std::uint64_t> done{0};
   tbb::parallel_for(0, grid.height, [&](int y) {
     for (int x = 0; x < grid.width; ++x) {
-      const PlaneLight light = world.query(grid.at(x, y), options.method, options.sampling);
+      PlaneLight light = world.query(grid.at(x, y), options.method, options.sampling);
+      if (options.bounces != nullptr) {
+        const PlaneLight bounced = options.bounces->query(grid.at(x, y));
+        light.radiance += bounced.radiance;
+        light.moment_x += bounced.moment_x;
+        light.moment_y += bounced.moment_y;
+      }
       picture.at(x, y) = static_cast<Vec3f>(light.radiance);
       if (!options.moments) continue;
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
@@ -64,6 +71,18 @@ void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const P
     }
     if (options.progress) options.progress(++done, static_cast<std::uint64_t>(grid.height));
   });
+}
+
+// A frame of the walls' errors alone, as a layer.
+void add_bounce_error(const PlaneWorld::Impl& world, const PlaneFrameOptions& options, const PixelGrid& grid, Budget& budget,
+                      Picture& picture) {
+  const FrameLights errors{false, wall_emitters(options.bounces->impl(), WallLight::error)};
+  Picture result(picture.width, picture.height);
+  PlaneFrameStats unused;
+  PlaneFrameOptions silent = options;
+  silent.progress = nullptr;
+  render_tiles(prepare_frame(world, budget, errors), silent, grid, result, unused);
+  picture.layers["bounce_error"] = std::move(result.pixels);
 }
 
 void draw_occluders(const PlaneWorld::Impl& world, PlaneOccluders occluders, const PixelGrid& grid, Picture& picture) {
@@ -107,11 +126,15 @@ void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFram
   const int height = options.height > 0 ? options.height : std::max(static_cast<int>(std::lround(scene.height)), 1);
   if (static_cast<double>(width) * n > 65536 || static_cast<double>(height) * n > 65536)
     throw Error("size", "the picture would have more than 65536 pixels a side", "set a smaller size");
+  if (options.bounces != nullptr && options.method != PlaneMethod::exact)
+    throw Error("method", "bounces are added to exact light only", "use exact");
   Budget budget(options.limits);
   const auto pixels = static_cast<std::uint64_t>(width * n) * static_cast<std::uint64_t>(height * n);
   budget.take_memory(
       scene.name, fmt::format("a picture of {} x {} pixels (--size makes it smaller)", width * n, height * n),
-      pixels * sizeof(Vec3f) * ((options.moments ? 3 : 1) + (options.occluders == PlaneOccluders::clear ? 1 : 0)) * (n > 1 ? 2 : 1));
+      pixels * sizeof(Vec3f) *
+          ((options.moments ? 3 : 1) + (options.bounce_error ? 2 : 0) + (options.occluders == PlaneOccluders::clear ? 1 : 0)) *
+          (n > 1 ? 2 : 1));
   Picture fine;
   Picture& picture = n > 1 ? fine : result;
   picture.layers.clear();
@@ -134,11 +157,14 @@ void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFram
       own.frame_ms = ms_since(start);
     } else {
       try {
-        const plane::FrameScene frame = plane::prepare_frame(inner, budget);
+        plane::FrameLights lights;
+        if (options.bounces != nullptr) lights.walls = plane::wall_emitters(options.bounces->impl(), plane::WallLight::radiance);
+        const plane::FrameScene frame = plane::prepare_frame(inner, budget, lights);
         own.prepare_ms = ms_since(start);
         const auto tiles = Clock::now();
         plane::render_tiles(frame, options, grid, picture, own);
         own.frame_ms = ms_since(tiles);
+        if (options.bounces != nullptr && options.bounce_error) plane::add_bounce_error(inner, options, grid, budget, picture);
       } catch (const std::bad_alloc&) {
         throw budget.out_of_memory();
       }

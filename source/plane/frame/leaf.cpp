@@ -299,7 +299,7 @@ TileSpot spot_of(const PlaneEmission& emission) {
 }  // namespace
 
 TileLight LeafBuilder::light_of(const Emitter& e) const {
-  const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
+  const PlaneEmission& emission = emission_of(frame_, e);
   TileLight light{};
   light.inverse_range = emission.range < 1e300 ? f(1 / emission.range) : 0;
   light.profile = static_cast<int>(emission.profile);
@@ -365,8 +365,7 @@ LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, st
   TileLight light = light_of(e);
   shadows_.write(light);
   if (is_run(e)) {
-    const PlaneEmission& emission = *frame_.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
-    light.linear = emission.gradient.has_value();
+    light.linear = e.wall || emission_of(frame_, e).gradient.has_value();
     if (light.linear || light.profile != 0 || light.inverse_range > 0) {
       add_parts(e);
       light.parts = parts_.data();

@@ -23,8 +23,9 @@ constexpr std::size_t kMostVertices = 8;  // of a convex blocker; more, and edge
 
 class Preparation {
  public:
-  Preparation(const World& world, Budget& budget) : world_(world), budget_(budget) {
+  Preparation(const World& world, Budget& budget, const FrameLights& lights) : world_(world), lights_(lights), budget_(budget) {
     frame_.world = &world;
+    frame_.shines_within = lights.scene;
     frame_.general.assign(world.scene.bodies.size(), 0);
     frame_.convex.assign(world.scene.bodies.size(), 0);
   }
@@ -37,14 +38,16 @@ class Preparation {
     for (std::size_t i = 0; i < bodies; ++i)
       if (body(i).light) shining += world_.first_curve[i + 1] - world_.first_curve[i];
     const std::size_t blockers = world_.curves.size() * 3 / 2 + 3 * bodies;
-    budget_.take_memory(name, "its lights and what may block them", blockers * kBlockerBytes + shining * sizeof(Emitter));
+    budget_.take_memory(name, "its lights and what may block them",
+                        blockers * kBlockerBytes + (shining + lights_.walls.size()) * sizeof(Emitter));
     for (std::size_t i = 0; i < bodies; ++i) {
       first_blocker_.push_back(frame_.blockers.size());
       add_blockers(i);
     }
     first_blocker_.push_back(frame_.blockers.size());
     for (std::size_t i = 0; i < bodies; ++i)
-      if (world_.scene.bodies[i].light) add_emitters(i);
+      if (lights_.scene && world_.scene.bodies[i].light) add_emitters(i);
+    frame_.emitters.insert(frame_.emitters.end(), lights_.walls.begin(), lights_.walls.end());
     bins_ = BlockerBins(frame_.blockers);
     const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
     frame_.slack = 32 * 0x1p-24 *
@@ -502,6 +505,7 @@ class Preparation {
   }
 
   const World& world_;
+  const FrameLights& lights_;
   FrameScene frame_;
   std::vector<std::size_t> first_blocker_;
   BlockerBins bins_;
@@ -512,6 +516,11 @@ class Preparation {
 
 }  // namespace
 
-FrameScene prepare_frame(const World& world, Budget& budget) { return Preparation(world, budget).run(); }
+const PlaneEmission& emission_of(const FrameScene& frame, const Emitter& e) {
+  static const PlaneEmission uniform;
+  return e.wall ? uniform : *frame.world->scene.bodies[static_cast<std::size_t>(e.body)].light;
+}
+
+FrameScene prepare_frame(const World& world, Budget& budget, const FrameLights& lights) { return Preparation(world, budget, lights).run(); }
 
 }  // namespace steradian::plane

@@ -27,6 +27,7 @@ struct Emitter {
   Ellipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
   double tau0 = 0, tau_span = 0;
   bool whole = false;
+  bool wall = false;      // sends on what arrives: uniform, whatever its body is
   bool hidden = false;    // all of it lies within a blocker: not seen from outside
   std::size_t group = 1;  // of a run: with the emitters that it stands for, shorter runs and edges, which follow it
   std::size_t curve = 0;  // of an edge: in World::curves
@@ -77,6 +78,7 @@ struct FrameScene {
   std::vector<Emitter> emitters;
   std::vector<char> general;  // by body: lights that only the general method serves
   bool any_general = false;
+  bool shines_within = true;      // its lights are seen from within
   std::vector<Blocker> blockers;  // of all bodies, then those that stand in for overlapping ones
   std::vector<Vec2d> vertices;
   std::vector<Lens> lenses;
@@ -91,7 +93,15 @@ struct FrameScene {
   std::vector<char> convex;               // by body: all of a row within it is one run
 };
 
+// What an emitter's body says of its light.
+const PlaneEmission& emission_of(const FrameScene& frame, const Emitter& e);
+
+// What shines in a frame: the scene's lights, and emitters of walls.
+struct FrameLights {
+  bool scene = true;
+  std::vector<Emitter> walls;
+};
 // Throws Error where the lights and what may block them are more than the budget allows.
-FrameScene prepare_frame(const World& world, Budget& budget);
+FrameScene prepare_frame(const World& world, Budget& budget, const FrameLights& lights = {});
 
 }  // namespace steradian::plane

@@ -295,6 +295,7 @@ class Worker {
   }
 
   Vec3d interior(std::size_t body, Vec2d p) {
+    if (!frame_.shines_within) return {};
     const LightInterior& inside = frame_.interior[body];
     if (inside.curves.empty()) return radiance_at(*world_.scene.bodies[body].light, p);
     if (inside.by_chords) return radiance_at(*world_.scene.bodies[body].light, p) * open_share(inside.chords, p);

@@ -358,6 +358,7 @@ class Reader {
     body.name = n.attribute("id").value();
     const bool shines = style.role == Role::light && style.purpose == Purpose::picture;
     if (shines) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    body.albedo = style.albedo;
     if (!body.light) body.color = color_of(document_, style, filled);
     if (style.purpose == Purpose::mask && !is_plain(style, filled)) body.color = {-1, -1, -1};
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));

@@ -378,6 +378,8 @@ TEST(LoadSvg, RefusesBrokenFilesWithLineAndHint) {
   expect_refusal("<circle r=\"-3\"/>", "2", "negative");
   expect_refusal("<rect data-steradian=\"lamp\" width=\"1\" height=\"1\"/>", "2", "unknown");
   expect_refusal("<rect data-range=\"0\" width=\"1\" height=\"1\"/>", "2", "positive");
+  expect_refusal("<rect data-albedo=\"1.2\" width=\"1\" height=\"1\"/>", "2", "albedo");
+  expect_refusal("<rect data-albedo=\"0.1 0.2\" width=\"1\" height=\"1\"/>", "2", "three");
   expect_refusal("<rect data-intesity=\"2\" width=\"1\" height=\"1\"/>", "2", "data-intesity is unknown");
   EXPECT_NO_THROW(load("<rect data-name=\"Layer 1\" width=\"1\" height=\"1\"/>"));
   expect_refusal("<g id=\"a\"><use href=\"#a\"/></g>", "2", "nest deeper");
@@ -464,6 +466,19 @@ TEST(LoadSvg, SurvivesMutations) {
     }
   }
   EXPECT_GT(accepted, 100);
+}
+
+TEST(PlaneSvg, ReadsAndWritesAlbedos) {
+  const std::string svg =
+      R"(<svg viewBox="0 0 9 9"><g data-albedo="0.5"><rect width="1" height="1"/><circle r="1" data-albedo="0.1,0.2 0.3"/></g><rect width="2" height="2"/></svg>)";
+  PlaneScene scene = load_plane_scene_from_text(svg, "albedos.svg").scene;
+  for (int pass = 0; pass < 2; ++pass) {
+    ASSERT_EQ(scene.bodies.size(), 3u);
+    EXPECT_EQ(scene.bodies[0].albedo, (Vec3d{0.5, 0.5, 0.5}));
+    EXPECT_EQ(scene.bodies[1].albedo, (Vec3d{0.1, 0.2, 0.3}));
+    EXPECT_FALSE(scene.bodies[2].albedo.has_value());
+    scene = load_plane_scene_from_text(plane_scene_to_svg(scene), "written.svg").scene;
+  }
 }
 
 }  // namespace steradian::plane

@@ -74,6 +74,7 @@ void Styles::read_declared(pugi::xml_node n, Declared& d) {
   refuse_misspelt(n);
   read_role(n, d);
   read_profile(n, d);
+  read_albedo(n, d);
   if (n.attribute("transform")) {
     d.transform = parse_transform(n.attribute("transform").value());
     if (!d.transform)
@@ -100,6 +101,7 @@ Style Styles::inherit(pugi::xml_node n, Style style) {
   style.stroke_width = d.stroke_width.value_or(style.stroke_width);
   style.intensity = d.intensity.value_or(style.intensity);
   style.range = d.range.value_or(style.range);
+  if (d.albedo) style.albedo = d.albedo;
   style.profile = d.profile.value_or(style.profile);
   style.opacity *= d.opacity;
   style.fill_opacity = d.fill_opacity.value_or(style.fill_opacity);
@@ -121,7 +123,7 @@ std::optional<double> Styles::share(pugi::xml_node n, const char* key) const {
 
 // Other programs write data- attributes of their own; one that is nearly ours is a slip.
 void Styles::refuse_misspelt(pugi::xml_node n) const {
-  static constexpr const char* kOurs[] = {"data-steradian", "data-intensity", "data-range", "data-profile", "data-spot"};
+  static constexpr const char* kOurs[] = {"data-steradian", "data-intensity", "data-range", "data-profile", "data-spot", "data-albedo"};
   for (pugi::xml_attribute a : n.attributes()) {
     const std::string_view name = a.name();
     if (!name.starts_with("data-") || std::find(std::begin(kOurs), std::end(kOurs), name) != std::end(kOurs)) continue;
@@ -150,6 +152,25 @@ void Styles::read_role(pugi::xml_node n, Declared& d) const {
     }
   document_.fail(n, std::string("data-steradian=\"") + n.attribute("data-steradian").value() + "\" is unknown",
                  "use light, occluder or ignore");
+}
+
+// One share, or three.
+void Styles::read_albedo(pugi::xml_node n, Declared& d) const {
+  if (!n.attribute("data-albedo")) return;
+  Scanner scan(n.attribute("data-albedo").value());
+  double shares[3] = {};
+  int count = 0;
+  for (; count < 3; ++count) {
+    scan.skip_separators();
+    const auto share = scan.number();
+    if (!share || !(*share >= 0 && *share <= 1)) break;
+    shares[count] = *share;
+  }
+  scan.skip_separators();
+  if ((count != 1 && count != 3) || !scan.at_end())
+    document_.fail(n, "data-albedo=\"" + std::string(n.attribute("data-albedo").value()) + "\" is not an albedo",
+                   "write one number from 0 to 1, or three: red green blue");
+  d.albedo = count == 1 ? Vec3d{shares[0], shares[0], shares[0]} : Vec3d{shares[0], shares[1], shares[2]};
 }
 
 void Styles::read_profile(pugi::xml_node n, Declared& d) const {

@@ -30,6 +30,7 @@ struct Style {
   double stroke_width = 1;
   Role role = Role::by_shape;
   double intensity = 1;
+  std::optional<Vec3d> albedo;
   double opacity = 1, fill_opacity = 1, stroke_opacity = 1;
   double range = std::numeric_limits<double>::infinity();
   PlaneProfile profile = PlaneProfile::uniform;
@@ -57,6 +58,7 @@ class Styles {
     double opacity = 1;          // of the whole element
     Role role = Role::by_shape;  // by_shape: says nothing
     std::optional<PlaneProfile> profile;
+    std::optional<Vec3d> albedo;
     std::optional<std::pair<Vec2d, double>> spot;
     std::optional<Transform> transform;
   };
@@ -67,6 +69,7 @@ class Styles {
   void refuse_misspelt(pugi::xml_node n) const;
   void read_role(pugi::xml_node n, Declared& d) const;
   void read_profile(pugi::xml_node n, Declared& d) const;
+  void read_albedo(pugi::xml_node n, Declared& d) const;
 
   Document& document_;
   double diagonal_;

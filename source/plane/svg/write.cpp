@@ -105,6 +105,8 @@ std::string plane_scene_to_svg(const PlaneScene& scene) {
     const char* paint = stroked ? "stroke" : "fill";
     std::string rest = body.light ? emission(*body.light, i, paint) : std::string(" ") + paint + "=\"" + color(body.color) + "\"";
     if (stroked) rest += " fill=\"none\"";
+    if (body.albedo)
+      rest += " data-albedo=\"" + number(body.albedo->x) + " " + number(body.albedo->y) + " " + number(body.albedo->z) + "\"";
     if (!body.name.empty()) rest += " id=\"" + escaped(body.name) + "\"";
     switch (body.shape) {
       case PlaneBody::Shape::polygon:

@@ -1,0 +1,15 @@
+// The inside of PlaneBounces.
+#pragma once
+
+#include "plane/bounce/elements.h"
+#include "steradian/plane_bounce.h"
+
+namespace steradian {
+
+struct PlaneBounces::Impl {
+  const plane::World* world = nullptr;
+  plane::Elements elements;
+  PlaneBounceStats stats;
+};
+
+}  // namespace steradian
