@@ -13,6 +13,7 @@ void add_phong(BenchList& list);
 void add_ggx(BenchList& list);
 void add_plane(BenchList& list);
 void add_frame(BenchList& list);
+void add_scaling(BenchList& list);
 void add_indirect(BenchList& list);
 void add_shadow(BenchList& list);
 
@@ -26,6 +27,7 @@ inline BenchList all_benches() {
   add_ggx(list);
   add_plane(list);
   add_frame(list);
+  add_scaling(list);
   add_indirect(list);
   add_shadow(list);
   return list;

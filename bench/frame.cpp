@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "benches.h"
+#include "floor.h"
 #include "frame.h"
 #include "core/float_mode.h"
 #include "render/cpu/gbuffer.h"
@@ -30,55 +31,14 @@ namespace steradian::bench {
 namespace {
 
 constexpr int kWidth = 1920, kHeight = 1080;
-constexpr double kHalf = 8;  // of the floor's side [m]
-
-// A floor seen at an angle; it covers the whole picture.
-Scene floor_scene() {
-  Scene scene;
-  scene.materials.resize(1);
-  Mesh mesh;
-  constexpr auto kEnd = static_cast<float>(kHalf);
-  mesh.positions = {{-kEnd, 0, kEnd}, {kEnd, 0, kEnd}, {kEnd, 0, -kEnd}, {-kEnd, 0, -kEnd}};
-  mesh.normals.assign(4, {0, 1, 0});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {mesh};
-  Camera camera;
-  camera.position = {0, 3, 4};
-  camera.z = normalized(Vec3d{0, 3, 4});
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.6;
-  scene.cameras = {camera};
-  return scene;
-}
-
-SurfaceMaterial diffuse() {
-  SurfaceMaterial m;
-  m.base_color = {0.5f, 0.5f, 0.5f, 1};
-  m.metallic = 0;
-  m.specular = 0;
-  return m;
-}
-
-SurfaceMaterial glossy() {
-  SurfaceMaterial m = diffuse();
-  m.specular = 1;
-  m.roughness = 0.4f;
-  return m;
-}
-
-AreaLight ceiling_quad(double x, double z, double half) {
-  AreaLight light;
-  light.shape = Polygon{{{x - half, 1.5, z - half}, {x + half, 1.5, z - half}, {x + half, 1.5, z + half}, {x - half, 1.5, z + half}}, {}};
-  light.radiance = {1, 1, 1};
-  return light;
-}
 
 // Quads of one size on a grid above the whole floor, whatever their number.
 std::vector<AreaLight> ceiling(int count) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
-  const double step = 2.0 * kHalf / side;
+  const double step = 2.0 * kFloorHalf / side;
   std::vector<AreaLight> lights;
-  for (int i = 0; i < count; ++i) lights.push_back(ceiling_quad((i % side + 0.5) * step - kHalf, (i / side + 0.5) * step - kHalf, 0.2));
+  for (int i = 0; i < count; ++i)
+    lights.push_back(ceiling_quad((i % side + 0.5) * step - kFloorHalf, (i / side + 0.5) * step - kFloorHalf, 0.2));
   return lights;
 }
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Tables and figure of docs/performance.md from what `steradian bench --json` printed.
+"""Tables and figures of docs/performance.md from what `steradian bench --json` printed.
 
-usage: performance.py FIGURE.svg BENCH.json ...   (writes the figure, prints the tables)
+usage: performance.py docs/images BENCH.json ...   (writes the figures of which the benches are there, prints the tables)
 """
 import json
 import math
 import sys
+from pathlib import Path
 
 SETS = ["sse2", "avx2", "avx512"]
 SHOWN = ["build", "rays", "gbuffer", "direct", "specular"]
@@ -35,28 +36,57 @@ def frames(benches):
     print()
 
 
-def figure(benches, path):
-    points = sorted((int(n.split("/")[2]), b["passes"]["direct"]) for n, b in benches.items() if n.startswith("frame/lights/"))
-    width, height, left, bottom, unit = 420, 330, 60, 280, 100  # unit: pixels a decade across; half as many up
-    low = math.floor(math.log10(min(ms for _, ms in points)))
-    high = math.ceil(math.log10(max(ms for _, ms in points)))
-    up = (bottom - 30) / (high - low)
-    x = lambda n: left + unit * math.log10(n)
-    y = lambda ms: bottom - up * (math.log10(ms) - low)
+def decade(value):
+    """A power of ten as a label."""
+    return f"{value:,.0f}" if value >= 1 else f"{value:g}"
+
+
+def chart(path, title, across, lines):
+    """Both axes in powers of ten. lines: name, colour, points (x, y)."""
+    xs = [x for _, _, points in lines for x, _ in points]
+    ys = [y for _, _, points in lines for _, y in points]
+    first, last = math.floor(math.log10(min(xs)) + 0.01), math.ceil(math.log10(max(xs)) - 0.01)
+    low, high = math.floor(math.log10(min(ys))), math.ceil(math.log10(max(ys)))
+    width, height, left, right, bottom = 420, 330, 60, 400, 280
+    unit, up = (right - left) / (last - first), (bottom - 30) / (high - low)
+    place_x = lambda x: left + unit * (math.log10(x) - first)
+    place_y = lambda y: bottom - up * (math.log10(y) - low)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">',
            f'<rect width="{width}" height="{height}" fill="white"/>']
-    for n in (1, 10, 100, 1000):
-        out.append(f'<path d="M{x(n):.1f} 30V{bottom}" stroke="#ddd"/><text x="{x(n):.1f}" y="{bottom + 18}" text-anchor="middle">{n}</text>')
+    for e in range(first, last + 1):
+        x = place_x(10.0**e)
+        out.append(f'<path d="M{x:.1f} 30V{bottom}" stroke="#ddd"/><text x="{x:.1f}" y="{bottom + 18}" text-anchor="middle">{decade(10.0**e)}</text>')
     for e in range(low, high + 1):
-        out.append(f'<path d="M{left} {y(10.0**e):.1f}H{x(1000)}" stroke="#ddd"/>'
-                   f'<text x="{left - 8}" y="{y(10.0**e) + 4:.1f}" text-anchor="end">{10.0**e:g}</text>')
-    line = " ".join(f"{x(n):.1f},{y(ms):.1f}" for n, ms in points)
-    out.append(f'<polyline points="{line}" fill="none" stroke="#1463a5" stroke-width="2"/>')
-    out += [f'<circle cx="{x(n):.1f}" cy="{y(ms):.1f}" r="4" fill="#1463a5"/>' for n, ms in points]
-    out.append(f'<text x="{left + 1.5 * unit}" y="{height - 10}" text-anchor="middle">quad lights</text>')
-    out.append(f'<text x="{left}" y="18">lighting pass [ms], 320 x 180, one thread</text></svg>')
+        y = place_y(10.0**e)
+        out.append(f'<path d="M{left} {y:.1f}H{right}" stroke="#ddd"/>'
+                   f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{decade(10.0**e)}</text>')
+    for row, (name, colour, points) in enumerate(lines):
+        line = " ".join(f"{place_x(x):.1f},{place_y(y):.1f}" for x, y in points)
+        out.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="2"/>')
+        out += [f'<circle cx="{place_x(x):.1f}" cy="{place_y(y):.1f}" r="4" fill="{colour}"/>' for x, y in points]
+        if len(lines) > 1:
+            out.append(f'<text x="{left + 10}" y="{46 + 16 * row}" fill="{colour}">{name}</text>')
+    out.append(f'<text x="{(left + right) / 2}" y="{height - 10}" text-anchor="middle">{across}</text>')
+    out.append(f'<text x="{left}" y="18">{title}</text></svg>')
     with open(path, "w") as f:
         f.write("\n".join(out) + "\n")
+
+
+def figures(benches, folder):
+    """Those of which the benches are there."""
+    def points(prefix, size, time):
+        return sorted((size(n.split("/")[2]), time(b)) for n, b in benches.items() if n.startswith(prefix) and n.count("/") == 2)
+
+    pixels = lambda size: math.prod(int(n) for n in size.split("x"))
+    a_pass = lambda name: lambda b: b["passes"][name]
+    if lights := points("frame/lights/", int, a_pass("direct")):
+        chart(folder / "lights.svg", "lighting pass [ms], 320 x 180, one thread", "quad lights", [("", "#1463a5", lights)])
+    if sizes := points("frame/pixels/", pixels, lambda b: b["median_ms"]):
+        chart(folder / "pixels.svg", "frame under one quad, ltc-compact [ms], one thread", "pixels", [("", "#1463a5", sizes)])
+    if points("frame/triangles/", int, a_pass("rays")):
+        lines = [(name, colour, points("frame/triangles/", int, a_pass(name)))
+                 for name, colour in (("build", "#a53914"), ("rays", "#1463a5"), ("gbuffer", "#3c8a2e"))]
+        chart(folder / "triangles.svg", "passes [ms], 1280 x 720, one thread", "triangles", lines)
 
 
 def main():
@@ -68,8 +98,7 @@ def main():
             benches.update((b["name"], b) for b in json.load(f))
     kernels(benches)
     frames(benches)
-    if any(n.startswith("frame/lights/") for n in benches):
-        figure(benches, sys.argv[1])
+    figures(benches, Path(sys.argv[1]))
 
 
 main()

@@ -64,9 +64,10 @@ std::vector<Case> cases() {
   Material ggx;
   ggx.brdf = Brdf::ggx;
   const auto options = methods::half_vector_options(Quality::normal);
-  all.push_back({"half-vector ggx", ggx, Method::half_vector, [=](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
-                   half_vector_table_for(simd).ggx(light, p, options, plain, fresnel);
-                 }});
+  all.push_back(
+      {"half-vector ggx", ggx, Method::half_vector, [=](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
+         half_vector_table_for(simd).ggx(light, p, options, plain, fresnel);
+       }});
   all.push_back({"clipless", ggx, Method::ltc_clipless,
                  [tables = ltc_classic_pack_tables()](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
                    comparison_table_for(simd).clipless(light, p, tables, plain, fresnel);
@@ -134,7 +135,8 @@ TEST(LobePacks, FollowOnePointAtATimeUnderPolygons) {
           m.f90 = {1, 1, 1};
         }
         if (m.tangent == Vec3d{}) m.tangent = cloud.at(9, i);
-        const double truth = methods::row_of(c.method).polygon(prepared, cloud.point(i), m, {c.method, Quality::normal, Precision::float_}).radiance.x;
+        const double truth =
+            methods::row_of(c.method).polygon(prepared, cloud.point(i), m, {c.method, Quality::normal, Precision::float_}).radiance.x;
         const double p = static_cast<double>(plain[i]), f = static_cast<double>(fresnel[i]);
         const double found = m.brdf == Brdf::ggx ? 0.5 * (p - f) + f : p;
         largest = std::max(largest, truth);
