@@ -17,11 +17,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMostAlbedo = 0.98;   // of all bounces: a closed white room would have no end of light
-constexpr double kInitialParts = 32;   // elements to the picture's larger side, before any is halved
+constexpr double kMostAlbedo = 0.98;  // of all bounces: a closed white room would have no end of light
+constexpr double kInitialParts = 32;  // elements to the picture's larger side, before any is halved
 constexpr int kMostRounds = 5;
 constexpr int kMostSweeps = 2000;
-constexpr double kSettled = 1e-7;      // a sweep that changes less than this share of the brightest node is the last
+constexpr double kSettled = 1e-7;  // a sweep that changes less than this share of the brightest node is the last
 
 double largest(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 Vec3d times(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
@@ -58,8 +58,7 @@ Node look(const World& world, const Elements& elements, const Element& element, 
   for (const Visible& v : lower_envelope(curves, at, world.scene.bodies, {-1})) {
     const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
     Node::for_each_in_front(v, angle_of(normal), [&](const Visible& part) {
-      if (light)
-        add_emission(part, *light, at, EmissionParts::radiance_and_moments, lights);
+      if (light) add_emission(part, *light, at, EmissionParts::radiance_and_moments, lights);
       if (elements.reflects(part, world)) node.walls.push_back(part);
     });
   }
@@ -86,15 +85,18 @@ struct Row {
 Row row_of(const World& world, const Elements& elements, const Node& node) {
   Row row;
   for (const Visible& v : node.walls)
-    weigh(world, elements, v, node.place.at, &node.place.normal,
-          [&](std::size_t element, double w0, double w1) { row.weights.push_back({element, w0, w1}); });
+    weigh(world, elements, v, node.place.at, &node.place.normal, [&](std::size_t element, double w0, double w1) {
+      row.weights.push_back({element, w0, w1});
+    });
   return row;
 }
 
 class Solver {
  public:
   Solver(const World& world, const PlaneBounceOptions& options)
-      : world_(world), options_(options), budget_(options.limits),
+      : world_(world),
+        options_(options),
+        budget_(options.limits),
         elements_(world, std::max(world.scene.width, world.scene.height) / kInitialParts,
                   options.bounces == kAllBounces ? kMostAlbedo : 1.0) {}
 
@@ -219,9 +221,10 @@ class Solver {
     for (std::size_t i = 0; i < all.size(); ++i) own[i] = all[i].error;
     for (int sweep = 0; sweep < 50; ++sweep)
       for (std::size_t i = 0; i < all.size(); ++i)
-        all[i].error = own[i] + times(all[i].albedo, nodes_[i].rows[2].gather(all, [](const Element& e, const Row::Weight& w) {
-                         return e.error * w.constant;
-                       })) * 0.5;
+        all[i].error =
+            own[i] + times(all[i].albedo,
+                           nodes_[i].rows[2].gather(all, [](const Element& e, const Row::Weight& w) { return e.error * w.constant; })) *
+                         0.5;
     double size = 0, squares = 0, mean = 0;
     for (const Element& e : all) {
       const Vec3d light = magnitude(e.constant);
@@ -295,9 +298,8 @@ Vec3d PlaneBounces::error(Vec2d position) const {
   const Vec2d p = position * impl_->world->scale;
   Vec3d sum;
   plane::for_each_wall(*impl_, p, [&](const plane::Visible& v) {
-    plane::weigh(*impl_->world, impl_->elements, v, p, nullptr, [&](std::size_t i, double w0, double) {
-      sum += impl_->elements.all()[i].error * w0 / (2 * std::numbers::pi);
-    });
+    plane::weigh(*impl_->world, impl_->elements, v, p, nullptr,
+                 [&](std::size_t i, double w0, double) { sum += impl_->elements.all()[i].error * w0 / (2 * std::numbers::pi); });
   });
   return sum;
 }

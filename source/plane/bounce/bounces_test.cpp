@@ -31,7 +31,9 @@ PlaneScene square_room(double albedo, double first, double others) {
   return scene;
 }
 
-double total(const PlaneWorld& world, const PlaneBounces& bounces, Vec2d p) { return world.query(p).radiance.x + bounces.query(p).radiance.x; }
+double total(const PlaneWorld& world, const PlaneBounces& bounces, Vec2d p) {
+  return world.query(p).radiance.x + bounces.query(p).radiance.x;
+}
 
 // A room with things in it, lit by a lamp with a range and a lamp in the corner.
 PlaneScene furnished_room(int boxes, std::uint64_t seed) {
@@ -156,9 +158,10 @@ TEST(PlaneBounces, SayHowFarTheyAreOff) {
       ++count;
     }
     const double rms = std::sqrt(squares / count) / (mean / count);
-    std::printf("seed %d: %zu elements in %.1f ms, %zu in %.1f ms; rms %.1e, largest %.1e of the mean; estimated %.1e at points, %.1e on walls\n",
-                static_cast<int>(seed), coarse.stats().elements, coarse.stats().ms, reference.stats().elements, reference.stats().ms, rms,
-                worst / (mean / count), estimated / mean, coarse.stats().error);
+    std::printf(
+        "seed %d: %zu elements in %.1f ms, %zu in %.1f ms; rms %.1e, largest %.1e of the mean; estimated %.1e at points, %.1e on walls\n",
+        static_cast<int>(seed), coarse.stats().elements, coarse.stats().ms, reference.stats().elements, reference.stats().ms, rms,
+        worst / (mean / count), estimated / mean, coarse.stats().error);
     EXPECT_LT(rms, 2e-3);
     EXPECT_LT(rms, estimated / mean);
     EXPECT_GT(rms, 0.01 * estimated / mean);

@@ -9,7 +9,7 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kThinnest = 60;                     // ellipses beyond are not on packs
+constexpr double kThinnest = 60;                    // ellipses beyond are not on packs
 constexpr double kMostTurn = std::numbers::pi / 4;  // of an arc's element, in the ellipse's own parameter
 
 Vec2d point_on(const Curve& c, double share) {

@@ -11,11 +11,11 @@
 namespace steradian::plane {
 
 struct Element {
-  std::size_t curve = 0;      // in World::curves
-  bool back = false;          // of a line of no thickness: the other side
-  double from = 0, to = 1;    // shares of the curve
+  std::size_t curve = 0;        // in World::curves
+  bool back = false;            // of a line of no thickness: the other side
+  double from = 0, to = 1;      // shares of the curve
   Vec2d middle, along, normal;  // of its chord; along and normal are units, the normal points to the lit side
-  double half = 0;            // of the chord's length
+  double half = 0;              // of the chord's length
   Vec3d albedo;
   // Radiance constant + slope u at the place u = dot(p - middle, along) / half, and what it is off by, as far as is known.
   Vec3d constant, slope, error;

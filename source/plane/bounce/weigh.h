@@ -1,4 +1,5 @@
-// What a visible piece of a wall sends, element by element. Segments in closed form, with t the tangent of the angle from their perpendicular:
+// What a visible piece of a wall sends, element by element. Segments in closed form, with t the tangent of the angle from their
+// perpendicular:
 //
 //   u = m t + c,  integral of u^k (nc + ns t) (1 + t^2)^(-3/2) dt from I0 = t/s, I1 = -1/s, I2 = asinh t - t/s,  s = sqrt(1 + t^2);
 //
@@ -81,10 +82,10 @@ class SegmentWeights {
 };
 
 // Of an arc's part between two places tau; halved until it is no longer than 0.7 of its distance.
-inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2d* normal, double low, double high, double& w0, double& w1) {
+inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2d* normal, double low, double high, double& w0,
+                    double& w1) {
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
-  const Vec2d to_middle = curve.ellipse.at(middle) - from,
-              across = curve.ellipse.y * std::cos(middle) - curve.ellipse.x * std::sin(middle);
+  const Vec2d to_middle = curve.ellipse.at(middle) - from, across = curve.ellipse.y * std::cos(middle) - curve.ellipse.x * std::sin(middle);
   if (4 * half * half * dot(across, across) > 0.5 * dot(to_middle, to_middle) && half > 1e-4) {
     add_arc(curve, e, from, normal, low, middle, w0, w1);
     add_arc(curve, e, from, normal, middle, high, w0, w1);
