@@ -628,7 +628,7 @@ def stadium():
     """A stadium at night: 10,000 lamps, of which 2,400 under the roof, 6,600 along the steps and 1,000 boards around the pitch."""
     g = Gltf()
     grass = [g.diffuse("grass %d" % i, c) for i, c in enumerate(((0.10, 0.26, 0.07), (0.13, 0.32, 0.09)))]
-    white, concrete, track = g.diffuse("line", (0.75, 0.75, 0.72)), g.diffuse("concrete", (0.42, 0.42, 0.44)), g.diffuse("track", (0.32, 0.13, 0.09))
+    white, concrete, track = g.diffuse("line", (0.75, 0.75, 0.72)), g.diffuse("concrete", (0.30, 0.30, 0.32)), g.diffuse("track", (0.32, 0.13, 0.09))
 
     def ellipse(k, a):
         """Terrace k of 15, at the angle a."""
@@ -661,24 +661,32 @@ def stadium():
             steps.quad((x0, low, z0), (x1, low, z1), (x1, y, z1), (x0, y, z0))
             steps.quad((x0, y, z0), (x1, y, z1), (x2, y, z2), (x3, y, z3))
             if k == rows - 1:
-                steps.quad((x3, y, z3), (x2, y, z2), (x2, 34.0, z2), (x3, 34.0, z3))
+                steps.quad((x3, y, z3), (x2, y, z2), (x2, 29.0, z2), (x3, 29.0, z3))
     g.node("steps", mesh=g.mesh("steps", steps, concrete))
+    backs = Shape()  # of the boards
+    for x0, x1, z0, z1 in ((-52, 52, 37.1, 37.3), (-52, 52, -37.3, -37.1), (-56.3, -56.1, -36, 36), (56.1, 56.3, -36, 36)):
+        part = box(x0, 0.0, z0, x1, 0.95, z1)
+        first = len(backs.positions)
+        backs.positions += part.positions
+        backs.normals += part.normals
+        backs.triangles += [tuple(first + i for i in t) for t in part.triangles]
+    g.node("backs", mesh=g.mesh("backs", backs, white))
 
-    roof = [g.lamp("roof", {"type": "rect", "color": c, "intensity": 26000.0, "size": 0.5, "rect": {"aspect": 1.0}}) for c in
+    roof = [g.lamp("roof", {"type": "rect", "color": c, "intensity": 4500.0, "size": 0.5, "rect": {"aspect": 1.0}}) for c in
             ([1.0, 0.93, 0.84], [0.84, 0.92, 1.0])]
     for i in range(2400):
         a, row = 2 * math.pi * (i // 3) / 800, i % 3
         x, z = ellipse(12.5 - row, a)
         aim = (0.55 * x * (0.2 + 0.8 * (i % 7) / 6) - x, -31.0, 0.45 * z * (0.2 + 0.8 * (i % 5) / 4) - z)
         roof[i // 300 % 2](translation=[rounded(x), 33.5, rounded(z)], rotation=facing(aim))
-    colors = ([1.0, 0.42, 0.10], [1.0, 0.72, 0.30], [0.25, 0.45, 1.0], [0.75, 0.25, 0.95])
-    step = [g.lamp("step", {"type": "rect", "color": c, "intensity": 2600.0, "size": 0.12, "rect": {"aspect": 3.0}}) for c in colors]
+    colors = ([1.0, 0.36, 0.06], [1.0, 0.70, 0.28], [0.10, 0.30, 1.0], [0.80, 0.12, 0.75])
+    step = [g.lamp("step", {"type": "rect", "color": c, "intensity": 5200.0, "size": 0.12, "rect": {"aspect": 3.0}}) for c in colors]
     for i in range(6600):
         k, n = 1 + i // 471, i % 471
         a = 2 * math.pi * (n + 0.5 * (k % 2)) / 471
         x, z = ellipse(k - 0.02, a)
         step[int(8 * a / (2 * math.pi)) % 4](translation=[rounded(x), rounded(1.5 + 1.6 * (k - 1) + 1.1), rounded(z)], rotation=facing((-x, -40.0, -z * 1.4)))
-    board = [g.lamp("board", {"type": "rect", "color": c, "intensity": 900.0, "size": 0.8, "rect": {"aspect": 0.6}}) for c in
+    board = [g.lamp("board", {"type": "rect", "color": c, "intensity": 260.0, "size": 0.8, "rect": {"aspect": 0.6}}) for c in
              ([0.1, 0.7, 1.0], [1.0, 0.25, 0.15], [0.95, 0.95, 0.9], [0.3, 1.0, 0.35])]
     for i in range(1000):
         long = i < 600
@@ -686,7 +694,7 @@ def stadium():
         side = 1.0 if (i < 300 if long else i < 800) else -1.0
         x, z = (52.0 * t, 37.0 * side) if long else (56.0 * side, 36.0 * t)
         board[i // 25 % 4](translation=[rounded(x), 0.5, rounded(z)], rotation=facing((0, -0.1, -side) if long else (-side, -0.1, 0)))
-    g.camera("main", [38.0, 19.0, 66.0], [-14.0, 3.0, -14.0], 0.85)
+    g.camera("main", [30.0, 27.0, 74.0], [-9.0, 3.0, -8.0], 0.8)
     g.camera("pitch", [-20.0, 1.7, 20.0], [20.0, 6.0, -20.0], 0.9)
     return g
 
