@@ -1,7 +1,8 @@
 // plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
 // 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
 // marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
-// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them.
+// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them;
+// plane/move/LxB and plane/move-lamp/LxB: a box, and a lamp, moves by 3.6 pixels, another one every time, and a 1080p stage follows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "plane/frame/drawing.h"
 #include "plane/frame/light_field.h"
 #include "steradian/plane_bounce.h"
+#include "steradian/plane_stage.h"
 
 namespace steradian::bench {
 namespace {
@@ -116,6 +118,20 @@ Bench bounce_frame(int boxes, const BenchOptions& options) {
           }};
 }
 
+Bench moves(const LightField& field, const char* name, std::size_t first, std::size_t count, const BenchOptions& options) {
+  struct Moving {
+    PlaneStage stage;
+    std::size_t next = 0;
+  };
+  auto moving = std::make_shared<Moving>(Moving{PlaneStage(make_light_field(field, kSeed), one_thread())});
+  moving->stage.draw();
+  return {std::string("plane/") + name + "/" + suffix(field), 1, name_of(options.simd), [moving, first, count] {
+            moving->stage.move(first + moving->next % count, {moving->next % 2 == 0 ? 3.6 : -3.6, 0});
+            ++moving->next;
+            keep(moving->stage.draw().pixels.front());
+          }};
+}
+
 std::string suffix(const plane::Drawing& drawing) { return drawing.shape + "-" + drawing.emission; }
 
 Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
@@ -141,6 +157,9 @@ void add_plane(BenchList& list) {
   }
   for (const LightField& field : kLightFields) {
     list.add("plane/frame/" + suffix(field), [field](const BenchOptions& o) { return cold(field, o); });
+    const auto lamps = static_cast<std::size_t>(field.lights), boxes = static_cast<std::size_t>(field.boxes);
+    list.add("plane/move/" + suffix(field), [field, boxes](const BenchOptions& o) { return moves(field, "move", 0, boxes, o); });
+    list.add("plane/move-lamp/" + suffix(field), [=](const BenchOptions& o) { return moves(field, "move-lamp", boxes, lamps, o); });
     list.add("plane/warm/" + suffix(field), [field](const BenchOptions& o) { return warm(field, o); });
     list.add("plane/rays/" + suffix(field), [field](const BenchOptions&) { return rays(field); });
     list.add("plane/par/" + suffix(field), [field](const BenchOptions&) { return points(field, "par", PlaneMethod::par); });

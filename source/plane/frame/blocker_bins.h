@@ -1,4 +1,5 @@
-// Blockers by where they are: a grid of 33 x 33 bins. Chains stand for their edges.
+// Blockers by where they are: a grid of 33 x 33 bins over a window, those at its border open to the outside. What is found comes in an
+// order that does not depend on other blockers. Chains stand for their edges.
 #pragma once
 
 #include <algorithm>
@@ -12,21 +13,15 @@ namespace steradian::plane {
 class BlockerBins {
  public:
   BlockerBins() = default;
-  explicit BlockerBins(const std::vector<Blocker>& blockers) {
-    Box box;
+  BlockerBins(const std::vector<Blocker>& blockers, const Box& window) {
     for (const Blocker& b : blockers)
-      if (!b.in_chain) box.add(b.center), largest_ = std::max(largest_, b.bound);
-    if (blockers.empty()) box.add({0, 0});
-    low_ = box.low;
-    high_ = box.high;
-    cell_ = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6}) / 32;
+      if (!b.in_chain) largest_ = std::max(largest_, b.bound);
+    low_ = window.low;
+    cell_ = std::max({window.high.x - window.low.x, window.high.y - window.low.y, 1e-6}) / 32;
     bins_.resize(33 * 33);
     for (std::size_t i = 0; i < blockers.size(); ++i)
       if (!blockers[i].in_chain) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
   }
-
-  Vec2d low() const { return low_; }
-  Vec2d high() const { return high_; }
 
   // Calls f with the index of every blocker within `reach` of p.
   template <class F>
@@ -48,7 +43,7 @@ class BlockerBins {
   std::size_t bin(Vec2d p) const { return static_cast<std::size_t>(cell(p.y - low_.y) * 33 + cell(p.x - low_.x)); }
 
   std::vector<std::vector<int>> bins_;
-  Vec2d low_, high_;  // of all centres
+  Vec2d low_;
   double cell_ = 1, largest_ = 0;
 };
 

@@ -7,41 +7,10 @@
 
 namespace steradian::plane {
 
-EventWalk::EventWalk(const FrameScene& frame, const PixelGrid& grid)
-    : frame_(frame), grid_(grid), slack_(static_cast<float>(std::max(frame.slack, 1e-3))) {
-  for (std::size_t e = 0; e < frame.emitters.size(); ++e)
-    if (frame.emitters[e].kind == Emitter::Kind::disk && !frame.emitters[e].hidden) disks_.push_back(static_cast<int>(e));
-}
+namespace {
 
-void EventWalk::enter_256(int x, int y, const TileArea& tile) {
-  x_256_ = x;
-  y_256_ = y;
-  top_.clear();
-  top_pairs_.clear();
-  for (int index : disks_) {
-    const Emitter& e = frame_.emitters[static_cast<std::size_t>(index)];
-    const Vec2d axis = e.center - tile.center;
-    const double reach = e.range + e.bound + tile.radius;
-    if (dot(axis, axis) >= reach * reach) continue;
-    const std::size_t begin = frame_.first_nearby[static_cast<std::size_t>(index)],
-                      end = frame_.first_nearby[static_cast<std::size_t>(index) + 1];
-    top_pairs_.reserve_more(end - begin);
-    if (hiders_.size() < end - begin) hiders_.resize(2 * (end - begin));
-    const std::size_t first = top_pairs_.size;
-    cull_.cull(hull_of(tile, e, frame_.world->scene.origin), frame_.nearby, begin, end, top_pairs_, hiders_.data());
-    top_.push_back({index, first, static_cast<int>(top_pairs_.size - first)});
-  }
-  split(top_, top_pairs_.index.data(), x, y, 64, of_256_);
-}
-
-void EventWalk::enter_64(int x, int y) {
-  const int child = (y - y_256_) / 64 * 4 + (x - x_256_) / 64;
-  x_64_ = x;
-  y_64_ = y;
-  split(of_256_.lights[child], of_256_.pairs[child].data(), x, y, 16, of_64_);
-}
-
-class EventWalk::Squares {
+// Sixteen squares of so many pixels from (x, y) on: what does not depend on the light, and those in the picture.
+class Squares {
  public:
   Squares(const PixelGrid& grid, int x, int y, int side, float slack) {
     // Of a square, only the centres of its pixels count.
@@ -73,6 +42,43 @@ class EventWalk::Squares {
   alignas(64) float offset_y_[16];
   EventSquares squares_;
 };
+
+float slack_of(const FrameScene& frame) { return static_cast<float>(std::max(frame.slack, 1e-3)); }
+
+}  // namespace
+
+EventWalk::EventWalk(const FrameScene& frame, const PixelGrid& grid) : frame_(frame), grid_(grid), slack_(slack_of(frame)) {
+  for (std::size_t e = 0; e < frame.emitters.size(); ++e)
+    if (frame.emitters[e].kind == Emitter::Kind::disk && !frame.emitters[e].hidden) disks_.push_back(static_cast<int>(e));
+}
+
+void EventWalk::enter_256(int x, int y, const TileArea& tile) {
+  x_256_ = x;
+  y_256_ = y;
+  top_.clear();
+  top_pairs_.clear();
+  for (int index : disks_) {
+    const Emitter& e = frame_.emitters[static_cast<std::size_t>(index)];
+    const Vec2d axis = e.center - tile.center;
+    const double reach = e.range + e.bound + tile.radius;
+    if (dot(axis, axis) >= reach * reach) continue;
+    const std::size_t begin = frame_.first_nearby[static_cast<std::size_t>(index)],
+                      end = frame_.first_nearby[static_cast<std::size_t>(index) + 1];
+    top_pairs_.reserve_more(end - begin);
+    if (hiders_.size() < end - begin) hiders_.resize(2 * (end - begin));
+    const std::size_t first = top_pairs_.size;
+    cull_.cull(hull_of(tile, e, frame_.world->scene.origin), frame_.nearby, begin, end, top_pairs_, hiders_.data());
+    top_.push_back({index, first, static_cast<int>(top_pairs_.size - first)});
+  }
+  split(top_, top_pairs_.index.data(), x, y, 64, of_256_);
+}
+
+void EventWalk::enter_64(int x, int y) {
+  const int child = (y - y_256_) / 64 * 4 + (x - x_256_) / 64;
+  x_64_ = x;
+  y_64_ = y;
+  split(of_256_.lights[child], of_256_.pairs[child].data(), x, y, 16, of_64_);
+}
 
 void EventWalk::split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, Children& to) const {
   for (int k = 0; k < 16; ++k) to.lights[k].clear(), to.used[k] = 0;
@@ -124,6 +130,34 @@ void EventWalk::add_lights(int x, int y, const TileArea& tile, std::uint32_t ope
     const auto [whole, visible] = general.build(e, rest_.blockers.data(), rest_.blockers.size());
     if (visible) tiles_.add_light(whole, buffer, rest_.blocks);
   }
+}
+
+namespace {
+
+void mark_below(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair, int x, int y, int side, TileSet& tiles) {
+  const EventTable& table = event_table_for(active_simd());
+  const Squares squares(grid, x, y, side, slack_of(frame));
+  const EventSquares seen = squares.from(disk);
+  int touched[16][1];
+  EventLists lists;
+  for (int k = 0; k < 16; ++k) lists.pairs[k] = touched[k], lists.sizes[k] = 0;
+  const std::uint32_t in_range = table.split(frame.pairs.data(), nullptr, 0, seen, squares.in_picture, lists),
+                      open = table.split(frame.pairs.data(), &pair, 1, seen, squares.in_picture, lists);
+  for (int k = 0; k < 16; ++k) {
+    const int at_x = x + k % 4 * side, at_y = y + k / 4 * side;
+    const bool hides = ((in_range & ~open) >> k & 1) != 0;
+    if (hides || (lists.sizes[k] > 0 && side == kTileSide))
+      tiles.mark(at_x, at_y, side);
+    else if (lists.sizes[k] > 0)
+      mark_below(frame, grid, disk, pair, at_x, at_y, side / 4, tiles);
+  }
+}
+
+}  // namespace
+
+void mark_touched(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair, TileSet& tiles) {
+  for (int y = 0; y < grid.height; y += 256)
+    for (int x = 0; x < grid.width; x += 256) mark_below(frame, grid, disk, pair, x, y, 64, tiles);
 }
 
 }  // namespace steradian::plane

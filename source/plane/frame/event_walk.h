@@ -35,8 +35,6 @@ class EventWalk {
     std::size_t used[16];
   };
 
-  // Sixteen squares of so many pixels from (x, y) on: what does not depend on the light, and those in the picture.
-  class Squares;
   void split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, Children& to) const;
 
   const FrameScene& frame_;
@@ -53,5 +51,8 @@ class EventWalk {
   int x_256_ = 0, y_256_ = 0, x_64_ = 0, y_64_ = 0;
   EventRest rest_;
 };
+
+// Marks the tiles on whose light from a disk the pair may have had an effect: those that it reaches on the way down, by the same tests.
+void mark_touched(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair, TileSet& tiles);
 
 }  // namespace steradian::plane

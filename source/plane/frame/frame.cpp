@@ -20,14 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-PixelGrid grid_of(const PlaneScene& scene, int width, int height) {
-  const Vec2d step{scene.width / width, scene.height / height};
-  if (scene.fit == PlaneFit::stretch || step.x == step.y) return {scene.origin, step, width, height};
-  const double unit = scene.fit == PlaneFit::meet ? std::max(step.x, step.y) : std::min(step.x, step.y);
-  const Vec2d room = Vec2d{scene.width, scene.height} - Vec2d{unit * width, unit * height};
-  return {scene.origin + Vec2d{room.x * scene.align.x, room.y * scene.align.y}, {unit, unit}, width, height};
-}
-
 Picture averaged(const Picture& fine, int n) {
   Picture result(fine.width / n, fine.height / n);
   const auto average = [&](const std::vector<Vec3f>& from, std::vector<Vec3f>& to) {
@@ -104,6 +96,14 @@ void draw_occluders(const PlaneWorld::Impl& world, PlaneOccluders occluders, con
 }
 
 }  // namespace
+
+PixelGrid grid_of(const PlaneScene& scene, int width, int height) {
+  const Vec2d step{scene.width / width, scene.height / height};
+  if (scene.fit == PlaneFit::stretch || step.x == step.y) return {scene.origin, step, width, height};
+  const double unit = scene.fit == PlaneFit::meet ? std::max(step.x, step.y) : std::min(step.x, step.y);
+  const Vec2d room = Vec2d{scene.width, scene.height} - Vec2d{unit * width, unit * height};
+  return {scene.origin + Vec2d{room.x * scene.align.x, room.y * scene.align.y}, {unit, unit}, width, height};
+}
 
 }  // namespace steradian::plane
 

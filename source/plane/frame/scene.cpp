@@ -48,11 +48,13 @@ class Preparation {
     for (std::size_t i = 0; i < bodies; ++i)
       if (lights_.scene && world_.scene.bodies[i].light) add_emitters(i);
     frame_.emitters.insert(frame_.emitters.end(), lights_.walls.begin(), lights_.walls.end());
-    bins_ = BlockerBins(frame_.blockers);
-    const Vec2d origin = world_.scene.origin, low = bins_.low(), high = bins_.high();
-    frame_.slack = 32 * 0x1p-24 *
-                   std::max({std::fabs(low.x - origin.x), std::fabs(low.y - origin.y), std::fabs(high.x - origin.x),
-                             std::fabs(high.y - origin.y), world_.scene.width, world_.scene.height});
+    const Vec2d origin = world_.scene.origin, size{world_.scene.width, world_.scene.height};
+    bins_ = BlockerBins(frame_.blockers, {origin, origin + size});
+    // A power of two: it stays what it is when bodies move a little.
+    double extent = std::max(size.x, size.y);
+    for (const Blocker& b : frame_.blockers)
+      extent = std::max({extent, std::fabs(b.center.x - origin.x), std::fabs(b.center.y - origin.y)});
+    frame_.slack = 32 * 0x1p-24 * std::exp2(std::ceil(std::log2(extent)));
     if (!frame_.emitters.empty()) check_pairs();
     check_general();
     interior();

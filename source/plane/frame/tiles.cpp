@@ -66,8 +66,15 @@ struct Level {
 // One thread's work.
 class Worker {
  public:
-  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture)
-      : frame_(frame), world_(*frame.world), grid_(grid), table_(table), picture_(picture), leaf_(frame), events_(frame, grid) {
+  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only)
+      : only_(only),
+        frame_(frame),
+        world_(*frame.world),
+        grid_(grid),
+        table_(table),
+        picture_(picture),
+        leaf_(frame),
+        events_(frame, grid) {
     std::fill(std::begin(inside_), std::end(inside_), kOutside);
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x) {
@@ -221,6 +228,7 @@ class Worker {
     const int side = kSides[level + 1];
     for (int dy = 0; dy < kSides[level] && y + dy < grid_.height; dy += side)
       for (int dx = 0; dx < kSides[level] && x + dx < grid_.width; dx += side) {
+        if (only_ != nullptr && !only_->any(x + dx, y + dy, side)) continue;
         const TileArea tile = area(x + dx, y + dy, side);
         to.entries.clear();
         to.blockers.clear();
@@ -383,6 +391,7 @@ class Worker {
   }
 
   static constexpr int kOutside = -1, kDark = -2;
+  const TileSet* only_;
   const FrameScene& frame_;
   const World& world_;
   const PixelGrid& grid_;
@@ -404,14 +413,28 @@ class Worker {
 
 }  // namespace
 
+void TileSet::mark(int x, int y, int side) {
+  for (int row = y / kTileSide; row < std::min((y + side) / kTileSide, rows); ++row)
+    for (int column = x / kTileSide; column < std::min((x + side) / kTileSide, columns); ++column)
+      marked[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)] = 1;
+}
+
+bool TileSet::any(int x, int y, int side) const {
+  for (int row = y / kTileSide; row < std::min((y + side) / kTileSide, rows); ++row)
+    for (int column = x / kTileSide; column < std::min((x + side) / kTileSide, columns); ++column)
+      if (marked[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)] != 0) return true;
+  return false;
+}
+
 void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
-                  PlaneFrameStats& stats) {
+                  PlaneFrameStats& stats, const TileSet* only) {
   const TileTable& table = tile_table_for(active_simd());
   const int columns = (grid.width + kSides[0] - 1) / kSides[0], rows = (grid.height + kSides[0] - 1) / kSides[0];
   std::atomic<std::uint64_t> done{0}, lights{0}, blockers{0};
   tbb::parallel_for(0, columns * rows, [&](int i) {
+    if (only != nullptr && !only->any(i % columns * kSides[0], i / columns * kSides[0], kSides[0])) return;
     const FlushDenormals flush;
-    const auto worker = std::make_unique<Worker>(frame, grid, table, picture);
+    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only);
     worker->run(i % columns * kSides[0], i / columns * kSides[0]);
     lights += worker->tile_lights;
     blockers += worker->tile_blockers;

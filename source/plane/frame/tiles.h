@@ -1,7 +1,10 @@
 // The pixels of a frame, tile by tile.
 #pragma once
 
+#include <vector>
+
 #include "plane/frame/scene.h"
+#include "plane/frame/tile.h"
 #include "steradian/picture.h"
 
 namespace steradian::plane {
@@ -12,8 +15,22 @@ struct PixelGrid {
   Vec2d at(int x, int y) const { return {origin.x + step.x * (x + 0.5), origin.y + step.y * (y + 0.5)}; }
 };
 
-// Fills the picture's pixels, and the counts of the statistics.
+// Tiles of 16 x 16 pixels, by rows.
+struct TileSet {
+  int columns, rows;
+  std::vector<char> marked;
+  explicit TileSet(const PixelGrid& grid)
+      : columns((grid.width + kTileSide - 1) / kTileSide),
+        rows((grid.height + kTileSide - 1) / kTileSide),
+        marked(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0) {}
+  // The tiles of a square of so many pixels from (x, y) on.
+  void mark(int x, int y, int side);
+  bool any(int x, int y, int side) const;
+};
+
+// Fills the picture's pixels, or those of some tiles, and the counts of the statistics.
 void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
-                  PlaneFrameStats& stats);
+                  PlaneFrameStats& stats, const TileSet* only = nullptr);
+PixelGrid grid_of(const PlaneScene& scene, int width, int height);
 
 }  // namespace steradian::plane
