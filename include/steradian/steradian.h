@@ -17,6 +17,7 @@
 #include "steradian/indirect.h"
 #include "steradian/kernels.h"
 #include "steradian/light_profile.h"
+#include "steradian/light_units.h"
 #include "steradian/limits.h"
 #include "steradian/load_scene.h"
 #include "steradian/ltc.h"

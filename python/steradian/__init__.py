@@ -10,7 +10,7 @@ Integrals of area lights over arrays of surface points, pictures of scenes, ligh
 Lights and materials are the dictionaries of `steradian eval`. Lengths are metres; radiance is W/(m2 sr) or nits, linear RGB.
 The manual is docs/python.md.
 """
-from . import plane
+from . import plane, units
 from ._core import Scene, simd, version as __version__
 from .errors import Error, UsageError
 from .integrals import Derivatives, Reference, irradiance, radiance, reference
@@ -18,5 +18,5 @@ from .pictures import Difference, Fit, auto_exposure, diff, fit, load_scene, rea
 
 __all__ = [
     "Derivatives", "Difference", "Error", "Fit", "Reference", "Scene", "UsageError", "__version__", "auto_exposure", "diff", "fit",
-    "irradiance", "load_scene", "plane", "radiance", "read_picture", "reference", "render", "simd", "write_picture",
+    "irradiance", "load_scene", "plane", "radiance", "read_picture", "reference", "render", "simd", "units", "write_picture",
 ]

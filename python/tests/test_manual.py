@@ -1,4 +1,4 @@
-"""docs/python.md, run from its first line to its last."""
+"""docs/python.md and docs/lights.md, run from the first line to the last."""
 import doctest
 import os
 import tempfile
@@ -9,16 +9,22 @@ ROOT = Path(os.environ["STERADIAN_SOURCE_DIR"])
 
 
 class Manual(unittest.TestCase):
-    def test_page(self):
+    def test_python(self):
+        self.run_page("python.md", 30)
+
+    def test_lights(self):
+        self.run_page("lights.md", 8)
+
+    def run_page(self, name, least):
         with tempfile.TemporaryDirectory() as folder:
             os.symlink(ROOT / "scenes", Path(folder) / "scenes")
             here = os.getcwd()
             os.chdir(folder)
             try:
-                failed, tried = doctest.testfile(str(ROOT / "docs/python.md"), module_relative=False, encoding="utf-8")
+                failed, tried = doctest.testfile(str(ROOT / "docs" / name), module_relative=False, encoding="utf-8")
             finally:
                 os.chdir(here)
-        self.assertGreater(tried, 30)
+        self.assertGreaterEqual(tried, least)
         self.assertEqual(failed, 0)
 
 
