@@ -52,9 +52,9 @@ struct BatchOptions {
   int threads = 0;             // 0: all
 };
 
-// As radiance of radiance.h, point by point, and to the last bits of its precision; in single precision on packs for Lambert under
-// all lights, and under polygons for GGX by closed-form, ltc and ltc-compact, for Phong and for Charlie. Throws what that does.
-// The same bytes at any number of threads.
+// As radiance of radiance.h, point by point, within the rounding of its precision. On packs: in double, Lambert under polygons; in
+// single precision, Lambert under all lights, and under polygons GGX by closed-form, ltc, ltc-compact and half-vector, Phong, Beckmann,
+// Blinn-Phong and Charlie. Throws what that does. The same bytes at any number of threads.
 void radiance(const AreaLight& light, const PointRows<float>& points, const Material& lobe, const RadianceRows<float>& result,
               const BatchOptions& options = {});
 void radiance(const AreaLight& light, const PointRows<double>& points, const Material& lobe, const RadianceRows<double>& result,

@@ -17,6 +17,7 @@
 #include "integrals/methods.h"
 #include "render/cpu/batch_rows.h"
 #include "render/cpu/closed_form.h"
+#include "render/cpu/half_vector.h"
 #include "render/cpu/irradiance.h"
 #include "render/cpu/ltc_points.h"
 #include "render/cpu/phong.h"
@@ -108,6 +109,11 @@ std::optional<PackMethod> pack_method(const Question& q, const PackLight& light)
         ggx(light, points, quality, plain, fresnel);
       });
     }
+    if (q.row.method == Method::half_vector) {
+      const auto ggx = half_vector_table_for(simd).ggx;
+      return by_fresnel([ggx, &light, arcs = methods::half_vector_options(q.options.quality)](
+                            const Points& points, float* plain, float* fresnel) { ggx(light, points, arcs, plain, fresnel); });
+    }
     if (q.row.method == Method::ltc || q.row.method == Method::ltc_compact) {
       const auto tables = std::make_shared<LtcPackTables>(q.row.method == Method::ltc_compact  ? ltc_compact_pack_tables()
                                                           : q.options.table != nullptr         ? ltc_pack_tables(*q.options.table)
@@ -125,6 +131,12 @@ std::optional<PackMethod> pack_method(const Question& q, const PackLight& light)
     return plainly(
         [radiance, &light, options, n = m.exponent](const Points& points, float* plain) { radiance(light, points, n, options, plain); },
         m.albedo);
+  }
+  if ((m.brdf == Brdf::beckmann || m.brdf == Brdf::blinn_phong) && q.row.method == Method::half_vector) {
+    const auto lobe = half_vector_table_for(simd).lobe;
+    return plainly([lobe, &light, m, arcs = methods::half_vector_options(q.options.quality)](
+                       const Points& points, float* plain) { lobe(light, points, m, arcs, plain); },
+                   {1, 1, 1});
   }
   if (m.brdf == Brdf::charlie && q.row.method == Method::cubature) {
     const auto sheen = sheen_table_for(simd).radiance;
