@@ -96,7 +96,7 @@ struct Stage {
     thread_local EdgeArrays arrays;
     const std::size_t i = index_of(at);
     const Shaft shaft(frames[i], {at.position});
-    tree.gather(occluders.mesh, shaft, edges);
+    tree.gather(packs, shaft, edges);
     triangles_across.clear();
     for (const std::uint32_t t : crossing[i])
       if (shaft.needs_triangle(occluders.mesh, t)) triangles_across.push_back(t);

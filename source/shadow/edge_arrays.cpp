@@ -13,27 +13,25 @@ namespace {
 class Renumbering {
  public:
   void begin(std::size_t size) {
-    if (stamp_.size() < size) {
-      stamp_.resize(size, 0);
-      place_.resize(size);
-    }
+    if (known_.size() < size) known_.resize(size);
     if (++now_ == 0) {
-      std::fill(stamp_.begin(), stamp_.end(), 0u);
+      std::fill(known_.begin(), known_.end(), Known{});
       now_ = 1;
     }
   }
   // add() is called for a new number and says its place.
   template <class Add>
   std::uint32_t of(std::uint32_t number, Add add) {
-    if (stamp_[number] != now_) {
-      stamp_[number] = now_;
-      place_[number] = add();
-    }
-    return place_[number];
+    Known& known = known_[number];
+    if (known.since != now_) known = {now_, add()};
+    return known.place;
   }
 
  private:
-  std::vector<std::uint32_t> stamp_, place_;
+  struct Known {
+    std::uint32_t since = 0, place = 0;
+  };
+  std::vector<Known> known_;
   std::uint32_t now_ = 0;
 };
 thread_local Renumbering vertices_seen, planes_seen;
@@ -121,7 +119,7 @@ void EdgeArrays::Vectors::push_back(const Vec3f& v) {
 void EdgeArrays::clear() {
   for (Vectors* v : {&vertices_, &normals_}) v->resize(0);
   for (auto* v : {&vertex_, &plane_, &edge_}) v->clear();
-  for (auto* v : {&shift_x_, &shift_y_, &v0_, &v1_, &plane0_, &plane1_}) v->clear();
+  for (auto* v : {&v0_, &v1_, &plane0_, &plane1_}) v->clear();
   for (auto* v : {&offsets_, &walks0_, &walks1_}) v->clear();
   has_more_.clear();
   more_.clear();
@@ -163,10 +161,7 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
   planes_seen.begin(mesh.triangles.size());
   const auto vertex = [&](std::uint32_t v) {
     return vertices_seen.of(v, [&] {
-      const Cell displaced = cell_of(v, 0, 0);
       vertices_.push_back(to_float(frame.to_local(mesh.vertices[v])));
-      shift_x_.push_back(displaced.dx);
-      shift_y_.push_back(displaced.dy);
       vertex_.push_back(v);
       return static_cast<std::uint32_t>(vertex_.size() - 1);
     });
@@ -220,8 +215,6 @@ void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, c
   const auto vertex = [&](std::uint32_t v) {
     return vertices_seen.of(v, [&] {
       vertices_.push_back(tile.vertices_.at(v));
-      shift_x_.push_back(tile.shift_x_[v]);
-      shift_y_.push_back(tile.shift_y_[v]);
       vertex_.push_back(tile.vertex_[v]);
       return static_cast<std::uint32_t>(vertex_.size() - 1);
     });

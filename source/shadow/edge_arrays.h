@@ -57,7 +57,7 @@ class EdgeArrays {
   struct Triangle {
     std::uint32_t number, plane, corners[3], edges[3];
   };
-  Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return {x, y, shift_x_[v], shift_y_[v], vertex_[v]}; }
+  Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return cell_of(vertex_[v], x, y); }
   void clear();
   void pad();
   EdgeView view() const;
@@ -66,8 +66,7 @@ class EdgeArrays {
 
   std::size_t vertex_count_ = 0, plane_count_ = 0;
   Vectors vertices_;
-  std::vector<std::uint32_t> vertex_;            // numbers in the mesh
-  std::vector<std::int32_t> shift_x_, shift_y_;  // displacements
+  std::vector<std::uint32_t> vertex_;  // numbers in the mesh
   Vectors normals_;
   std::vector<float> offsets_;
   std::vector<std::uint32_t> plane_;  // triangles in the mesh

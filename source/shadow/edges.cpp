@@ -37,6 +37,58 @@ Plane plane_of(const std::vector<Vec3d>& vertices, std::array<std::uint32_t, 3> 
   return {normal, dot(normal, a)};
 }
 
+// Halves a range of edges by their middles, again and again.
+struct Middle {
+  double at[3];
+  std::uint32_t edge;
+};
+void split(Middle* all, std::uint32_t begin, std::uint32_t end) {
+  if (end - begin <= kLeafEdges) {
+    std::sort(all + begin, all + end, [](const Middle& a, const Middle& b) { return a.edge < b.edge; });
+    return;
+  }
+  double size[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto [low, high] =
+        std::minmax_element(all + begin, all + end, [c](const Middle& a, const Middle& b) { return a.at[c] < b.at[c]; });
+    size[c] = high->at[c] - low->at[c];
+  }
+  const std::size_t axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+  const std::uint32_t half = middle_of(begin, end);
+  std::nth_element(all + begin, all + half, all + end, [axis](const Middle& a, const Middle& b) {
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.edge < b.edge;
+  });
+  split(all, begin, half);
+  split(all, half, end);
+}
+
+// Puts edges, which are sorted, in the order of leaves. The numbers of edges settle ties, so that the order is one.
+void sort_into_leaves(EdgeMesh& mesh) {
+  std::vector<Middle> order(mesh.edges.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const Vec3d twice = mesh.vertices[mesh.edges[i].v0] + mesh.vertices[mesh.edges[i].v1];
+    order[i] = {{twice.x, twice.y, twice.z}, i};
+  }
+  if (!order.empty()) split(order.data(), 0, static_cast<std::uint32_t>(order.size()));
+  std::vector<Edge> edges;
+  std::vector<EdgeTriangle> triangles;
+  edges.reserve(mesh.edges.size());
+  triangles.reserve(mesh.edge_triangles.size());
+  std::vector<std::uint32_t> place(order.size());
+  for (const Middle& m : order) {
+    Edge e = mesh.edges[m.edge];
+    const auto begin = mesh.edge_triangles.begin() + e.first;
+    place[m.edge] = static_cast<std::uint32_t>(edges.size());
+    e.first = static_cast<std::uint32_t>(triangles.size());
+    triangles.insert(triangles.end(), begin, begin + e.count);
+    edges.push_back(e);
+  }
+  mesh.edges = std::move(edges);
+  mesh.edge_triangles = std::move(triangles);
+  for (auto& sides : mesh.triangle_edges)
+    for (std::uint32_t& e : sides) e = place[e];
+}
+
 struct Side {
   std::uint32_t v0, v1, triangle, corner;
   std::int32_t walks;
@@ -73,6 +125,7 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
     mesh.edge_triangles.push_back({s.triangle, s.walks});
     mesh.triangle_edges[s.triangle][s.corner] = static_cast<std::uint32_t>(mesh.edges.size() - 1);
   }
+  sort_into_leaves(mesh);
   return mesh;
 }
 

@@ -32,11 +32,18 @@ struct Edge {
 struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Plane> planes;  // of the triangles
-  std::vector<Edge> edges;    // sorted by (v0, v1)
-  std::vector<EdgeTriangle> edge_triangles;
+  std::vector<Plane> planes;                                 // of the triangles
+  std::vector<Edge> edges;                                   // leaf after leaf of EdgeTree: neighbours stand together
+  std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
 };
+
+// Edges of a leaf of EdgeTree; the last one may have fewer.
+inline constexpr std::uint32_t kLeafEdges = 16;
+// Where a range of edges is halved: between leaves.
+constexpr std::uint32_t middle_of(std::uint32_t begin, std::uint32_t end) {
+  return begin + (end - begin + 2 * kLeafEdges - 1) / (2 * kLeafEdges) * kLeafEdges;
+}
 
 // Nothing asks whether surfaces are closed, oriented or manifold. Equal positions become one vertex; triangles with two
 // equal corners or a coordinate that is not finite are dropped.

@@ -1,56 +1,77 @@
 #include "shadow/gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace steradian::shadow {
 namespace {
 
-constexpr std::uint32_t kLeaf = 8;
-
 Vec3d least(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3d largest(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-double coordinate(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-// Outward to float.
-Vec3f below(Vec3d v) {
-  const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); };
-  return {down(v.x), down(v.y), down(v.z)};
-}
-Vec3f above(Vec3d v) { return -below(-v); }
 
 }  // namespace
 
-Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Sections sections) : sections_(sections) {
+double Shaft::enclose(const std::vector<Vec3d>& points, const Frame& axes) {
   Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
   for (const Vec3d& p : points) {
-    low = least(low, frame.to_local(p));
-    high = largest(high, frame.to_local(p));
+    low = least(low, axes.to_local(p));
+    high = largest(high, axes.to_local(p));
   }
   const Vec3d half = (high - low) * 0.5;
-  center_ = frame.to_world((low + high) * 0.5);
-  half_[0] = frame.axes.x * half.x;
-  half_[1] = frame.axes.y * half.y;
-  half_[2] = frame.axes.z * half.z;
+  center_ = axes.to_world((low + high) * 0.5);
+  half_[0] = axes.x * half.x;
+  half_[1] = axes.y * half.y;
+  half_[2] = axes.z * half.z;
+  return low.z;
+}
 
-  origin_ = frame.origin;
-  far_ = std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x), std::fabs(high.y)});
-  const double near = std::max(-high.z, 1e-12), far = std::max(-low.z, near);
-  // The slanted side through the light's box at z = 0 and the points' box: which of its faces bounds depends on the slope.
-  const auto slope = [&](double beyond) { return beyond / (beyond > 0 ? near : far); };
-  const auto bound = [&](Vec3d normal, double offset) -> Bound {
+Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up, Sections sections)
+    : sections_(sections), origin_(frame.origin) {
+  const bool has_up = dot(up, up) > 0;
+  const Frame around = has_up ? Frame::from_normal(normalized(up)) : frame.axes;
+  const double lowest = enclose(points, around);
+  double deep = 0;
+  // The slanted sides through the light's box at z = 0: the least slopes that leave all points inside.
+  double slopes[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+  for (const Vec3d& p : points) {
+    const Vec3d local = frame.to_local(p);
+    const double below = std::max(-local.z, 1e-12), x = std::fabs(local.x), y = std::fabs(local.y);
+    deep = std::max(deep, below);
+    far_ = std::max({far_, x, y, below});
+    const double beyond[4] = {local.x - frame.box_x, -local.x - frame.box_x, local.y - frame.box_y, -local.y - frame.box_y};
+    for (int i = 0; i < 4; ++i) slopes[i] = std::max(slopes[i], beyond[i] / below);
+  }
+  const auto bound = [&](Vec3d normal, double offset) {
     const Vec3d n = frame.axes.to_world(normal);
-    const double d = offset + dot(n, frame.origin);
-    return {n, d, length(n)};
+    return bound_of(n, offset + dot(n, frame.origin));
   };
-  bounds_ = {bound({0, 0, -1}, far),
-             bound({0, 0, 1}, -frame.eta),
-             bound({1, 0, slope(high.x - frame.box_x)}, frame.box_x),
-             bound({-1, 0, slope(-low.x - frame.box_x)}, frame.box_x),
-             bound({0, 1, slope(high.y - frame.box_y)}, frame.box_y),
-             bound({0, -1, slope(-low.y - frame.box_y)}, frame.box_y)};
+  const Bound plane = bound({0, 0, 1}, -frame.eta);
+  // The light's box may reach lower than the points.
+  const double box = dot(around.z, frame.origin) - std::fabs(dot(around.z, frame.axes.x)) * frame.box_x -
+                     std::fabs(dot(around.z, frame.axes.y)) * frame.box_y;
+  bounds_ = {bound({0, 0, -1}, deep),
+             plane,
+             bound({1, 0, slopes[0]}, frame.box_x),
+             bound({-1, 0, slopes[1]}, frame.box_x),
+             bound({0, 1, slopes[2]}, frame.box_y),
+             bound({0, -1, slopes[3]}, frame.box_y),
+             has_up ? bound_of(-around.z, -std::min(lowest, box)) : plane};
+}
+
+Shaft::Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up) : sections_(Sections::anywhere), origin_(light) {
+  const Vec3d half{half_side, half_side, half_side};
+  Vec3d low = light - half, high = light + half;
+  for (const Vec3d& p : points) {
+    low = least(low, p);
+    high = largest(high, p);
+    far_ = std::max(far_, length(p - light));
+  }
+  bounds_ = {bound_of({0, 0, -1}, -low.z), bound_of({0, 0, 1}, high.z),  bound_of({1, 0, 0}, high.x), bound_of({-1, 0, 0}, -low.x),
+             bound_of({0, 1, 0}, high.y),  bound_of({0, -1, 0}, -low.y), bound_of({0, 0, 1}, high.z)};
+  const Frame around = dot(up, up) > 0 ? Frame::from_normal(normalized(up)) : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const double lowest = enclose(points, around), of_light = dot(around.z, light) - std::sqrt(3.0) * half_side;
+  bounds_[6] = bound_of(-around.z, -std::min(lowest, of_light));
 }
 
 double Shaft::rounding(Vec3d p) const {
@@ -85,27 +106,6 @@ bool Shaft::may_meet_segment(Vec3d a, Vec3d b) const {
   return t0 <= t1;
 }
 
-int Shaft::facing(const Plane& plane) const {
-  const double middle = dot(plane.normal, center_) - plane.offset;
-  const double reach =
-      std::fabs(dot(plane.normal, half_[0])) + std::fabs(dot(plane.normal, half_[1])) + std::fabs(dot(plane.normal, half_[2]));
-  const double margin = reach + 1e-6 * (std::fabs(plane.offset) + length(plane.normal) * (length(center_) + 1e-3));
-  return middle > margin ? 1 : middle < -margin ? -1 : 0;
-}
-
-bool Shaft::needs(const EdgeMesh& mesh, std::uint32_t number) const {
-  const Edge& edge = mesh.edges[number];
-  const Vec3d ends[2] = {mesh.vertices[edge.v0], mesh.vertices[edge.v1]};
-  if (!may_meet(ends, 2)) return false;
-  int weight = 0;
-  for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i) {
-    const int f = facing(mesh.planes[mesh.edge_triangles[i].triangle]);
-    if (f == 0) return true;
-    weight += mesh.edge_triangles[i].walks * f;
-  }
-  return weight != 0;
-}
-
 bool Shaft::needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const {
   const auto& t = mesh.triangles[triangle];
   const Vec3d corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -130,72 +130,118 @@ ShaftView Shaft::view_from(const LightFrame& frame) const {
     to[1] = static_cast<float>(v.y);
     to[2] = static_cast<float>(v.z);
   };
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < kShaftSides; ++i) {
     put(view.normal[i], frame.axes.to_local(bounds_[i].normal));
     const double offset = bounds_[i].offset - dot(bounds_[i].normal, frame.origin);
     view.offset[i] = static_cast<float>(offset + 1e-6 * std::fabs(offset));
   }
   put(view.middle, frame.to_local(center_));
   for (int i = 0; i < 3; ++i) put(view.half[i], frame.axes.to_local(half_[i]) * (1 + 1e-6));
+  view.reach = static_cast<float>(length(origin_ - frame.origin) + 2 * far_);
   return view;
 }
 
-EdgeTree::EdgeTree(const EdgeMesh& mesh) : order_(mesh.edges.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  if (order_.empty()) return;
-  nodes_.reserve(order_.size() / 2 + 1);
+EdgeTree::EdgeTree(const EdgeMesh& mesh) {
+  const auto count = static_cast<std::uint32_t>(mesh.edges.size());
+  if (count == 0) return;
+  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
+  for (const Edge& e : mesh.edges)
+    for (const std::uint32_t v : {e.v0, e.v1}) {
+      low = least(low, mesh.vertices[v]);
+      high = largest(high, mesh.vertices[v]);
+    }
+  middle_ = (low + high) * 0.5;
+  for (std::uint32_t begin = 0; begin < count; begin += kLeafEdges)
+    leaves_.push_back(leaf_of(mesh, begin, std::min(begin + kLeafEdges, count)));
+  nodes_.reserve(2 * leaves_.size());
   nodes_.emplace_back();
-  build(mesh, 0, 0, static_cast<std::uint32_t>(order_.size()));
+  build(0, 0, count);
 }
 
-void EdgeTree::build(const EdgeMesh& mesh, std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low, middle_low = low, middle_high = high;
-  const auto twice_middle = [&](std::uint32_t e) { return mesh.vertices[mesh.edges[e].v0] + mesh.vertices[mesh.edges[e].v1]; };
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const Edge& e = mesh.edges[order_[i]];
-    const Vec3d a = mesh.vertices[e.v0], b = mesh.vertices[e.v1];
-    low = least(low, least(a, b));
-    high = largest(high, largest(a, b));
-    middle_low = least(middle_low, a + b);
-    middle_high = largest(middle_high, a + b);
+EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const {
+  static_assert(kLeafEdges == kPadding);
+  EdgeLeaf leaf{};
+  const auto put = [](float to[3][kPadding], std::size_t i, Vec3d v) {
+    to[0][i] = static_cast<float>(v.x);
+    to[1][i] = static_cast<float>(v.y);
+    to[2][i] = static_cast<float>(v.z);
+  };
+  for (std::uint32_t number = begin; number < end; ++number) {
+    const Edge& e = mesh.edges[number];
+    const std::size_t i = number - begin;
+    leaf.valid |= 1u << i;
+    put(leaf.a, i, mesh.vertices[e.v0] - middle_);
+    put(leaf.b, i, mesh.vertices[e.v1] - middle_);
+    if (e.count > 2) leaf.many |= 1u << i;
+    for (std::uint32_t k = 0; k < e.count && e.count <= 2; ++k) {
+      const EdgeTriangle& t = mesh.edge_triangles[e.first + k];
+      const Plane& plane = mesh.planes[t.triangle];
+      // Of unit normals: small triangles' own would leave the range of floats.
+      const double size = length(plane.normal), scale = size > 0 ? 1 / size : 0;
+      put(k == 0 ? leaf.normal0 : leaf.normal1, i, plane.normal * scale);
+      (k == 0 ? leaf.offset0 : leaf.offset1)[i] = static_cast<float>((plane.offset - dot(plane.normal, middle_)) * scale);
+      (k == 0 ? leaf.walks0 : leaf.walks1)[i] = static_cast<float>(t.walks);
+    }
   }
-  nodes_[node].low = below(low);
-  nodes_[node].high = above(high);
-  const Vec3d size = middle_high - middle_low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (end - begin <= kLeaf || !(coordinate(size, axis) > 0)) {
-    nodes_[node].first = begin;
-    nodes_[node].count = end - begin;
+  return leaf;
+}
+
+void EdgeTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
+  if (end - begin <= kLeafEdges) {
+    const EdgeLeaf& leaf = leaves_[begin / kLeafEdges];
+    const auto low = [&](std::size_t c) {
+      return std::min(*std::min_element(leaf.a[c], leaf.a[c] + (end - begin)), *std::min_element(leaf.b[c], leaf.b[c] + (end - begin)));
+    };
+    const auto high = [&](std::size_t c) {
+      return std::max(*std::max_element(leaf.a[c], leaf.a[c] + (end - begin)), *std::max_element(leaf.b[c], leaf.b[c] + (end - begin)));
+    };
+    nodes_[node] = {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}, begin / kLeafEdges, 0};
     return;
   }
-  const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) { return coordinate(twice_middle(a), axis) < coordinate(twice_middle(b), axis); });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = children;
   nodes_.resize(nodes_.size() + 2);
-  build(mesh, children, begin, half);
-  build(mesh, children + 1, half, end);
+  const std::uint32_t half = middle_of(begin, end);
+  build(children, begin, half);
+  build(children + 1, half, end);
+  const Node &a = nodes_[children], &b = nodes_[children + 1];
+  nodes_[node] = {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+                  {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)},
+                  0,
+                  children};
 }
 
-void EdgeTree::gather(const EdgeMesh& mesh, const Shaft& shaft, std::vector<std::uint32_t>& edges) const {
+void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const {
   edges.clear();
   if (nodes_.empty()) return;
+  LightFrame here;
+  here.origin = middle_;
+  here.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const ShaftView view = shaft.view_from(here);
+  // The same margins as for edges, all of a box's.
+  const auto meets = [&view](const Vec3f& low, const Vec3f& high) {
+    const Vec3f c = (low + high) * 0.5f, h = (high - low) * 0.5f;
+    const float margin = 4e-6f * (std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z) + h.x + h.y + h.z + view.reach);
+    for (std::size_t s = 0; s < kShaftSides; ++s) {
+      const float* n = view.normal[s];
+      const float x = std::fabs(n[0]), y = std::fabs(n[1]), z = std::fabs(n[2]);
+      if (n[0] * c.x + n[1] * c.y + n[2] * c.z - (x * h.x + y * h.y + z * h.z) > view.offset[s] + margin * (x + y + z)) return false;
+    }
+    return true;
+  };
   std::uint32_t stack[64];
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    if (!shaft.may_meet_box(static_cast<Vec3d>(node.low), static_cast<Vec3d>(node.high))) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
+    if (!meets(node.low, node.high)) continue;
+    if (node.children != 0) {
+      stack[depth++] = node.children + 1;
+      stack[depth++] = node.children;
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      if (shaft.needs(mesh, order_[i])) edges.push_back(order_[i]);
+    for (std::uint32_t bits = packs.needed(leaves_[node.leaf], view); bits != 0; bits &= bits - 1)
+      edges.push_back(node.leaf * kLeafEdges + static_cast<std::uint32_t>(std::countr_zero(bits)));
   }
-  std::sort(edges.begin(), edges.end());
 }
 
 }  // namespace steradian::shadow

@@ -17,15 +17,16 @@ enum class Sections { in_plane, anywhere };
 // The hull of a group of points and a light, and what of the points' box its tests need.
 class Shaft {
  public:
-  // All points below the light's plane (in its frame, z < 0).
-  Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Sections sections = Sections::in_plane);
+  // All points below the light's plane (in its frame, z < 0). up: where most of the points' surfaces look, if that is known; what lies
+  // behind all of them is then left out.
+  Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up = {}, Sections sections = Sections::in_plane);
+  // A box along the axes around points and a light that lies in a cube about `light`, however near they are.
+  Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up = {});
 
   bool may_meet_box(Vec3d low, Vec3d high) const;
   bool may_meet(const Vec3d* corners, int count) const;  // their hull
   bool may_meet_segment(Vec3d a, Vec3d b) const;
 
-  // Whether the edge can be a segment for one of the points: it may be a contour, and it may meet the shaft.
-  bool needs(const EdgeMesh& mesh, std::uint32_t edge) const;
   // Whether the section of a triangle by the light's plane can be one.
   bool needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const;
 
@@ -37,16 +38,18 @@ class Shaft {
     Vec3d normal;
     double offset, length;  // of the normal
   };
+  static Bound bound_of(Vec3d normal, double offset) { return {normal, offset, length(normal)}; }
+  // Puts the box around the points; returns how low they lie along its z.
+  double enclose(const std::vector<Vec3d>& points, const Frame& axes);
   // How far off a place may be: points look at positions in float, and a vertex that one of them sees inside the box must not lose
   // its edges.
   double rounding(Vec3d p) const;
-  std::array<Bound, 6> bounds_;  // the second: before the light's plane
+  std::array<Bound, kShaftSides> bounds_;  // the second: before the light's plane
   Sections sections_;
-  Vec3d origin_;                         // of the light
-  double far_ = 0;                       // distance of the farthest point from its plane
-  Vec3d center_;                         // of the points' box, in the world
-  Vec3d half_[3];                        // its half sides, as vectors
-  int facing(const Plane& plane) const;  // 1 the front for all points, -1 the back, 0 either
+  Vec3d origin_;    // of the light
+  double far_ = 0;  // distance of the farthest point from its plane
+  Vec3d center_;    // of the points' box, in the world
+  Vec3d half_[3];   // its half sides, as vectors
 };
 
 // A bounding volume hierarchy of edges.
@@ -54,18 +57,21 @@ class EdgeTree {
  public:
   explicit EdgeTree(const EdgeMesh& mesh);
 
-  // Ascending numbers of the edges that the shaft needs.
-  void gather(const EdgeMesh& mesh, const Shaft& shaft, std::vector<std::uint32_t>& edges) const;
+  // Ascending numbers of the edges that the shaft needs: those that can be a segment for one of its points, since they may be contours
+  // and may meet it.
+  void gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const;
 
  private:
   struct Node {
     Vec3f low, high;
-    std::uint32_t first = 0, count = 0;  // edges of a leaf; count 0: children at first and first + 1
+    std::uint32_t leaf = 0, children = 0;  // children 0: a leaf; else there and next to it
   };
-  void build(const EdgeMesh& mesh, std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+  EdgeLeaf leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const;
 
+  Vec3d middle_;  // of all: coordinates count from here
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
+  std::vector<EdgeLeaf> leaves_;
 };
 
 }  // namespace steradian::shadow

@@ -42,11 +42,21 @@ struct EdgeView {
   const float *walks0 = nullptr, *walks1 = nullptr;
 };
 
-// A shaft in float: a vertex x is inside where dot(normal, x) <= offset for all six; the box of points by its middle and half
-// sides.
+// A shaft in float: a vertex x is inside where dot(normal, x) <= offset for all sides; the box of points by its middle and half
+// sides. reach: how far the light and the points lie from where coordinates count, which is what their roundings go by.
+inline constexpr std::size_t kShaftSides = 7;
 struct ShaftView {
-  float normal[6][3], offset[6];
+  float normal[kShaftSides][3], offset[kShaftSides];
   float middle[3], half[3][3];
+  float reach;
+};
+
+// Edges side by side, with the planes of their triangles; walks are 0 where an edge has fewer than two.
+struct EdgeLeaf {
+  float a[3][kPadding], b[3][kPadding];
+  float normal0[3][kPadding], offset0[kPadding], walks0[kPadding];
+  float normal1[3][kPadding], offset1[kPadding], walks1[kPadding];
+  std::uint32_t valid, many;  // bits of edges; of those of more than two triangles, whose planes are not here
 };
 
 // Segments in cells, which floats hold exactly, padded by segments above all others. Blocks of kPadding: none of a block's segments
@@ -75,6 +85,8 @@ struct ShadowTable {
   // The edges that a shaft may need, ascending. Edges of more than two triangles are kept where they may meet it.
   std::size_t (*filter)(const EdgeView& edges, const VectorView& vertices, const VectorView& normals, const float* offsets,
                         const ShaftView& shaft, const std::uint8_t* has_more, std::uint32_t* found);
+  // The edges of a leaf that a shaft may need, bit by bit.
+  std::uint32_t (*needed)(const EdgeLeaf& leaf, const ShaftView& shaft);
 
   // Lists must have room for all segments; segment e itself may be among them.
   LeftRay (*left_ray)(const SegmentView& segments, std::size_t e, std::uint32_t* uncertain);

@@ -41,9 +41,13 @@ std::optional<LightFrame> frame_behind(const AreaLight& light, const std::vector
   return frame;
 }
 
+double reach_of_polygon(const AreaLight& area) {
+  return (std::holds_alternative<Capsule>(area.shape) ? 3.6 : 1.6) * ball_around(area).radius;
+}
+
 std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& area) {
   const Ball ball = ball_around(area);
-  const double reach = 1.6 * ball.radius;
+  const double reach = reach_of_polygon(area);
   std::vector<std::uint32_t> result;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - ball.center, b = mesh.vertices[mesh.triangles[t][1]] - ball.center,

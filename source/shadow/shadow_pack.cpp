@@ -73,44 +73,84 @@ __attribute__((flatten)) std::size_t contours(const EdgeView& edges, const float
   return n;
 }
 
+// A shaft before packs of edges.
+class PackShaft {
+ public:
+  STERADIAN_INLINE explicit PackShaft(const ShaftView& shaft) : shaft_(shaft), middle_(vector(shaft.middle)) {
+    for (int i = 0; i < 3; ++i) half_[i] = vector(shaft.half[i]);
+    reach_ = size(middle_) + broadcast(shaft.reach);
+  }
+
+  // Whether some of each segment may be inside.
+  STERADIAN_INLINE PackMask meets(const PackVec3& a, const PackVec3& b) const {
+    const PackReal margin_a = rounding() * (size(a) + broadcast(shaft_.reach)), margin_b = rounding() * (size(b) + broadcast(shaft_.reach));
+    PackMask result = PackReal(0.0) <= PackReal(0.0);
+    for (std::size_t s = 0; s < kShaftSides; ++s) {
+      const PackVec3 normal = vector(shaft_.normal[s]);
+      const PackReal offset = broadcast(shaft_.offset[s]), scale = size(normal);
+      result = result && (dot(normal, a) - scale * margin_a <= offset || dot(normal, b) - scale * margin_b <= offset);
+    }
+    return result;
+  }
+
+  // 1 where all points see the front of a plane, -1 where all see the back, 0 elsewhere.
+  STERADIAN_INLINE PackReal facing(const PackVec3& normal, const PackReal& offset) const {
+    const PackReal height = dot(normal, middle_) - offset;
+    const PackReal reach = abs(dot(normal, half_[0])) + abs(dot(normal, half_[1])) + abs(dot(normal, half_[2])) +
+                           rounding() * (abs(offset) + size(normal) * reach_);
+    return select(height > reach, PackReal(1.0), select(height < -reach, PackReal(-1.0), PackReal(0.0)));
+  }
+
+  // Whether an edge between two triangles may be a contour.
+  STERADIAN_INLINE static PackMask may_be_contour(const PackReal& walks0, const PackReal& facing0, const PackReal& walks1,
+                                                  const PackReal& facing1) {
+    const PackReal zero(0.0), half(0.5);
+    const PackMask open = (abs(walks0) > zero && abs(facing0) < half) || (abs(walks1) > zero && abs(facing1) < half);
+    return open || abs(walks0 * facing0 + walks1 * facing1) > half;
+  }
+
+ private:
+  STERADIAN_INLINE static PackReal rounding() { return PackReal(2e-6); }
+  STERADIAN_INLINE static PackReal size(const PackVec3& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+  STERADIAN_INLINE static PackVec3 vector(const float v[3]) { return broadcast({v[0], v[1], v[2]}); }
+
+  const ShaftView& shaft_;
+  PackVec3 middle_, half_[3];
+  PackReal reach_;
+};
+
 __attribute__((flatten)) std::size_t filter(const EdgeView& edges, const VectorView& vertices, const VectorView& normals,
                                             const float* offsets, const ShaftView& shaft, const std::uint8_t* has_more,
                                             std::uint32_t* found) {
   std::size_t n = 0;
   const auto at = [](const std::int32_t* from, std::size_t i) { return IntPack::load_unaligned(from + i); };
-  const auto size = [](const PackVec3& v) { return abs(v.x) + abs(v.y) + abs(v.z); };
-  const PackVec3 middle = broadcast({shaft.middle[0], shaft.middle[1], shaft.middle[2]});
-  PackVec3 half[3];
-  for (int i = 0; i < 3; ++i) half[i] = broadcast({shaft.half[i][0], shaft.half[i][1], shaft.half[i][2]});
-  const PackReal zero(0.0), rounding(2e-6), length = size(middle);
-  // 1 the front for all points of the box, -1 the back, 0 either.
-  const auto side = [&](const IntPack& plane) {
-    const PackVec3 normal = gather(normals, plane);
-    const PackReal offset = gather(offsets, plane), height = dot(normal, middle) - offset;
-    const PackReal reach = abs(dot(normal, half[0])) + abs(dot(normal, half[1])) + abs(dot(normal, half[2])) +
-                           rounding * (abs(offset) + size(normal) * length);
-    return select(height > reach, PackReal(1.0), select(height < -reach, PackReal(-1.0), zero));
-  };
+  const PackShaft by(shaft);
+  const auto facing = [&](const IntPack& plane) { return by.facing(gather(normals, plane), gather(offsets, plane)); };
   for (std::size_t i = 0; i < edges.count; i += kLanes) {
-    const PackVec3 a = gather(vertices, at(edges.v0, i)), b = gather(vertices, at(edges.v1, i));
-    const PackReal margin_a = rounding * size(a), margin_b = rounding * size(b);
-    PackMask meets = zero <= zero;
-    for (int s = 0; s < 6; ++s) {
-      const PackVec3 normal = broadcast({shaft.normal[s][0], shaft.normal[s][1], shaft.normal[s][2]});
-      const PackReal offset = broadcast(shaft.offset[s]), scale = size(normal);
-      meets = meets && (dot(normal, a) - scale * margin_a <= offset || dot(normal, b) - scale * margin_b <= offset);
-    }
-    std::uint32_t bits = bits_of(meets);
+    const std::uint32_t bits = bits_of(by.meets(gather(vertices, at(edges.v0, i)), gather(vertices, at(edges.v1, i))));
     if (bits == 0) continue;
-    const PackReal walks0 = load(edges.walks0 + i), walks1 = load(edges.walks1 + i);
-    const PackReal side0 = side(at(edges.plane0, i)), side1 = side(at(edges.plane1, i));
-    const PackMask open = (abs(walks0) > zero && abs(side0) < PackReal(0.5)) || (abs(walks1) > zero && abs(side1) < PackReal(0.5));
-    const std::uint32_t contour = bits_of(open || abs(walks0 * side0 + walks1 * side1) > PackReal(0.5));
+    const std::uint32_t contour = bits_of(PackShaft::may_be_contour(load(edges.walks0 + i), facing(at(edges.plane0, i)),
+                                                                    load(edges.walks1 + i), facing(at(edges.plane1, i))));
     for_each_bit(bits, [&](std::size_t lane) {
       if ((contour >> lane & 1u) != 0 || has_more[i + lane] != 0) found[n++] = static_cast<std::uint32_t>(i + lane);
     });
   }
   return n;
+}
+
+__attribute__((flatten)) std::uint32_t needed(const EdgeLeaf& leaf, const ShaftView& shaft) {
+  const PackShaft by(shaft);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < kPadding; i += kLanes) {
+    const auto vector = [i](const float v[3][kPadding]) { return PackVec3(load(v[0] + i), load(v[1] + i), load(v[2] + i)); };
+    const std::uint32_t meets = bits_of(by.meets(vector(leaf.a), vector(leaf.b)));
+    if (meets == 0) continue;
+    const std::uint32_t contour =
+        bits_of(PackShaft::may_be_contour(load(leaf.walks0 + i), by.facing(vector(leaf.normal0), load(leaf.offset0 + i)),
+                                          load(leaf.walks1 + i), by.facing(vector(leaf.normal1), load(leaf.offset1 + i))));
+    bits |= (meets & (contour | leaf.many >> i)) << i;
+  }
+  return bits & leaf.valid;
 }
 
 // A product of cells' differences is off by 2^-24 of itself, and so is the difference of two products.
@@ -245,7 +285,7 @@ __attribute__((flatten)) float clearance2(const SegmentView& f, float x, float y
 }  // namespace
 
 const ShadowTable& shadow_table() {
-  static constexpr ShadowTable table = {turn,     project,   facing,           contours, filter,
+  static constexpr ShadowTable table = {turn,     project,   facing,           contours, filter,    needed,
                                         left_ray, may_cross, distance_to_next, count_at, clearance2};
   return table;
 }

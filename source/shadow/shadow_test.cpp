@@ -238,7 +238,7 @@ TEST(SoftShadow, GroupsGatherWhatTheirPointsSee) {
       if (points.empty()) continue;
       const Shaft shaft(frame, positions);
       std::vector<std::uint32_t> edges, crossing;
-      tree.gather(stage.mesh, shaft, edges);
+      tree.gather(packs(), shaft, edges);
       for (const std::uint32_t t : crossing_triangles(stage.mesh, frame))
         if (shaft.needs_triangle(stage.mesh, t)) crossing.push_back(t);
       LocalEdges<double> local;
@@ -310,7 +310,7 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
 
       const Shaft around(frame, {at.position + Vec3d{0.1, 0, 0}, at.position, at.position + Vec3d{0, 0, 0.1}}), shaft(frame, {at.position});
       std::vector<std::uint32_t> edges, crossing;
-      tree.gather(stage.mesh, around, edges);
+      tree.gather(packs(), around, edges);
       for (const std::uint32_t t : crossing_triangles(stage.mesh, frame))
         if (around.needs_triangle(stage.mesh, t)) crossing.push_back(t);
       EdgeArrays tile, group;
@@ -383,7 +383,7 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
       if (points.empty()) continue;
       const Shaft shaft(frame, positions);
       std::vector<std::uint32_t> edges;
-      tree.gather(stage.mesh, shaft, edges);
+      tree.gather(packs(), shaft, edges);
       const std::vector<std::uint32_t> all_crossing = crossing_triangles(stage.mesh, frame);
       if (std::any_of(all_crossing.begin(), all_crossing.end(), [&](std::uint32_t t) { return shaft.needs_triangle(stage.mesh, t); }))
         continue;

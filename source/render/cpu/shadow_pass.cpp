@@ -99,7 +99,7 @@ void ShadowPass::find_flat(const SurfaceTile& tile, const PointGroups& groups, c
       if (!side) continue;
       // The slots of each group that may see this side of the light.
       with_light.clear();
-      work.positions.clear();
+      work.take({});
       for (const std::uint32_t g : cluster) {
         work.slots.clear();
         for (const std::uint32_t i : groups.groups[g]) {
@@ -109,21 +109,20 @@ void ShadowPass::find_flat(const SurfaceTile& tile, const PointGroups& groups, c
           work.result->seen[i] = Seen::none;
           if (at.geometric_normal && above_horizon(side->frame, at.position, *at.geometric_normal) == Above::none) continue;
           work.slots.push_back(i);
-          work.positions.push_back(at.position);
         }
+        work.add(work.slots);
         if (!work.slots.empty()) with_light.push_back(work.slots);
       }
       if (with_light.empty()) continue;
-      const Shaft shaft(side->frame, work.positions);
-      tree_.gather(mesh_, shaft, work.edges);
+      const Shaft shaft(side->frame, work.positions, work.up);
+      tree_.gather(packs_, shaft, work.edges);
       work.crossing.clear();
       for (const std::uint32_t t : side->crossing)
         if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
       work.tile.assign(mesh_, side->frame, work.edges, work.crossing);
       for (const auto& slots : with_light) {
-        work.positions.clear();
-        for (const std::uint32_t i : slots) work.positions.push_back(work.at(i).position);
-        const Shaft of_group(side->frame, work.positions);
+        work.take(slots);
+        const Shaft of_group(side->frame, work.positions, work.up);
         work.cut_outs = meets_cut_outs(of_group);
         work.group.assign_needed(packs_, mesh_, work.tile, side->frame, of_group);
         find_group(

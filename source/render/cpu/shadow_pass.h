@@ -45,7 +45,7 @@ class ShadowPass {
   using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
   // work.group holds what the group needs.
   void find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const;
-  bool gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const;
+  void gather_round(const Flat& flat, const shadow::Shaft& shaft, Work& work) const;
   void find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together, Work& work) const;
   void find_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const;
   void add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes, Work& work) const;

@@ -1,6 +1,7 @@
 // The shadow pass before round lights: each point looks at a polygon of its own.
+#include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 
 #include "render/cpu/shadow_work.h"
 #include "shadow/round_shaft.h"
@@ -12,6 +13,29 @@ using shadow::Shaft;
 using shadow::Viewpoint;
 using Seen = TileShadow::Seen;
 
+namespace {
+
+double coordinate(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+struct Extent {
+  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  int longest() const {
+    const Vec3d size = high - low;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  }
+  double size() const { return coordinate(high - low, longest()); }
+};
+Extent extent_of(const std::vector<Vec3d>& positions) {
+  Extent e;
+  for (const Vec3d& p : positions) {
+    e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
+    e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
+  }
+  return e;
+}
+
+}  // namespace
+
 void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat,
                             Work& work) const {
   work.whole_outline = true;
@@ -22,7 +46,7 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
   work.base.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
     std::vector<std::vector<std::uint32_t>> with_light;
-    work.positions.clear();
+    work.take({});
     for (const std::uint32_t g : cluster) {
       work.slots.clear();
       for (const std::uint32_t i : groups.groups[g]) {
@@ -31,48 +55,50 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
         work.result->seen[i] = Seen::none;
         if (at.geometric_normal && dot(ball.center - at.position, *at.geometric_normal) <= -ball.radius) continue;
         work.slots.push_back(i);
-        work.positions.push_back(at.position);
       }
+      work.add(work.slots);
       if (!work.slots.empty()) with_light.push_back(work.slots);
     }
     if (with_light.empty()) continue;
     // For all of the cluster where a frame holds it; else each group gathers by itself.
-    const bool together = gather_round(light, flat, work.positions, work);
+    const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
+    const bool together = behind.has_value();
+    if (together) gather_round(flat, Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere), work);
     for (const auto& slots : with_light) find_round_group(light, flat, slots, together, work);
   }
 }
 
-// Fills work.tile with what points that see a round light need. False where no shaft holds them: then with everything.
-bool ShadowPass::gather_round(const PackLight& light, const Flat& flat, const std::vector<Vec3d>& positions, Work& work) const {
-  const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, positions);
-  if (!behind) return false;
-  const Shaft shaft(*behind, positions, shadow::Sections::anywhere);
-  tree_.gather(mesh_, shaft, work.edges);
+// Fills work.tile with what points that see a round light need.
+void ShadowPass::gather_round(const Flat& flat, const Shaft& shaft, Work& work) const {
+  tree_.gather(packs_, shaft, work.edges);
   // Planes differ from point to point: any triangle near the light may cross one.
   work.crossing.clear();
   for (const std::uint32_t t : flat.near)
     if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
   work.tile.assign(mesh_, work.base, work.edges, work.crossing);
-  return true;
 }
 
 void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together,
                                   Work& work) const {
-  std::vector<Vec3d> positions;
-  for (const std::uint32_t i : slots) positions.push_back(work.at(i).position);
-  const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, positions);
-  work.cut_outs = !cut_outs_.empty();
-  if (behind && (together || gather_round(light, flat, positions, work))) {
-    const Shaft shaft(*behind, positions, shadow::Sections::anywhere);
-    work.cut_outs = meets_cut_outs(shaft);
-    work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
-  } else {
-    work.edges.resize(mesh_.edges.size());
-    std::iota(work.edges.begin(), work.edges.end(), 0u);
-    work.crossing.resize(mesh_.triangles.size());
-    std::iota(work.crossing.begin(), work.crossing.end(), 0u);
-    work.group.assign(mesh_, work.base, work.edges, work.crossing);
+  work.take(slots);
+  const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
+  const shadow::Ball ball = shadow::ball_around(*light.area);
+  const Extent extent = extent_of(work.positions);
+  if (!behind && !together && extent.size() > ball.radius) {
+    // Too wide for a frame behind the light: halves may have one.
+    const int axis = extent.longest();
+    const double middle = coordinate(extent.low + extent.high, axis) / 2;
+    std::array<std::vector<std::uint32_t>, 2> halves;
+    for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < middle ? 0 : 1].push_back(i);
+    for (const auto& half : halves)
+      if (!half.empty()) find_round_group(light, flat, half, false, work);
+    return;
   }
+  const Shaft shaft = behind ? Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere)
+                             : Shaft(ball.center, shadow::reach_of_polygon(*light.area), work.positions, work.up);
+  work.cut_outs = meets_cut_outs(shaft);
+  if (!together) gather_round(flat, shaft, work);
+  work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
   std::array<std::optional<LightSide>, shadow::kPoints> sides;
   std::size_t next = 0;
   find_group(

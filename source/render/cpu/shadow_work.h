@@ -29,6 +29,7 @@ struct ShadowPass::Work {
   shadow::VisibleRegion region;
   shadow::PointLanes lanes;
   std::vector<Vec3d> positions;
+  Vec3d up;  // where their surfaces look, on the whole
   std::vector<std::uint32_t> slots, edges, crossing;
   shadow::LightFrame base;     // of round lights: in whose coordinates the arrays are
   bool turned = false;         // they are
@@ -37,6 +38,18 @@ struct ShadowPass::Work {
   bool cut_outs = false;       // whether the group's shaft meets any
 
   const shadow::Viewpoint& at(std::uint32_t slot) const { return (*points)[slot]; }
+  // Replaces `positions` and `up` by those of slots, or adds to them.
+  void take(const std::vector<std::uint32_t>& of) {
+    positions.clear();
+    up = {};
+    add(of);
+  }
+  void add(const std::vector<std::uint32_t>& of) {
+    for (const std::uint32_t i : of) {
+      positions.push_back(at(i).position);
+      up += at(i).geometric_normal.value_or(at(i).normal);
+    }
+  }
 };
 
 }  // namespace steradian
