@@ -74,13 +74,16 @@ def chart(path, title, across, lines):
 
 def figures(benches, folder):
     """Those of which the benches are there."""
-    def points(prefix, size, time):
-        return sorted((size(n.split("/")[2]), time(b)) for n, b in benches.items() if n.startswith(prefix) and n.count("/") == 2)
+    def points(prefix, size, time, suffix=""):
+        return sorted((size(n.split("/")[2]), time(b)) for n, b in benches.items()
+                      if n.startswith(prefix) and n.endswith(suffix) and n.count("/") == 2 + suffix.count("/"))
 
     pixels = lambda size: math.prod(int(n) for n in size.split("x"))
     a_pass = lambda name: lambda b: b["passes"][name]
     if lights := points("frame/lights/", int, a_pass("direct")):
-        chart(folder / "lights.svg", "lighting pass [ms], 320 x 180, one thread", "quad lights", [("", "#1463a5", lights)])
+        one_by_one = points("frame/lights/", int, a_pass("direct"), "/all")
+        chart(folder / "lights.svg", "lighting pass [ms], 320 x 180, one thread", "quad lights",
+              [("together from 64 on", "#1463a5", lights)] + ([("one by one", "#a53914", one_by_one)] if one_by_one else []))
     if sizes := points("frame/pixels/", pixels, lambda b: b["median_ms"]):
         chart(folder / "pixels.svg", "frame under one quad, ltc-compact [ms], one thread", "pixels", [("", "#1463a5", sizes)])
     if points("frame/triangles/", int, a_pass("rays")):

@@ -18,8 +18,8 @@ void put(TileVector& v, std::size_t i, Vec3f a) {
 
 // What work costs, in nanoseconds of one core with AVX-512: a light's element and outline at a point, a light that a half of a cell
 // judges and takes into its polynomial, and a half itself. They decide what is quicker, and nothing else.
-constexpr double kElement = 1.5, kFour = 4, kOutline = 12, kJudge = 40, kHalf = 4000;
-constexpr std::size_t kFewest = 48;  // points that are not divided further
+constexpr double kElement = 1, kFour = 3, kOutline = 8, kJudge = 60, kHalf = 15000;
+constexpr std::size_t kFewest = 64;  // points that are not divided further
 
 }  // namespace
 

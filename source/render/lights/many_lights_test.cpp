@@ -265,7 +265,8 @@ TEST(ManyLights, EveryPixelIsWithinItsBound) {
                   d.mean_bound);
       EXPECT_LE(d.worst, 0) << c.name << ", error " << error;
       EXPECT_LT(d.rms, error / 5) << c.name;  // lights that the horizon cuts err one way
-      EXPECT_LT(d.mean_bound, 5 * error) << c.name;
+      // A share of what the lights would send head-on; in these halls a tenth of that arrives, or more.
+      EXPECT_LT(d.mean_bound, 10 * error) << c.name;
     }
   }
 }
