@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <tuple>
 
 #include "program.h"
 #include "steradian/picture.h"
@@ -87,6 +88,29 @@ TEST_F(Program, RenderOfAPlaneWithItsBouncesEqualsItsQueries) {
   EXPECT_GT(answer["mean_radiance"][0].get<double>(), once["mean_radiance"][0].get<double>()) << "behind the wall";
   EXPECT_NE(run({"render", svg, "-o", exr, "--bounces", "all", "--method", "sampled"}).status, 0);
   EXPECT_NE(run({"render", svg, "-o", exr, "--bounces", "many"}).status, 0);
+}
+
+TEST_F(Program, RenderOfAPlaneByFramesMovesWhatTheEditsSay) {
+  const std::string svg = folder / "scene.svg", edits = folder / "edits.json", pattern = folder / "f_###.exr";
+  const auto scene = [&](int x, bool box) {
+    std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 64 48'><circle id='lamp' class='light' cx='" << x
+                       << "' cy='14' r='3' fill='#fff'/>" << (box ? "<rect id='box' x='30' y='20' width='8' height='8'/>" : "") << "</svg>";
+  };
+  scene(10, true);
+  std::ofstream(edits) << R"([{"frames": [1, 4], "id": "lamp", "move": [2, 0]}, {"frame": 3, "id": "box", "remove": true}])";
+  const Outcome r = run({"render", svg, "-o", pattern, "--frames", "2..3", "--edits", edits});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_FALSE(fs::exists(folder / "f_001.exr"));
+  for (const auto& [frame, x, box] : {std::tuple(2, 14, true), std::tuple(3, 16, false)}) {
+    scene(x, box);
+    const std::string cold = folder / "cold.exr";
+    ASSERT_EQ(run({"render", svg, "-o", cold}).status, 0);
+    EXPECT_EQ(read_picture(folder / ("f_00" + std::to_string(frame) + ".exr")).pixels, read_picture(cold).pixels) << "frame " << frame;
+  }
+  std::ofstream(edits) << R"([{"frames": [1, 4], "id": "nobody", "move": [2, 0]}])";
+  EXPECT_NE(run({"render", svg, "-o", pattern, "--frames", "0..3", "--edits", edits}).err.find("nobody"), std::string::npos);
+  EXPECT_NE(run({"render", svg, "-o", folder / "one.exr", "--frames", "0..3"}).status, 0);
+  EXPECT_NE(run({"render", svg, "-o", pattern, "--frames", "3..0"}).status, 0);
 }
 
 TEST_F(Program, RenderOfAPlaneLeavesOccludersClear) {

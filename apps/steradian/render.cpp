@@ -36,7 +36,7 @@ struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
                              exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black",
-                             light_sum = "auto", bounces = "0";
+                             light_sum = "auto", bounces = "0", frames, edits;
   std::vector<std::string> lights;
   std::optional<int> max_lights;
   Limits limits;
@@ -153,37 +153,43 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
                                {"--moments", false, "a plane scene (.svg)"},
                                {"--occluders", false, "a plane scene (.svg)"},
-                               {"--bounces", false, "a plane scene (.svg)"}});
+                               {"--bounces", false, "a plane scene (.svg)"},
+                               {"--frames", false, "a plane scene (.svg)"},
+                               {"--edits", false, "a plane scene (.svg)"}});
 }
 
 // Of the plane: the options of three dimensions have none.
 void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  refuse_without_effect(verb, {{"--quality", false, third},
-                               {"--table", false, third},
-                               {"--shadows", options.shadows != "off", third},
-                               {"--terminator", false, third},
-                               {"--multiple-scattering", false, third},
-                               {"--indirect", false, third},
-                               {"--vpls", false, third},
-                               {"--indirect-shadows", false, third},
-                               {"--indirect-pairs", false, third},
-                               {"--indirect-quads", false, third},
-                               {"--indirect-clamp", false, third},
-                               {"--max-lights", false, third},
-                               {"--light", false, third},
-                               {"--lights", false, third},
-                               {"--light-error", false, third},
-                               {"--environment", false, third},
-                               {"--background", false, third},
-                               {"--light-units", false, third},
-                               {"--camera", false, third},
-                               {"--target-error", false, third},
-                               {"--resume", false, third},
-                               {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
-                               {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
-                               {"--bounces", method == "auto" || method == "exact", "--method exact"}});
+  refuse_without_effect(
+      verb, {{"--quality", false, third},
+             {"--table", false, third},
+             {"--shadows", options.shadows != "off", third},
+             {"--terminator", false, third},
+             {"--multiple-scattering", false, third},
+             {"--indirect", false, third},
+             {"--vpls", false, third},
+             {"--indirect-shadows", false, third},
+             {"--indirect-pairs", false, third},
+             {"--indirect-quads", false, third},
+             {"--indirect-clamp", false, third},
+             {"--max-lights", false, third},
+             {"--light", false, third},
+             {"--lights", false, third},
+             {"--light-error", false, third},
+             {"--environment", false, third},
+             {"--background", false, third},
+             {"--light-units", false, third},
+             {"--camera", false, third},
+             {"--target-error", false, third},
+             {"--resume", false, third},
+             {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
+             {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
+             {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
+             {"--frames", method == "auto" || method == "exact", "--method exact"},
+             {"--edits", !options.frames.empty(), "--frames"},
+             {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
 // A plane scene has its own size, one unit a pixel, and its own methods.
@@ -201,6 +207,8 @@ void run_plane(Options& options) {
     job.frame.height = options.render.height;
   }
   job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
+  job.frames = options.frames;
+  job.edits = options.edits;
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
   job.frame.moments = options.moments;
@@ -380,6 +388,10 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")->group("Picture");
   verb->add_option("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
       ->check(CLI::IsMember({"black", "fill", "clear"}))
+      ->group("Picture");
+  verb->add_option("--frames", options->frames, "plane scenes: A..B, pictures numbered by the #s of -o; scenes change by --edits")
+      ->group("Picture");
+  verb->add_option("--edits", options->edits, "plane scenes: JSON file of what moves, changes or goes before which of --frames")
       ->group("Picture");
   verb->add_option("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
       ->check(CLI::Validator(

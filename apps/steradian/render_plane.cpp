@@ -1,5 +1,6 @@
 #include "command_line.h"
 #include "render_plane.h"
+#include "render_plane_frames.h"
 
 #include <fmt/format.h>
 
@@ -38,6 +39,11 @@ void render_plane_scene(const PlaneRender& job) {
     options.method = plane_method_from_name(job.method == "auto" ? "exact" : job.method);
   } catch (const Error& e) {
     throw UsageError("--method", e.problem(), e.hint());
+  }
+  if (!job.frames.empty()) {
+    PlaneFrames frames = plane_frames(job.frames);
+    frames.edits = job.edits;
+    return render_plane_frames(job, frames, std::move(loaded.scene));
   }
   const PlaneWorld world(std::move(loaded.scene), job.limits);
 

@@ -12,7 +12,9 @@ struct PlaneRender {
   std::string scene, output, method, stats;  // method "auto" is exact
   PlaneFrameOptions frame;
   float exposure = 0;
-  int bounces = 0;  // kAllBounces: all
+  int bounces = 0;     // kAllBounces: all
+  std::string frames;  // A..B; empty: one picture
+  std::string edits;   // of frames
   Limits limits;
 };
 

@@ -26,7 +26,7 @@ struct PlaneBounceOptions {
 struct PlaneBounceStats {
   std::size_t elements = 0;
   int rounds = 0;    // of halving
-  int sweeps = 0;    // of the solution
+  int sweeps = 0;    // of the solution, in all rounds
   double error = 0;  // estimated, root mean square over the walls, in shares of their mean radiance
   double ms = 0;
 };

@@ -21,7 +21,8 @@ constexpr double kMostAlbedo = 0.98;  // of all bounces: a closed white room wou
 constexpr double kInitialParts = 32;  // elements to the picture's larger side, before any is halved
 constexpr int kMostRounds = 5;
 constexpr int kMostSweeps = 2000;
-constexpr double kSettled = 1e-7;  // a sweep that changes less than this share of the brightest node is the last
+constexpr double kSettled = 1e-7;         // a sweep that changes less than this share of the brightest node is the last
+constexpr double kRoughlySettled = 1e-4;  // while elements are still halved
 
 double largest(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 Vec3d times(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
@@ -105,11 +106,13 @@ class Solver {
     look_at(all);
     for (stats_.rounds = 0;; ++stats_.rounds) {
       make_rows();
-      solve();
+      solve(kRoughlySettled);
       const std::vector<char> marked = check();
       if (stats_.rounds == kMostRounds || std::none_of(marked.begin(), marked.end(), [](char m) { return m != 0; })) break;
       halve(marked);
     }
+    solve(kSettled);
+    check();
     spread_error();
     stats_.elements = elements_.all().size();
     result.elements = std::move(elements_);
@@ -161,10 +164,11 @@ class Solver {
     e.constant = n.radiance[0] - e.slope * u0;
   }
 
-  void solve() {
-    for (Element& e : elements_.all()) e.constant = e.slope = {};
+  // All bounces go on from what is there; those that are counted begin with none.
+  void solve(double settled) {
     const bool all = options_.bounces == kAllBounces;
-    stats_.sweeps = 0;
+    if (!all)
+      for (Element& e : elements_.all()) e.constant = e.slope = {};
     for (int sweep = 0; sweep < (all ? kMostSweeps : options_.bounces); ++sweep) {
       ++stats_.sweeps;
       double change = 0, most = 0;
@@ -180,7 +184,7 @@ class Solver {
       }
       if (!all)
         for (std::size_t i = 0; i < nodes_.size(); ++i) lay_radiance(i);
-      if (change <= kSettled * most) break;
+      if (change <= settled * most) break;
     }
   }
 

@@ -147,6 +147,9 @@ void Elements::halve(const World& world, const std::vector<char>& marked) {
     for (int half = 0; half < 2; ++half) {
       Element e = all_[i];
       (half == 0 ? e.to : e.from) = middle;
+      // Of a straight one, the same radiance.
+      e.constant += e.slope * (half == 0 ? -0.5 : 0.5);
+      e.slope = e.slope * 0.5;
       lay(world, e);
       next.push_back(e);
     }

@@ -26,7 +26,8 @@ inline constexpr std::array<std::pair<double, double>, 6> kGauss6 = {{{-0.932469
 
 class SegmentWeights {
  public:
-  SegmentWeights(const Curve& curve, Vec2d from, const Vec2d* normal) {
+  SegmentWeights(const Visible& piece, Vec2d from, const Vec2d* normal) {
+    const Curve& curve = *piece.curve;
     const Vec2d e = curve.b - curve.a;
     size_ = length(e);
     along_ = e / size_;
@@ -37,15 +38,15 @@ class SegmentWeights {
     foot_ = dot(from - curve.a, along_);
     weighed_ = normal != nullptr;
     if (weighed_) nc_ = dot(*normal, across_), ns_ = dot(*normal, along_);
+    first_ = tangent(piece.begin);
+    last_ = tangent(piece.end);
+    if (first_ > last_) std::swap(first_, last_);
   }
 
   // The piece's part that lies between two shares of the curve, with u = -1 and 1 at `low` and `high`.
   template <class F>
-  void add(double begin, double end, double low, double high, F f) const {
-    double t0 = tangent(begin), t1 = tangent(end);
-    if (t0 > t1) std::swap(t0, t1);
-    t0 = std::max(t0, (low * size_ - foot_) / d_);
-    t1 = std::min(t1, (high * size_ - foot_) / d_);
+  void add(double low, double high, F f) const {
+    const double t0 = std::max(first_, (low * size_ - foot_) / d_), t1 = std::min(last_, (high * size_ - foot_) / d_);
     if (!(t1 > t0)) return;
     const double half = 0.5 * (high - low) * size_, m = d_ / half, c = (foot_ - 0.5 * (high + low) * size_) / half;
     // The angle between the two, without the difference of two angles.
@@ -54,10 +55,10 @@ class SegmentWeights {
     if (angle < 0.15) {
       const double first = std::atan(t0);
       for (const auto& [x, weight] : kGauss6) {
-        const double a = first + 0.5 * angle * (1 + x), cosine = weighed_ ? nc_ * std::cos(a) + ns_ * std::sin(a) : 1;
+        const double t = std::tan(first + 0.5 * angle * (1 + x)), cosine = weighed_ ? (nc_ + ns_ * t) / std::sqrt(1 + t * t) : 1;
         const double w = 0.5 * angle * weight * cosine;
         w0 += w;
-        w1 += w * std::clamp(m * std::tan(a) + c, -1.0, 1.0);
+        w1 += w * std::clamp(m * t + c, -1.0, 1.0);
       }
     } else if (weighed_) {
       const double s0 = std::sqrt(1 + t0 * t0), s1 = std::sqrt(1 + t1 * t1);
@@ -77,7 +78,7 @@ class SegmentWeights {
     return dot(u, along_) / std::max(dot(u, across_), 1e-15);
   }
   Vec2d along_, across_;
-  double size_, d_, foot_, nc_ = 0, ns_ = 0;
+  double size_, d_, foot_, first_, last_, nc_ = 0, ns_ = 0;
   bool weighed_;
 };
 
@@ -108,10 +109,10 @@ void weigh(const World& world, const Elements& elements, const Visible& piece, V
   const auto [first, last] = elements.of(static_cast<std::size_t>(piece.curve - world.curves.data()), piece.back);
   if (first == last) return;
   if (curve.kind == Curve::Kind::segment) {
-    const SegmentWeights weights(curve, from, normal);
+    const SegmentWeights weights(piece, from, normal);
     for (std::size_t k = first; k < last; ++k) {
       const Element& e = elements.all()[k];
-      weights.add(piece.begin, piece.end, e.from, e.to, [&](double w0, double w1) { f(k, w0, w1); });
+      weights.add(e.from, e.to, [&](double w0, double w1) { f(k, w0, w1); });
     }
     return;
   }

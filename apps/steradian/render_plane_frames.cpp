@@ -1,0 +1,138 @@
+#include "render_plane_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "command_line.h"
+#include "steradian/error.h"
+#include "steradian/plane_stage.h"
+#include "steradian/version.h"
+
+namespace steradian::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+// What happens to the bodies of an id before each of some frames.
+struct Edit {
+  int first = 0, last = 0;
+  std::string id;
+  std::optional<Vec2d> move;
+  std::optional<Vec3d> radiance;
+  bool remove = false;
+};
+
+[[noreturn]] void refuse(const std::string& file, std::size_t edit, const std::string& problem) {
+  throw Error(file, fmt::format("edit {}: {}", edit, problem),
+              R"(write [{"frames": [0, 20], "id": "lamp", "move": [2, 0]}, ...]; also "frame": 7, "radiance": [1, 1, 1], "remove": true)");
+}
+
+std::vector<double> numbers(const ordered_json& list, std::size_t count) {
+  std::vector<double> result;
+  if (!list.is_array() || list.size() != count) return {};
+  for (const auto& n : list) {
+    if (!n.is_number()) return {};
+    result.push_back(n.get<double>());
+  }
+  return result;
+}
+
+Edit edit_of(const ordered_json& json, const std::string& file, std::size_t at) {
+  if (!json.is_object()) refuse(file, at, "not an object");
+  Edit edit;
+  bool when = false;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "frame" && value.is_number_unsigned()) {
+      edit.first = edit.last = value.get<int>();
+      when = true;
+    } else if (const auto f = numbers(value, 2); key == "frames" && f.size() == 2) {
+      edit.first = static_cast<int>(f[0]);
+      edit.last = static_cast<int>(f[1]);
+      when = true;
+    } else if (key == "move" && f.size() == 2) {
+      edit.move = Vec2d{f[0], f[1]};
+    } else if (const auto c = numbers(value, 3); key == "radiance" && c.size() == 3) {
+      edit.radiance = Vec3d{c[0], c[1], c[2]};
+    } else if (key == "id" && value.is_string()) {
+      edit.id = value.get<std::string>();
+    } else if (key == "remove" && value.is_boolean()) {
+      edit.remove = value.get<bool>();
+    } else {
+      refuse(file, at, "cannot read \"" + key + "\"");
+    }
+  }
+  if (!when || edit.id.empty()) refuse(file, at, "lacks its frames or its id");
+  return edit;
+}
+
+std::vector<Edit> edits_of(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw Error(file, "cannot be read", "give a JSON file with --edits");
+  std::vector<Edit> edits;
+  try {
+    const ordered_json json = ordered_json::parse(in);
+    if (!json.is_array()) refuse(file, 0, "the file is not a list");
+    for (const auto& edit : json) edits.push_back(edit_of(edit, file, edits.size()));
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(file, std::string("not JSON: ") + e.what(), "write a list of edits");
+  }
+  return edits;
+}
+
+void apply(const Edit& edit, const std::string& file, PlaneStage& stage) {
+  bool found = false;
+  for (std::size_t i = stage.scene().bodies.size(); i-- > 0;) {
+    if (stage.scene().bodies[i].name != edit.id) continue;
+    found = true;
+    if (edit.move) stage.move(i, *edit.move);
+    if (edit.radiance) stage.recolour(i, *edit.radiance);
+    if (edit.remove) stage.remove(i);
+  }
+  if (!found) throw Error(file, "the scene has no shape with the id " + edit.id, "give it one, or edit another");
+}
+
+std::string numbered(const std::string& pattern, int frame) {
+  const std::size_t first = pattern.find('#');
+  if (first == std::string::npos) throw UsageError("--output", "has no # for the frames' numbers", "write -o 'frame_####.png'");
+  const std::size_t end = std::min(pattern.find_first_not_of('#', first), pattern.size());
+  return pattern.substr(0, first) + fmt::format("{:0{}}", frame, end - first) + pattern.substr(end);
+}
+
+}  // namespace
+
+PlaneFrames plane_frames(const std::string& text) {
+  PlaneFrames frames;
+  const std::size_t dots = text.find("..");
+  const auto number = [&](std::size_t from, std::size_t to, int& value) {
+    const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
+    return error == std::errc() && end == text.data() + to && value >= 0;
+  };
+  if (dots == std::string::npos || !number(0, dots, frames.first) || !number(dots + 2, text.size(), frames.last) ||
+      frames.first > frames.last || frames.last > 1000000)
+    throw UsageError("--frames", text + " are no frames", "write A..B, as in 0..99");
+  return frames;
+}
+
+void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, PlaneScene scene) {
+  const std::vector<Edit> edits = frames.edits.empty() ? std::vector<Edit>{} : edits_of(frames.edits);
+  numbered(job.output, 0);
+  PlaneFrameOptions options = job.frame;
+  options.limits = job.limits;
+  PlaneStage stage(std::move(scene), options);
+  for (int frame = 0; frame <= frames.last; ++frame) {
+    for (const Edit& edit : edits)
+      if (edit.first <= frame && frame <= edit.last) apply(edit, frames.edits, stage);
+    if (frame < frames.first) continue;
+    Picture picture = stage.draw();
+    picture.metadata = {{"steradian.version", version()}, {"steradian.scene", job.scene}, {"steradian.frame", std::to_string(frame)}};
+    write_picture(picture, numbered(job.output, frame), job.exposure);
+  }
+}
+
+}  // namespace steradian::app
