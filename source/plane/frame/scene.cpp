@@ -12,6 +12,7 @@
 #include "plane/frame/emitters.h"
 #include "plane/frame/event_pairs.h"
 #include "plane/frame/overlap.h"
+#include "plane/frame/reaching.h"
 #include "plane/frame/runs.h"
 
 namespace steradian::plane {
@@ -57,7 +58,7 @@ class Preparation {
     frame_.slack = 32 * 0x1p-24 * std::exp2(std::ceil(std::log2(extent)));
     if (!frame_.emitters.empty()) check_pairs();
     check_general();
-    interior();
+    find_interiors(frame_, bins_, budget_, [this](std::uint64_t steps) { spend(steps); });
     frame_.first_nearby.push_back(0);
     frame_.whole_run.assign(frame_.emitters.size(), 0);
     for (std::size_t e = 0; e < frame_.emitters.size(); ++e) {
@@ -233,102 +234,6 @@ class Preparation {
     const std::optional<std::vector<Emitter>> emitters = emitters_of(world_, i);
     frame_.general[i] = !emitters;
     if (emitters) frame_.emitters.insert(frame_.emitters.end(), emitters->begin(), emitters->end());
-  }
-
-  void interior() {
-    frame_.interior.resize(world_.scene.bodies.size());
-    for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
-      if (!body(i).light || world_.first_curve[i] == world_.first_curve[i + 1]) continue;
-      const Box& mine = world_.boxes[i];
-      std::vector<std::size_t> others{i};
-      const Vec2d middle = (mine.low + mine.high) * 0.5;
-      bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
-        spend(20);
-        const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
-        const Box& box = world_.boxes[o];
-        if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
-        if (!may_be_inside(i, frame_.blockers[static_cast<std::size_t>(k)])) return;
-        others.push_back(o);
-      });
-      std::sort(others.begin(), others.end());
-      others.erase(std::unique(others.begin(), others.end()), others.end());
-      if (others.size() == 1) continue;  // nothing inside: the light alone
-      LightInterior& inside = frame_.interior[i];
-      std::size_t reaching = 0;
-      for (std::size_t o : others) reaching += world_.first_curve[o + 1] - world_.first_curve[o];
-      spend(20 * reaching);
-      budget_.take_memory(world_.scene.name, "what reaches into its lights", reaching * (sizeof(Curve*) + sizeof(Curve)));
-      const auto add = [&](std::size_t o) {
-        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c)
-          if (o == i || may_reach_into(i, world_.curves[c])) inside.curves.push_back(&world_.curves[c]);
-      };
-      add(i);
-      inside.own = inside.curves.size();
-      for (std::size_t o : others)
-        if (o != i) add(o);
-      const Curve& own = world_.curves[world_.first_curve[i]];
-      inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
-                           return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
-                         });
-      if (inside.by_chords) {
-        for (const Curve* c : inside.curves) {
-          if (c == &own) continue;
-          if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
-        }
-        continue;
-      }
-      inside.by_parts = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
-                          return c->kind == Curve::Kind::segment || is_full_circle(*c);
-                        });
-      if (!inside.by_parts) continue;
-      for (const Curve* c : inside.curves) {
-        if (c == &own) continue;
-        const std::optional<Curve> part =
-            c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
-        if (part) inside.parts.push_back(*part);
-      }
-    }
-  }
-
-  // Exact for round lights and among polygons; others go by their boxes.
-  bool may_be_inside(std::size_t light, const Blocker& b) {
-    if (b.body == static_cast<int>(light)) return true;
-    const Curve& curve = world_.curves[world_.first_curve[light]];
-    if (b.kind == Blocker::Kind::convex && body(light).shape == PlaneBody::Shape::polygon) return reaches_into(light, b);
-    if (!is_full_circle(curve)) return true;
-    Emitter disk;
-    disk.a = disk.b = disk.center = curve.ellipse.center;
-    disk.radius = length(curve.ellipse.x);
-    if (b.kind != Blocker::Kind::convex) return length(disk.center - b.center) < disk.radius + b.bound - kTouching;
-    return overlaps(disk, &frame_.vertices[b.first], b.count);
-  }
-
-  bool may_reach_into(std::size_t light, const Curve& c) {
-    if (body(light).shape != PlaneBody::Shape::polygon || c.kind != Curve::Kind::segment) return true;
-    Blocker edge;
-    edge.first = frame_.vertices.size();
-    edge.count = 2;
-    frame_.vertices.insert(frame_.vertices.end(), {c.a, c.b});
-    const bool reaches = reaches_into(light, edge);
-    frame_.vertices.resize(edge.first);
-    return reaches;
-  }
-
-  bool reaches_into(std::size_t polygon, const Blocker& b) {
-    for (std::size_t k = 0; k < b.count; ++k) {
-      const Vec2d p = frame_.vertices[b.first + k], q = frame_.vertices[b.first + (k + 1) % b.count];
-      spend(30 + 2 * (world_.first_curve[polygon + 1] - world_.first_curve[polygon]));
-      if (world_.contains(polygon, p)) return true;
-      for (std::size_t c = world_.first_curve[polygon]; c < world_.first_curve[polygon + 1]; ++c) {
-        const Curve& edge = world_.curves[c];
-        const Vec2d along = edge.b - edge.a, d = q - p;
-        const bool apart = cross(along, p - edge.a) * cross(along, q - edge.a) > 0 || cross(d, edge.a - p) * cross(d, edge.b - p) > 0;
-        if (!apart) return true;
-      }
-      if (b.count == 2) return world_.contains(polygon, q);
-    }
-    // The polygon within the body: nothing of the body's outline is in it.
-    return false;
   }
 
   // How an emitter takes a chain: its hull is a blocker only where it does not touch the emitter.
