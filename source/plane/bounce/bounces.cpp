@@ -49,7 +49,7 @@ struct Node {
 Node look(const World& world, const Elements& elements, const Element& element, double share) {
   Node node;
   node.place = place_on(world, element, share);
-  const auto& [at, normal, u] = node.place;
+  const Vec2d at = node.place.at, normal = node.place.normal;
   if (!is_open(world, node.place)) return node;
   thread_local std::vector<const Curve*> curves;
   curves.clear();

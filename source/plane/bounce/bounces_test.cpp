@@ -138,7 +138,7 @@ TEST(PlaneBounces, StopAtOutlinesThatCrossAWall) {
 
 // The estimate is the right size: the default against a solution five times as fine.
 TEST(PlaneBounces, SayHowFarTheyAreOff) {
-  for (std::uint64_t seed : {1, 2}) {
+  for (std::uint64_t seed : {1u, 2u}) {
     const PlaneScene scene = furnished_room(8, seed);
     const PlaneWorld world(scene);
     PlaneBounceOptions fine;

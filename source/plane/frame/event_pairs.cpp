@@ -35,7 +35,7 @@ void set_line(EventPair& pair, int line, double x, double y, double c) {
 
 // Touches all, takes no side.
 void set_general(EventPair& pair) {
-  for (int line = 0; line < 6; ++line) set_line(pair, line, 0, 0, line < 3 ? -double{kNever} : double{kNever});
+  for (int line = 0; line < 6; ++line) set_line(pair, line, 0, 0, line < 3 ? -kNever : kNever);
 }
 
 // Nothing is taken on the light's side of the common chord, between the light's tangents where the two outlines cross.
@@ -99,7 +99,7 @@ void append_event_pairs(FrameScene& frame, const Emitter& disk, const std::vecto
     // The inner lines of what is not a disk are its bounding circle's; the outer ones say nothing.
     EventPair& pair = frame.pairs[i];
     if (pair.kind == EventPair::Kind::general)
-      for (int line = 3; line < 6; ++line) set_line(pair, line, 0, 0, double{kNever});
+      for (int line = 3; line < 6; ++line) set_line(pair, line, 0, 0, kNever);
   }
 }
 

@@ -29,7 +29,7 @@ struct EventPair {
   Kind kind;
   std::uint8_t count, end_first, ends, begin_first, begins;  // all, and the chains, counter-clockwise from the first
 };
-inline constexpr float kNever = 1e30f;
+inline constexpr double kNever = 1e30;
 
 // Up to sixteen blockers of one kind, relative to the light's centre: a register's worth of what lines are made from.
 struct EventOutlines {
