@@ -51,7 +51,8 @@ LaneInts left_ray(const LaneWork& work, const LaneView& view, std::size_t event_
     each_pack([&](std::size_t i) {
       const PackReal two(2.0), zero(0.0), ax = get(f.ax, i), ay = get(f.ay, i), m = get(my, i);
       const PackReal start = two * ay, end = two * get(f.by, i);
-      const PackMask here = mask_at(both, i), level = here && min(start, end) <= m && max(start, end) >= m;
+      const PackMask here = mask_at(both, i);
+      const PackMask level = here && min(start, end) <= m && max(start, end) >= m && two * min(ax, get(f.bx, i)) <= get(mx, i);
       const PackReal p = (get(f.bx, i) - ax) * (m - start), q = (get(f.by, i) - ay) * (get(mx, i) - two * ax);
       const PackReal d = p - q, bound = bound_of(p, q);
       const PackMask rises = start < m && end > m, falls = start > m && end<m, left = d> bound, right = d < -bound;

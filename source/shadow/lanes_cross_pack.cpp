@@ -64,8 +64,16 @@ bool cross_pair(const LaneWork& work, std::uint32_t number_e, std::uint32_t numb
   each_pack([&](std::size_t i) {
     const auto is = [&](const LaneReals& r) { return get(r, i); };
     const auto add = [&](std::uint32_t& bits, const PackMask& m) { bits |= bits_of(m) << i; };
+    const auto on_one_side = [&](const PackReal& a, const PackReal& b) { return (a > zero && b > zero) || (a < zero && b < zero); };
+    const auto apart = [&](const LaneReals& a, const LaneReals& b, const LaneReals& c, const LaneReals& d) {
+      return max(is(a), is(b)) < min(is(c), is(d)) || max(is(c), is(d)) < min(is(a), is(b));
+    };
+    // Nothing infinitely small brings these together: of edges along one line, which buildings have, most are apart.
+    const PackMask misses =
+        on_one_side(is(ea), is(eb)) || on_one_side(is(fa), is(fb)) || apart(e.ax, e.bx, f.ax, f.bx) || apart(e.ay, e.by, f.ay, f.by);
     // The least of six sizes is 0 where any is.
-    add(tied, min(min(min(abs(is(ea)), abs(is(eb))), min(abs(is(fa)), abs(is(fb)))), min(abs(is(middle_e)), abs(is(middle_f)))) <= zero);
+    add(tied, !misses && min(min(min(abs(is(ea)), abs(is(eb))), min(abs(is(fa)), abs(is(fb)))),
+                             min(abs(is(middle_e)), abs(is(middle_f)))) <= zero);
     add(e_to_left, is(eb) > zero);
     add(f_to_left, is(fb) > zero);
     add(crosses, ((is(ea) > zero && is(eb) < zero) || (is(ea) < zero && is(eb) > zero)) &&
