@@ -36,7 +36,7 @@ struct Answers {
   Array<T> radiance, error;  // N x 3, N
   std::string method;
 
-  explicit Answers(std::size_t n) : radiance({n, std::size_t{3}}), error(n) {}
+  explicit Answers(std::size_t n) : radiance({static_cast<py::ssize_t>(n), py::ssize_t{3}}), error(static_cast<py::ssize_t>(n)) {}
 };
 
 template <class T>

@@ -1,6 +1,7 @@
+#include "render/cpu/batch_rows.h"
+
 #include "core/pack_double.h"
 #include "integrals/irradiance.h"
-#include "render/cpu/batch_rows.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
