@@ -2,8 +2,15 @@
 #pragma once
 
 #include "bench/run.h"
+#include "steradian/render.h"
 
 namespace steradian::bench {
+
+// Where frames are made; device: as RenderOptions::device.
+struct Where {
+  Backend backend = Backend::cpu;
+  std::string device;
+};
 
 void add_lambert(BenchList& list);
 void add_ltc(BenchList& list);
@@ -12,13 +19,18 @@ void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
 void add_ggx(BenchList& list);
 void add_plane(BenchList& list);
-void add_frame(BenchList& list);
+void add_frame(BenchList& list, const Where& where);
 void add_scaling(BenchList& list);
 void add_indirect(BenchList& list);
 void add_shadow(BenchList& list);
 
-inline BenchList all_benches() {
+// Of a Vulkan device: frames, under the names of the CPU's with the prefix vulkan/.
+inline BenchList all_benches(const Where& where = {}) {
   BenchList list;
+  if (where.backend == Backend::vulkan) {
+    add_frame(list, where);
+    return list;
+  }
   add_lambert(list);
   add_ltc(list);
   add_eval(list);
@@ -26,7 +38,7 @@ inline BenchList all_benches() {
   add_phong(list);
   add_ggx(list);
   add_plane(list);
-  add_frame(list);
+  add_frame(list, where);
   add_scaling(list);
   add_indirect(list);
   add_shadow(list);

@@ -2,11 +2,14 @@
 //
 //   frame/direct/METHOD/1080p   a floor that fills the picture under one quad light; diffuse for `exact`, with a GGX lobe
 //                               on top for the others. The lighting is the passes `direct` and `specular`.
+//   frame/gallery/METHOD/720p   the gallery's direct light without shadows
 //   frame/rays/arcade/1080p     primary rays of the colonnade alone
 //   frame/lights/N              a diffuse floor under N quad lights at 320 x 180, added up as `--lights auto` does
 //   frame/lights/N/all          the same one by one
 //   frame/lights/hall/N         a diffuse hall of 40 x 10 x 60 m with N small lights below its ceiling, on its walls and above its floor,
 //                               at 1080p; /all: one by one
+//
+// On a Vulkan device the same, but for the rays and the lights added up together, under vulkan/frame/...
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -42,15 +45,22 @@ std::vector<AreaLight> ceiling(int count) {
   return lights;
 }
 
-Bench direct(const std::string& name, const std::string& method, int threads) {
+std::shared_ptr<Frame> frame_on(const Where& where, int threads) {
   auto frame = std::make_shared<Frame>();
+  frame->options.backend = where.backend;
+  frame->options.device = where.device;
+  frame->options.threads = threads;
+  return frame;
+}
+
+Bench direct(const Where& where, const std::string& name, const std::string& method, int threads) {
+  auto frame = frame_on(where, threads);
   frame->scene = floor_scene();
   frame->scene.materials[0] = method == "exact" ? diffuse() : glossy();
   frame->scene.area_lights = {ceiling_quad(0, 0, 0.5)};
   frame->options.width = kWidth;
   frame->options.height = kHeight;
   frame->options.method = method;
-  frame->options.threads = threads;
   return bench_of(name, frame);
 }
 
@@ -100,19 +110,27 @@ Scene hall(int count) {
   return scene;
 }
 
-Bench hall_lights(const std::string& name, int count, LightSum sum) {
-  auto frame = std::make_shared<Frame>();
+Bench hall_lights(const Where& where, const std::string& name, int count, LightSum sum) {
+  auto frame = frame_on(where, 1);
   frame->scene = hall(count);
   frame->options.width = kWidth;
   frame->options.height = kHeight;
   frame->options.method = "exact";
   frame->options.lights = sum;
-  frame->options.threads = 1;
   return bench_of(name, frame);
 }
 
-Bench lights(const std::string& name, int count, LightSum sum) {
-  auto frame = std::make_shared<Frame>();
+std::string gallery_file() { return std::string(STERADIAN_SCENES) + "/gallery.glb"; }
+
+Bench gallery(const Where& where, const std::string& name, const std::string& method, int threads) {
+  auto frame = frame_on(where, threads);
+  frame->scene = load_scene(gallery_file()).scene;
+  frame->options.method = method;
+  return bench_of(name, frame);
+}
+
+Bench lights(const Where& where, const std::string& name, int count, LightSum sum) {
+  auto frame = frame_on(where, 1);
   frame->scene = floor_scene();
   frame->scene.materials[0] = diffuse();
   frame->scene.area_lights = ceiling(count);
@@ -120,7 +138,6 @@ Bench lights(const std::string& name, int count, LightSum sum) {
   frame->options.width = 320;
   frame->options.height = 180;
   frame->options.method = "exact";
-  frame->options.threads = 1;
   return bench_of(name, frame);
 }
 
@@ -167,22 +184,36 @@ void add(BenchList& list, const std::string& name, const std::function<Bench(con
 
 }  // namespace
 
-void add_frame(BenchList& list) {
+void add_frame(BenchList& list, const Where& where) {
+  const bool on_cpu = where.backend == Backend::cpu;
+  const std::string prefix = on_cpu ? "frame/" : "vulkan/frame/";
+  // A device has threads of its own: one name, and all of the host's.
+  const auto add_by = [&](const std::string& name, auto make) {
+    if (on_cpu)
+      add(list, prefix + name, make);
+    else
+      list.add(prefix + name, [=](const BenchOptions&) { return make(prefix + name, 0); });
+  };
   for (const std::string method : {"exact", "ltc-compact", "ltc", "closed-form"})
-    add(list, "frame/direct/" + method + "/1080p", [=](const std::string& name, int threads) { return direct(name, method, threads); });
-  if (std::filesystem::exists(arcade())) add(list, "frame/rays/arcade/1080p", rays);
+    add_by("direct/" + method + "/1080p", [=](const std::string& name, int threads) { return direct(where, name, method, threads); });
+  if (std::filesystem::exists(gallery_file()))
+    for (const std::string method : {"ltc-compact", "ltc", "closed-form"})
+      add_by("gallery/" + method + "/720p", [=](const std::string& name, int threads) { return gallery(where, name, method, threads); });
+  if (on_cpu && std::filesystem::exists(arcade())) add(list, "frame/rays/arcade/1080p", rays);
   const std::pair<const char*, LightSum> sums[] = {{"", LightSum::automatic}, {"/all", LightSum::all}};
   for (const int count : {1, 10, 16, 64, 100, 1000, 10000})
     for (const auto& [suffix, sum] : sums) {
-      const std::string name = "frame/lights/" + std::to_string(count) + suffix;
-      list.add(name, [=, sum = sum](const BenchOptions&) { return lights(name, count, sum); });
+      if (!on_cpu && sum != LightSum::all) continue;
+      const std::string name = prefix + "lights/" + std::to_string(count) + suffix;
+      list.add(name, [=, sum = sum](const BenchOptions&) { return lights(where, name, count, sum); });
     }
   for (const int count : {100, 1000, 10000, 100000})
     for (const auto& [suffix, sum] : sums) {
+      if (!on_cpu && sum != LightSum::all) continue;
       if (count > 1000 && sum == LightSum::all) continue;  // a minute a frame
-      const std::string name = "frame/lights/hall/" + std::to_string(count) + suffix;
+      const std::string name = prefix + "lights/hall/" + std::to_string(count) + suffix;
       list.add(name, [=, sum = sum](const BenchOptions&) {
-        Bench bench = hall_lights(name, count, sum);
+        Bench bench = hall_lights(where, name, count, sum);
         bench.once = count == 1000 && sum == LightSum::all;
         return bench;
       });

@@ -1252,15 +1252,16 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (moving) {
-            vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
-            vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
-            vec2 step1 = z1 - poles.z1;
-            vec2 step2 = z2 - poles.z2;
-            poles.z1 = steradian_select(moving, z1, poles.z1);
-            poles.z2 = steradian_select(moving, z2, poles.z2);
-            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!moving) {
+            break;
         }
+        vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+        vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
+        vec2 step1 = z1 - poles.z1;
+        vec2 step2 = z2 - poles.z2;
+        poles.z1 = steradian_select(moving, z1, poles.z1);
+        poles.z2 = steradian_select(moving, z2, poles.z2);
+        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
     }
     return poles;
 }
@@ -1361,10 +1362,15 @@ vec3 steradian_conic_residue(SteradianConicArc arc, vec2 z, vec2 o, float sweep)
 }
 
 // The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
-vec3 steradian_conic_vector_approximate(SteradianConicArc arc) {
+//
+//   wanted   where the value counts; others may be left at 0
+vec3 steradian_conic_vector_approximate(SteradianConicArc arc, bool wanted) {
     vec3 sum = vec3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
     for (int i = 0; i < 16; i++) {
+        if (!wanted) {
+            break;
+        }
         int part = i / 8;
         vec2 rule = steradian_gauss_legendre_node(8, i - 8 * part);
         SteradianConicNode node = steradian_conic_node(arc, 0.5 * (rule.x + float(part)));
@@ -1386,7 +1392,7 @@ vec3 steradian_conic_vector(SteradianConicArc arc) {
     vec2 apart = arc.z1 - arc.z2;
     bool meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
     if (meet) {
-        e = steradian_select(meet, steradian_conic_vector_approximate(arc), e);
+        e = steradian_select(meet, steradian_conic_vector_approximate(arc, meet), e);
     }
     return e;
 }
@@ -3836,34 +3842,35 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
-        if (present) {
-            vec2 rule = steradian_ggx_rule(n, j);
-            SteradianConicNode node = steradian_conic_node(edge, rule.x);
-            vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
-            vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
-            vec3 rim = u * sqrt(inverse2);
-            float rim_cosine = dot(rim, c.centre);
-            vec3 out_of_centre = rim - c.centre * rim_cosine;
-            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
-            float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
-                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
-            om = steradian_select(present, om, 0.0);
+        if (!present) {
+            break;
+        }
+        vec2 rule = steradian_ggx_rule(n, j);
+        SteradianConicNode node = steradian_conic_node(edge, rule.x);
+        vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+        vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
+        float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+        vec3 rim = u * sqrt(inverse2);
+        float rim_cosine = dot(rim, c.centre);
+        vec3 out_of_centre = rim - c.centre * rim_cosine;
+        vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+        float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+            / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+        om = steradian_select(present, om, 0.0);
 
-            next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
-            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
-            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+        next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
+        float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+        float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        if ((fine || wide) && present) {
+            share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+            share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
             next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            if ((fine || wide) && present) {
-                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
-                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            }
-            if (wide && present) {
-                om = steradian_select(wide, om, 0.0);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
-            }
+        }
+        if (wide && present) {
+            om = steradian_select(wide, om, 0.0);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
         }
     }
     return next;

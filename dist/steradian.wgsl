@@ -1249,15 +1249,16 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
     let tolerance = 1.0e-6;
     var moving = arc.end > arc.begin;
     for (var i: i32 = 0; i < sweeps; i++) {
-        if (moving) {
-            let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
-            let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
-            let step1 = z1 - poles.z1;
-            let step2 = z2 - poles.z2;
-            poles.z1 = select(poles.z1, z1, moving);
-            poles.z2 = select(poles.z2, z2, moving);
-            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!moving) {
+            break;
         }
+        let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+        let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
+        let step1 = z1 - poles.z1;
+        let step2 = z2 - poles.z2;
+        poles.z1 = select(poles.z1, z1, moving);
+        poles.z2 = select(poles.z2, z2, moving);
+        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
     }
     return poles;
 }
@@ -1358,10 +1359,15 @@ fn steradian_conic_residue(arc: SteradianConicArc, z: vec2f, o: vec2f, sweep: f3
 }
 
 // The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
-fn steradian_conic_vector_approximate(arc: SteradianConicArc) -> vec3f {
+//
+//   wanted   where the value counts; others may be left at 0
+fn steradian_conic_vector_approximate(arc: SteradianConicArc, wanted: bool) -> vec3f {
     var sum = vec3f(0.0, 0.0, 0.0);
     let total = arc.sweep.x + arc.sweep.y;
     for (var i: i32 = 0; i < 16; i++) {
+        if (!wanted) {
+            break;
+        }
         let part: i32 = i / 8;
         let rule = steradian_gauss_legendre_node(8, i - 8 * part);
         let node = steradian_conic_node(arc, 0.5 * (rule.x + f32(part)));
@@ -1383,7 +1389,7 @@ fn steradian_conic_vector(arc: SteradianConicArc) -> vec3f {
     let apart = arc.z1 - arc.z2;
     let meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
     if (meet) {
-        e = select(e, steradian_conic_vector_approximate(arc), meet);
+        e = select(e, steradian_conic_vector_approximate(arc, meet), meet);
     }
     return e;
 }
@@ -3833,34 +3839,35 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
-        if (present) {
-            let rule = steradian_ggx_rule(n, j);
-            let node = steradian_conic_node(edge, rule.x);
-            let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
-            let du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
-            let rim = u * sqrt(inverse2);
-            let rim_cosine = dot(rim, c.centre);
-            let out_of_centre = rim - c.centre * rim_cosine;
-            let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
-            var om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
-                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
-            om = select(0.0, om, present);
+        if (!present) {
+            break;
+        }
+        let rule = steradian_ggx_rule(n, j);
+        let node = steradian_conic_node(edge, rule.x);
+        let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+        let du = edge.u1 + edge.u2 * (2.0 * node.tau);
+        let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+        let rim = u * sqrt(inverse2);
+        let rim_cosine = dot(rim, c.centre);
+        let out_of_centre = rim - c.centre * rim_cosine;
+        let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+        var om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+            / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+        om = select(0.0, om, present);
 
-            next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
-            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
-            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+        next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
+        var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+        var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        if ((fine || wide) && present) {
+            share = select(0.844948974278317810, 0.416409567631083166, wide);
+            share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
             next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            if ((fine || wide) && present) {
-                share = select(0.844948974278317810, 0.416409567631083166, wide);
-                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            }
-            if (wide && present) {
-                om = select(0.0, om, wide);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
-            }
+        }
+        if (wide && present) {
+            om = select(0.0, om, wide);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
         }
     }
     return next;

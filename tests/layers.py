@@ -28,7 +28,7 @@ ROWS = [
     ["source/shapes", "source/lobes"],
     ["source/core"],
     ["include"],
-    ["tables", "kernels"],
+    ["tables", "kernels", "shaders"],
 ]
 ROW = {folder: n for n, row in enumerate(ROWS) for folder in row}
 

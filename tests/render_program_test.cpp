@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "render/vulkan/device.h"
 #include "steradian/compare.h"
 #include "steradian/picture.h"
 
@@ -53,11 +54,41 @@ TEST_F(Program, RenderGivesTheSameBytesAtOneAndTwoThreads) {
   }
 }
 
+TEST_F(Program, RenderOnVulkanSaysThatThePictureHasNoShadows) {
+  if (vulkan::list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const std::string exr = folder / "v.exr", stats = folder / "s.json";
+  const std::vector<std::string> usual = {"render", floor_scene(), "-o", exr, "--size", "64x36", "--backend", "vulkan"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), usual.begin(), usual.end());
+    return run(more);
+  };
+  const Outcome r = with({"--stats", stats, "--device", "0"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.err.find("does not have shadows yet"), std::string::npos) << r.err;
+  EXPECT_EQ(read_picture(exr).metadata.at("steradian.shadows"), "off");
+  const json s = json::parse(contents(stats));
+  EXPECT_EQ(s["backend"], "vulkan");
+  EXPECT_EQ(s["device"], vulkan::list_devices().front().name);
+  EXPECT_TRUE(std::any_of(s["passes"].begin(), s["passes"].end(), [](const json& pass) { return pass["name"] == "device"; }));
+
+  fs::remove(exr);
+  const Outcome shadows = with({"--shadows", "on"}), sampled = with({"--shadows", "off", "--method", "sampled"}),
+                missing = with({"--shadows", "off", "--device", "no such device"});
+  EXPECT_EQ(shadows.status, 2);
+  EXPECT_NE(shadows.err.find("--shadows off"), std::string::npos) << shadows.err;
+  EXPECT_EQ(sampled.status, 2) << sampled.err;
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.err.find("here are: 0 "), std::string::npos) << missing.err;
+  EXPECT_FALSE(fs::exists(exr));
+}
+
 TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
   const std::string exr = folder / "x.exr", png = folder / "x.png", svg = test::kSourceDir + "/scenes/plane/room.svg";
   const std::vector<std::vector<std::string>> wrong = {
       {"render", floor_scene(), "-o", exr, "--spp", "8"},
       {"render", floor_scene(), "-o", exr, "--target-error", "0.1"},
+      {"render", floor_scene(), "-o", exr, "--device", "0"},
+      {"render", svg, "-o", png, "--backend", "vulkan"},
       {"render", floor_scene(), "-o", exr, "--indirect-shadows", "4"},
       {"render", floor_scene(), "-o", exr, "--vpls", "4096"},
       {"render", floor_scene(), "-o", exr, "--moments"},

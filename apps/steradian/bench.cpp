@@ -23,7 +23,7 @@ namespace {
 using namespace fit;
 
 struct Options {
-  std::string filter, simd;
+  std::string filter, simd, backend = "cpu", device;
   double min_time = 0.5;
   bool json = false;
   bool table2 = false, textured = false, plane = false;
@@ -44,7 +44,7 @@ std::vector<BenchResult> run(const Options& options) {
   if (!options.simd.empty()) setenv("STERADIAN_SIMD", options.simd.c_str(), 1);
   BenchOptions bench_options;
   bench_options.min_time = options.min_time;
-  const BenchList list = bench::all_benches();
+  const BenchList list = bench::all_benches({options.backend == "vulkan" ? Backend::vulkan : Backend::cpu, options.device});
   std::vector<const BenchList::Entry*> chosen;
   for (const auto& entry : list.entries())
     if (entry.name.starts_with(options.filter)) chosen.push_back(&entry);
@@ -143,6 +143,12 @@ void add_bench(CLI::App& app, Exit& exit) {
       ->group("What")
       ->check(CLI::IsMember({"sse2", "avx2", "avx512"}))
       ->default_str("widest");
+  verb->add_option("--backend", options->backend, "vulkan: the benches of frames on a Vulkan device, under vulkan/")
+      ->group("What")
+      ->check(CLI::IsMember({"cpu", "vulkan"}));
+  verb->add_option("--device", options->device, "Of vulkan: its number in `steradian info`, or part of its name; none: the first")
+      ->group("What")
+      ->default_str("");
   verb->add_option("--min-time", options->min_time, "Seconds of runs per bench")
       ->group("How")
       ->check(CLI::Range(0.0, 3600.0).description("0..3600"));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/budget.h"
 #include "core/simd.h"
 #include "info_scene.h"
 #include "render/vulkan/device.h"
@@ -33,7 +34,16 @@ Json facts() {
   info["threads"] = std::thread::hardware_concurrency();
   info["vulkan_devices"] = Json::array();  // none: no loader, or no driver for Vulkan 1.2
   for (const vulkan::DeviceInfo& d : vulkan::list_devices())
-    info["vulkan_devices"].push_back(fmt::format("{} ({}){}", d.name, d.driver, d.software ? ", software" : ""));
+    info["vulkan_devices"].push_back({{"number", info["vulkan_devices"].size()},
+                                      {"name", d.name},
+                                      {"driver", d.driver},
+                                      {"vulkan", d.vulkan},
+                                      {"software", d.software},
+                                      {"memory", readable_bytes(d.memory)},
+                                      {"storage_buffer", readable_bytes(d.storage_buffer)},
+                                      {"storage_buffers_of_a_shader", d.storage_buffers},
+                                      {"subgroup", d.subgroup},
+                                      {"timestamps", d.timestamps}});
   const auto dotted = [](int a, int b, int c) { return fmt::format("{}.{}.{}", a, b, c); };
   info["libraries"] = {
       {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)},

@@ -66,7 +66,7 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
   return {{"version", version()},
           {"command", command_line()},
           {"backend", options.backend},
-          {"device", "cpu"},
+          {"device", stats.device},
           {"simd", name_of(active_simd())},
           {"threads", stats.threads},
           {"width", options.render.width},
@@ -145,6 +145,7 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--target-error", r.method == "reference", "--method reference"},
                                {"--terminator", options.shadows != "off", "--shadows on or exact"},
                                {"--light-error", options.light_sum != "all", "--lights auto or tree"},
+                               {"--device", options.backend == "vulkan", "--backend vulkan"},
                                {"--resume", samples || r.method == "reference", "--method reference or sampled, or --indirect path"},
                                {"--vpls", points, bounce},
                                {"--indirect-pairs", points, bounce},
@@ -184,6 +185,8 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--camera", false, third},
              {"--target-error", false, third},
              {"--resume", false, third},
+             {"--backend", options.backend == "cpu", third},
+             {"--device", false, third},
              {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
              {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
              {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
@@ -218,6 +221,15 @@ void run_plane(Options& options) {
   render_plane_scene(job);
 }
 
+// Vulkan has no shadows: whoever asks for them is refused later, whoever does not ask is told that the picture has none.
+void take_backend(const CLI::App& verb, Options& options) {
+  if (options.backend == "cpu") return;
+  options.render.backend = Backend::vulkan;
+  if (verb.count("--shadows") > 0) return;
+  options.shadows = "off";
+  fmt::print(stderr, "warning: --backend vulkan does not have shadows yet: this is the picture of --shadows off\n");
+}
+
 void run(const CLI::App& verb, Options& options) {
   RenderOptions& render_options = options.render;
   if (is_plane_scene(options.scene)) {
@@ -227,6 +239,7 @@ void run(const CLI::App& verb, Options& options) {
   if (render_options.method == "par" || render_options.method == "marched")
     throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
+  take_backend(verb, options);
   render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
   render_options.terminator = options.terminator == "smooth" ? Terminator::smooth : Terminator::strict;
   render_options.lights = options.light_sum == "all" ? LightSum::all : options.light_sum == "tree" ? LightSum::tree : LightSum::automatic;
@@ -381,7 +394,9 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_flag("--resume", options->resume, "go on with what an interrupted reference, sampled or path-traced render kept beside -o")
       ->group("Sampling");
   verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
-  verb->add_option("--backend", options->backend, "where to compute")->check(CLI::IsMember({"cpu"}))->group("Machine");
+  verb->add_option("--backend", options->backend, "where to compute")->check(CLI::IsMember({"cpu", "vulkan"}))->group("Machine");
+  verb->add_option("--device", r.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first")
+      ->group("Machine");
   verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
   verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")->group("Machine");
   add_limits(*verb, options->limits);

@@ -202,15 +202,16 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (moving) {
-            vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
-            vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
-            vec2 step1 = z1 - poles.z1;
-            vec2 step2 = z2 - poles.z2;
-            poles.z1 = steradian_select(moving, z1, poles.z1);
-            poles.z2 = steradian_select(moving, z2, poles.z2);
-            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!moving) {
+            break;
         }
+        vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+        vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
+        vec2 step1 = z1 - poles.z1;
+        vec2 step2 = z2 - poles.z2;
+        poles.z1 = steradian_select(moving, z1, poles.z1);
+        poles.z2 = steradian_select(moving, z2, poles.z2);
+        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
     }
     return poles;
 }
@@ -311,10 +312,15 @@ vec3 steradian_conic_residue(SteradianConicArc arc, vec2 z, vec2 o, float sweep)
 }
 
 // The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
-vec3 steradian_conic_vector_approximate(SteradianConicArc arc) {
+//
+//   wanted   where the value counts; others may be left at 0
+vec3 steradian_conic_vector_approximate(SteradianConicArc arc, bool wanted) {
     vec3 sum = vec3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
     for (int i = 0; i < 16; i++) {
+        if (!wanted) {
+            break;
+        }
         int part = i / 8;
         vec2 rule = steradian_gauss_legendre_node(8, i - 8 * part);
         SteradianConicNode node = steradian_conic_node(arc, 0.5 * (rule.x + float(part)));
@@ -336,7 +342,7 @@ vec3 steradian_conic_vector(SteradianConicArc arc) {
     vec2 apart = arc.z1 - arc.z2;
     bool meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
     if (meet) {
-        e = steradian_select(meet, steradian_conic_vector_approximate(arc), e);
+        e = steradian_select(meet, steradian_conic_vector_approximate(arc, meet), e);
     }
     return e;
 }

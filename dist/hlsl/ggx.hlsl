@@ -338,34 +338,35 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
-        if (present) {
-            float2 rule = steradian_ggx_rule(n, j);
-            SteradianConicNode node = steradian_conic_node(edge, rule.x);
-            float3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
-            float3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
-            float3 rim = u * sqrt(inverse2);
-            float rim_cosine = dot(rim, c.centre);
-            float3 out_of_centre = rim - c.centre * rim_cosine;
-            float3 outward = out_of_centre * rsqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
-            float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
-                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
-            om = steradian_select(present, om, 0.0);
+        if (!present) {
+            break;
+        }
+        float2 rule = steradian_ggx_rule(n, j);
+        SteradianConicNode node = steradian_conic_node(edge, rule.x);
+        float3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+        float3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
+        float inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+        float3 rim = u * sqrt(inverse2);
+        float rim_cosine = dot(rim, c.centre);
+        float3 out_of_centre = rim - c.centre * rim_cosine;
+        float3 outward = out_of_centre * rsqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+        float om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+            / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+        om = steradian_select(present, om, 0.0);
 
-            next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
-            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
-            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+        next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
+        float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+        float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        if ((fine || wide) && present) {
+            share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+            share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
             next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            if ((fine || wide) && present) {
-                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
-                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            }
-            if (wide && present) {
-                om = steradian_select(wide, om, 0.0);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
-            }
+        }
+        if (wide && present) {
+            om = steradian_select(wide, om, 0.0);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
         }
     }
     return next;

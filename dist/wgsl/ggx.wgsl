@@ -338,34 +338,35 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
-        if (present) {
-            let rule = steradian_ggx_rule(n, j);
-            let node = steradian_conic_node(edge, rule.x);
-            let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
-            let du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
-            let rim = u * sqrt(inverse2);
-            let rim_cosine = dot(rim, c.centre);
-            let out_of_centre = rim - c.centre * rim_cosine;
-            let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
-            var om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
-                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
-            om = select(0.0, om, present);
+        if (!present) {
+            break;
+        }
+        let rule = steradian_ggx_rule(n, j);
+        let node = steradian_conic_node(edge, rule.x);
+        let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+        let du = edge.u1 + edge.u2 * (2.0 * node.tau);
+        let inverse2 = 1.0 / max(dot(u, u), steradian_smallest_divisor());
+        let rim = u * sqrt(inverse2);
+        let rim_cosine = dot(rim, c.centre);
+        let out_of_centre = rim - c.centre * rim_cosine;
+        let outward = out_of_centre * inverseSqrt(max(dot(out_of_centre, out_of_centre), steradian_smallest_divisor()));
+        var om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+            / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+        om = select(0.0, om, present);
 
-            next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
-            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
-            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+        next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
+        var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+        var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        if ((fine || wide) && present) {
+            share = select(0.844948974278317810, 0.416409567631083166, wide);
+            share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
             next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            if ((fine || wide) && present) {
-                share = select(0.844948974278317810, 0.416409567631083166, wide);
-                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            }
-            if (wide && present) {
-                om = select(0.0, om, wide);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-                next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
-            }
+        }
+        if (wide && present) {
+            om = select(0.0, om, wide);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
         }
     }
     return next;

@@ -202,15 +202,16 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
     let tolerance = 1.0e-6;
     var moving = arc.end > arc.begin;
     for (var i: i32 = 0; i < sweeps; i++) {
-        if (moving) {
-            let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
-            let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
-            let step1 = z1 - poles.z1;
-            let step2 = z2 - poles.z2;
-            poles.z1 = select(poles.z1, z1, moving);
-            poles.z2 = select(poles.z2, z2, moving);
-            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!moving) {
+            break;
         }
+        let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+        let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
+        let step1 = z1 - poles.z1;
+        let step2 = z2 - poles.z2;
+        poles.z1 = select(poles.z1, z1, moving);
+        poles.z2 = select(poles.z2, z2, moving);
+        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
     }
     return poles;
 }
@@ -311,10 +312,15 @@ fn steradian_conic_residue(arc: SteradianConicArc, z: vec2f, o: vec2f, sweep: f3
 }
 
 // The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
-fn steradian_conic_vector_approximate(arc: SteradianConicArc) -> vec3f {
+//
+//   wanted   where the value counts; others may be left at 0
+fn steradian_conic_vector_approximate(arc: SteradianConicArc, wanted: bool) -> vec3f {
     var sum = vec3f(0.0, 0.0, 0.0);
     let total = arc.sweep.x + arc.sweep.y;
     for (var i: i32 = 0; i < 16; i++) {
+        if (!wanted) {
+            break;
+        }
         let part: i32 = i / 8;
         let rule = steradian_gauss_legendre_node(8, i - 8 * part);
         let node = steradian_conic_node(arc, 0.5 * (rule.x + f32(part)));
@@ -336,7 +342,7 @@ fn steradian_conic_vector(arc: SteradianConicArc) -> vec3f {
     let apart = arc.z1 - arc.z2;
     let meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
     if (meet) {
-        e = select(e, steradian_conic_vector_approximate(arc), meet);
+        e = select(e, steradian_conic_vector_approximate(arc, meet), meet);
     }
     return e;
 }

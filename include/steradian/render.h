@@ -1,4 +1,4 @@
-// render: a scene to a picture on the CPU.
+// render: a scene to a picture, on the CPU or on a Vulkan device.
 #pragma once
 
 #include <atomic>
@@ -26,6 +26,10 @@ enum class Terminator { strict, smooth };
 // together, within a bound; see docs/manylights.md. automatic: tree from 64 lights on.
 enum class LightSum { automatic, all, tree };
 
+// vulkan: direct light without shadows of metallic-roughness surfaces (docs/render.md says what is missing); what it does not have is a
+// UsageError, and so is a device that is not there an Error.
+enum class Backend { cpu, vulkan };
+
 struct RenderOptions {
   int width = 1280;
   int height = 720;
@@ -43,7 +47,9 @@ struct RenderOptions {
   double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
   IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
-  int threads = 0;                                                        // 0: all
+  Backend backend = Backend::cpu;
+  std::string device;  // of vulkan: part of its name, or its number in `steradian info`; empty: the first
+  int threads = 0;     // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
   const std::atomic<bool>* stop = nullptr;                                // once true, render returns soon with what it has
 };
@@ -65,6 +71,7 @@ struct RenderStats {
   double total_ms = 0;
   int threads = 0;
   std::string method;  // what `auto` became
+  std::string device = "cpu";
   std::size_t lights = 0;
   std::size_t triangles = 0;
   double environment_spots = 0;       // share of the environment's light that polygon lights carry

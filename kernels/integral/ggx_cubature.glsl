@@ -124,34 +124,35 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
     mask wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         mask present = n > real(j) + 0.5 && total > 0.0;
-        if (any_lane(present)) {
-            vec2 rule = ggx_rule(n, j);
-            ConicNode node = conic_node(edge, rule.x);
-            vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
-            vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
-            real inverse2 = 1.0 / max(dot(u, u), smallest_divisor());
-            vec3 rim = u * sqrt(inverse2);
-            real rim_cosine = dot(rim, c.centre);
-            vec3 out_of_centre = rim - c.centre * rim_cosine;
-            vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), smallest_divisor()));
-            real om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
-                / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
-            om = select(present, om, 0.0);
+        if (!any_lane(present)) {
+            break;
+        }
+        vec2 rule = ggx_rule(n, j);
+        ConicNode node = conic_node(edge, rule.x);
+        vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
+        vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
+        real inverse2 = 1.0 / max(dot(u, u), smallest_divisor());
+        vec3 rim = u * sqrt(inverse2);
+        real rim_cosine = dot(rim, c.centre);
+        vec3 out_of_centre = rim - c.centre * rim_cosine;
+        vec3 outward = out_of_centre * inversesqrt(max(dot(out_of_centre, out_of_centre), smallest_divisor()));
+        real om = dot(c.centre, cross(u, du)) * (c.facing * inverse2 * rule.y * total / node.density)
+            / (1.0 + max(rim_cosine, -0.9));  // solid angle of the fan
+        om = select(present, om, 0.0);
 
-            next.centre_weight = next.centre_weight + om * select(wide, 0.04, select(fine, 0.111111111111111111, 0.25));
-            real share = select(wide, 0.139759864343780571, select(fine, 0.355051025721682190, 0.666666666666666667));
-            real share_weight = select(wide, 0.223103901083570916, select(fine, 0.512485826188421615, 0.75));
+        next.centre_weight = next.centre_weight + om * select(wide, 0.04, select(fine, 0.111111111111111111, 0.25));
+        real share = select(wide, 0.139759864343780571, select(fine, 0.355051025721682190, 0.666666666666666667));
+        real share_weight = select(wide, 0.223103901083570916, select(fine, 0.512485826188421615, 0.75));
+        next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        if (any_lane((fine || wide) && present)) {
+            share = select(wide, 0.416409567631083166, 0.844948974278317810);
+            share_weight = select(wide, 0.311826522975741250, select(fine, 0.376403062700467274, 0.0));
             next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            if (any_lane((fine || wide) && present)) {
-                share = select(wide, 0.416409567631083166, 0.844948974278317810);
-                share_weight = select(wide, 0.311826522975741250, select(fine, 0.376403062700467274, 0.0));
-                next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-            }
-            if (any_lane(wide && present)) {
-                om = select(wide, om, 0.0);
-                next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-                next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
-            }
+        }
+        if (any_lane(wide && present)) {
+            om = select(wide, om, 0.0);
+            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
+            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
         }
     }
     return next;

@@ -73,15 +73,16 @@ QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
     }
     mask moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (any_lane(moving)) {
-            vec2 z1 = conic_pole_step(arc, poles.z1, poles.z2, d4);
-            vec2 z2 = conic_pole_step(arc, poles.z2, z1, d4);
-            vec2 step1 = z1 - poles.z1;
-            vec2 step2 = z2 - poles.z2;
-            poles.z1 = select(moving, z1, poles.z1);
-            poles.z2 = select(moving, z2, poles.z2);
-            moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!any_lane(moving)) {
+            break;
         }
+        vec2 z1 = conic_pole_step(arc, poles.z1, poles.z2, d4);
+        vec2 z2 = conic_pole_step(arc, poles.z2, z1, d4);
+        vec2 step1 = z1 - poles.z1;
+        vec2 step2 = z2 - poles.z2;
+        poles.z1 = select(moving, z1, poles.z1);
+        poles.z2 = select(moving, z2, poles.z2);
+        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
     }
     return poles;
 }
@@ -185,10 +186,15 @@ vec3 conic_residue(ConicArc arc, vec2 z, vec2 o, real sweep) {
 }
 
 // The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
-vec3 conic_vector_approximate(ConicArc arc) {
+//
+//   wanted   where the value counts; others may be left at 0
+vec3 conic_vector_approximate(ConicArc arc, mask wanted) {
     vec3 sum = vec3(0.0, 0.0, 0.0);
     real total = arc.sweep.x + arc.sweep.y;
     for (int i = 0; i < 16; i++) {
+        if (!any_lane(wanted)) {
+            break;
+        }
         int part = i / 8;
         vec2 rule = gauss_legendre_node(8, i - 8 * part);
         ConicNode node = conic_node(arc, 0.5 * (rule.x + real(part)));
@@ -213,7 +219,7 @@ vec3 conic_vector(ConicArc arc) {
     vec2 apart = arc.z1 - arc.z2;
     mask meet = dot(apart, apart) < close * arc.z1.y * arc.z2.y && arc.end > arc.begin;
     if (any_lane(meet)) {
-        e = select(meet, conic_vector_approximate(arc), e);
+        e = select(meet, conic_vector_approximate(arc, meet), e);
     }
     return e;
 }

@@ -50,7 +50,7 @@ vec4 case_conic_vector(CaseInput i) { return case_of_vec3(conic_vector(case_arc(
 //   c.z    range(0.1, 1.5)
 //   d.xyz  direction
 // Values: 3
-vec4 case_conic_vector_approximate(CaseInput i) { return case_of_vec3(conic_vector_approximate(case_arc(i))); }
+vec4 case_conic_vector_approximate(CaseInput i) { return case_of_vec3(conic_vector_approximate(case_arc(i), mask_all())); }
 
 // Running error analysis loses conic_polish_poles: the step goes to nothing, and with it all digits of the step's limit; nor can
 // it see that a step forgets the error of the one before. The first case below stays at the start, with an arc without

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "render/vulkan/compute_pipeline.h"
+#include "render/vulkan/compute_program.h"
 #include "steradian/error.h"
 
 namespace steradian::parity {
@@ -37,8 +37,9 @@ Target gpu_target(std::shared_ptr<vulkan::Device> device, const std::string& nam
     std::vector<float> results(count * kResults);
     vulkan::Buffer in(*device, inputs.size() * sizeof(float)), out(*device, results.size() * sizeof(float));
     in.write(inputs.data(), in.bytes());
-    vulkan::ComputePipeline pipeline(*device, read_words(folder + "/" + cases()[index].name + ".spv"), 2);
-    pipeline.run({&in, &out}, static_cast<std::uint32_t>((count + 63) / 64));
+    const std::vector<std::uint32_t> spirv = read_words(folder + "/" + cases()[index].name + ".spv");
+    vulkan::ComputeProgram program(*device, {spirv}, 2);
+    program.run({&in, &out}, {{program.pipeline(), static_cast<std::uint32_t>((count + 63) / 64)}});
     out.read(results.data(), out.bytes());
     return results;
   };

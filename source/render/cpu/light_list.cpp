@@ -174,8 +174,10 @@ ReachingLights lights_reaching(std::span<const PackLight* const> lights, const S
     normals.add({tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
     if (tile.coat[i] > 0) normals.add({tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]});
   }
-  const Vec3d low{positions.x.low, positions.y.low, positions.z.low}, high{positions.x.high, positions.y.high, positions.z.high};
   ReachingLights result;
+  result.low = {positions.x.low, positions.y.low, positions.z.low};
+  result.high = {positions.x.high, positions.y.high, positions.z.high};
+  const auto low = static_cast<Vec3d>(result.low), high = static_cast<Vec3d>(result.high);
   for (const PackLight* light : lights) {
     if (!reaches(*light, positions, normals)) continue;
     result.lights.push_back(light);

@@ -52,6 +52,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
 struct ReachingLights {
   std::vector<const PackLight*> lights;
   std::vector<std::unique_ptr<PackLight>> cut;  // what some of them point to: see with_long_edges_cut
+  Vec3f low{}, high{};                          // box of the surfaces' positions; low is above high without any
 };
 
 // By conservative bounds of positions and normals against the light's plane and the surfaces' horizons.

@@ -1,4 +1,4 @@
-#include "steradian/render.h"
+#include "render/cpu/render.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/info.h>
@@ -15,40 +15,19 @@
 #include "core/float_mode.h"
 #include "render/indirect/pipeline.h"
 #include "render/cpu/direct.h"
+#include "render/cpu/frame_surfaces.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
-#include "render/cpu/surface_pack.h"
+#include "render/cpu/pass_clock.h"
 #include "render/cpu/shadow_pass.h"
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
-#include "render/environment/environment_light.h"
 #include "render/lights/many_lights.h"
 #include "steradian/error.h"
 
 namespace steradian {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
-
-// Thread time of a pass, summed over tiles.
-class PassClock {
- public:
-  explicit PassClock(std::string name) : name_(std::move(name)) {}
-  template <class Work>
-  void run(Work work) {
-    const auto start = Clock::now();
-    work();
-    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
-  }
-  PassTime time(int threads) const { return {name_, static_cast<double>(nanoseconds_) * 1e-6 / threads}; }
-
- private:
-  std::string name_;
-  std::atomic<std::int64_t> nanoseconds_{0};
-};
 
 // What a pilot run of `reference` says of a tile.
 struct Pilot {
@@ -59,8 +38,6 @@ struct Pilot {
 constexpr int kPilotPairs = 32;  // enough to rank tiles; the final estimate does not use them
 constexpr int kMinPairs = 64;    // below, the estimated variance is too rough for a z-test
 constexpr int kMaxPairs = 1 << 16;
-constexpr int kMostLayers = 8;        // surfaces that light passes, one behind the other, and what is behind them
-constexpr float kLeastShare = 1e-3f;  // of the light from behind; less is black
 
 // Shadows of a tile in work, and their thread's memory.
 struct ShadowWork {
@@ -80,25 +57,18 @@ class Renderer {
         options_(options),
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
-        camera_(find_camera(scene, options.camera), options.width, options.height),
-        rays_(scene),
-        environment_(prepare_environment(scene)),
-        lights_(prepare_lights(scene, environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>())),
+        surfaces_(scene, options),
+        lights_(prepare_lights(scene, surfaces_.environment_spots())),
         many_lights_(prepare_many_lights()),
         direct_(direct_table_for(active_simd())),
-        maps_(scene.images),
-        shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, &maps_,
-                 camera_.steps(options.aa)},
         specular_(method_, options.table),
-        tiles_x_((options.width + kTileSide - 1) / kTileSide),
-        tiles_y_((options.height + kTileSide - 1) / kTileSide),
         samplers_([this] {
-          return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &rays_ : nullptr,
-                                                 environment_ ? &environment_->sampler() : nullptr, options_.terminator);
+          return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &surfaces_.rays() : nullptr,
+                                                 environment() != nullptr ? &environment()->sampler() : nullptr, options_.terminator);
         }),
         arena_(threads_) {
-    if (options.shadows != Shadows::off && !method_.estimates()) shadows_.emplace(scene_, lights_, rays_, options.shadows);
-    if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, rays_, options_, threads_);
+    if (options.shadows != Shadows::off && !method_.estimates()) shadows_.emplace(scene_, lights_, surfaces_.rays(), options.shadows);
+    if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, surfaces_.rays(), options_, threads_);
     build_ms_ = ms_since(start_);
   }
 
@@ -123,17 +93,17 @@ class Renderer {
 
   void report(RenderStats& stats) const {
     stats.passes = {{"build", build_ms_},
-                    rays_clock_.time(threads_),
-                    gbuffer_clock_.time(threads_),
+                    surfaces_.rays_time(threads_),
+                    surfaces_.gbuffer_time(threads_),
                     direct_clock_.time(threads_),
                     specular_clock_.time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
-    if (environment_) {
-      stats.passes.front().ms -= environment_build_ms_;
-      stats.passes.push_back({"environment: maps", environment_build_ms_});
-      stats.passes.push_back(environment_clock_.time(threads_));
-      stats.environment_spots = environment_->share_of_spots();
-      stats.diffuse_residual = environment_->diffuse_residual();
+    if (environment() != nullptr) {
+      stats.passes.front().ms -= surfaces_.environment_build_ms();
+      stats.passes.push_back({"environment: maps", surfaces_.environment_build_ms()});
+      stats.passes.push_back(surfaces_.environment_time(threads_));
+      stats.environment_spots = environment()->share_of_spots();
+      stats.diffuse_residual = environment()->diffuse_residual();
     }
     if (many_lights_) {
       stats.light_tree = true;
@@ -165,14 +135,6 @@ class Renderer {
   }
 
  private:
-  std::unique_ptr<const environment::EnvironmentLight> prepare_environment(const Scene& scene) {
-    if (!scene.environment) return nullptr;
-    const auto start = Clock::now();
-    auto light = std::make_unique<const environment::EnvironmentLight>(scene);
-    environment_build_ms_ = ms_since(start);
-    return light;
-  }
-
   static std::vector<const PackLight*> pointers_to(const std::vector<PackLight>& lights) {
     std::vector<const PackLight*> pointers;
     for (const PackLight& light : lights) pointers.push_back(&light);
@@ -183,15 +145,12 @@ class Renderer {
     constexpr std::size_t kMany = 64;  // from here on automatic takes the tree
     const bool wanted = options_.lights == LightSum::tree || (options_.lights == LightSum::automatic && lights_.size() >= kMany);
     if (!wanted || method_.estimates()) return nullptr;
-    return std::make_unique<const lights::ManyLights>(lights_, camera_.origin(), static_cast<float>(options_.light_error));
+    return std::make_unique<const lights::ManyLights>(lights_, surfaces_.camera().origin(), static_cast<float>(options_.light_error));
   }
 
-  int tile_count() const { return tiles_x_ * tiles_y_; }
-
-  TileArea area(int index) const {
-    const int x = index % tiles_x_ * kTileSide, y = index / tiles_x_ * kTileSide;
-    return {x, y, std::min(kTileSide, options_.width - x), std::min(kTileSide, options_.height - y)};
-  }
+  const environment::EnvironmentLight* environment() const { return surfaces_.environment(); }
+  int tile_count() const { return surfaces_.tile_count(); }
+  TileArea area(int index) const { return surfaces_.area(index); }
 
   // A new state, or one to go on with.
   void begin(RenderState& state) const {
@@ -223,7 +182,7 @@ class Renderer {
   // Of a tile whose direct light is done: what the bounce wants of it.
   void take_surfaces(int index) {
     if (!indirect_) return;
-    fill(index, 0, *workspace());
+    surfaces_.fill(index, 0, *workspace());
     indirect_->take(*workspace(), area(index));
   }
 
@@ -269,47 +228,13 @@ class Renderer {
   // A thread's own: memory fresh from the system for every tile would cost more than its rays.
   SurfaceTile* workspace() { return tiles_.local().get(); }
 
-  // behind: what to look past; null for the nearest surfaces. Returns where those lie.
-  TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr) {
-    TileHits hits;
-    rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
-    gbuffer_clock_.run([&] {
-      shade_tile(scene_, shading_, hits, tile);
-      if (environment_ && options_.background) show_background(hits, tile, behind);
-    });
-    TilePlane distances{};
-    std::copy(hits.distance.begin(), hits.distance.end(), distances.begin());
-    return distances;
-  }
-
-  void show_background(const TileHits& hits, SurfaceTile& tile, const TilePlane* behind) const {
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      if (tile.material[i] != nullptr || (behind != nullptr && !((*behind)[i] > 0))) continue;
-      const Vec3f seen = environment_->background({hits.direction.x[i], hits.direction.y[i], hits.direction.z[i]});
-      tile.radiance.x[i] = seen.x;
-      tile.radiance.y[i] = seen.y;
-      tile.radiance.z[i] = seen.z;
-    }
-  }
-
-  // All of the environment but its spots, which are among the lights.
-  void add_environment(SurfaceTile& tile) const {
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      if (tile.material[i] == nullptr) continue;
-      const Vec3f r = environment_->reflected(surface_in(tile, i), {tile.view.x[i], tile.view.y[i], tile.view.z[i]});
-      tile.radiance.x[i] += r.x;
-      tile.radiance.y[i] += r.y;
-      tile.radiance.z[i] += r.z;
-    }
-  }
-
   // Pairs per tile so that the rms standard error is the target's share of the rms radiance, from a pilot run.
   std::vector<int> plan_pairs() {
     steps_ *= 2;
     std::vector<Pilot> pilots(static_cast<std::size_t>(tile_count()));
     each_tile([&](int index) {
       SurfaceTile* tile = workspace();
-      fill(index, 0, *tile);
+      surfaces_.fill(index, 0, *tile);
       Pilot& pilot = pilots[static_cast<std::size_t>(index)];
       sampling_clock_.run([&] {
         estimate_tile(*tile, area(index), {0, 0, 1}, kPilotPairs, [&](int, int, std::size_t, const Estimate& e) {
@@ -475,7 +400,7 @@ class Renderer {
         add_light(tile, reaching.lights);
       }
     }
-    if (environment_ && !method_.estimates()) environment_clock_.run([&] { add_environment(tile); });
+    if (!method_.estimates()) surfaces_.add_environment(tile);
     if (method_.estimates())
       sampling_clock_.run([&] {
         std::vector<Vec3f>& variance = picture.layers.at("variance");
@@ -489,38 +414,15 @@ class Renderer {
           variance[pixel] += static_cast<Vec3f>(e.variance) * share * share * (weight * weight);
         });
       });
-    for (int y = 0; y < a.height; ++y)
-      for (int x = 0; x < a.width; ++x) {
-        const std::size_t i = tile_slot(x, y);
-        const Vec3f radiance{tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]};
-        const Vec3f share = shares != nullptr ? Vec3f{shares->x[i], shares->y[i], shares->z[i]} : Vec3f{1, 1, 1};
-        picture.at(a.x + x, a.y + y) += radiance * share * weight;
-        if (bounds != nullptr) {
-          const auto pixel =
-              static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(a.x + x);
-          (*bound_layer)[pixel] += Vec3f{bounds->x[i], bounds->y[i], bounds->z[i]} * share * weight;
-        }
-      }
-  }
-
-  // Multiplies the shares by what the tile's surfaces let through, and moves `behind` past them: 0 where nothing comes through.
-  static void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind) {
-    constexpr float kPast = 1 + 2e-5f;  // some roundings of a distance and of a triangle's coordinates
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      shares.x[i] *= tile.passes.x[i];
-      shares.y[i] *= tile.passes.y[i];
-      shares.z[i] *= tile.passes.z[i];
-      const bool any = tile.material[i] != nullptr && std::max({shares.x[i], shares.y[i], shares.z[i]}) > kLeastShare;
-      behind[i] = any ? behind[i] * kPast : 0;
-      if (!any) shares.x[i] = shares.y[i] = shares.z[i] = 0;
-    }
+    add_to_picture(tile.radiance, a, shares, weight, picture.pixels, options_.width);
+    if (bounds != nullptr) add_to_picture(*bounds, a, shares, weight, *bound_layer, options_.width);
   }
 
   void render_tile(int index, int pairs, Picture& picture) {
     SurfaceTile* tile = workspace();
     const TileArea a = area(index);
     for (int s = 0; s < options_.aa; ++s) {
-      TilePlane behind = fill(index, s, *tile);
+      TilePlane behind = surfaces_.fill(index, s, *tile);
       if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
       light_tile(*tile, a, s, 0, pairs, nullptr, picture);
       if (!tile->any_passing) continue;
@@ -528,7 +430,7 @@ class Renderer {
       for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
       for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
         look_through(*tile, shares, behind);
-        behind = fill(index, s, *tile, &behind);
+        behind = surfaces_.fill(index, s, *tile, &behind);
         light_tile(*tile, a, s, layer, pairs, &shares, picture);
       }
     }
@@ -539,18 +441,12 @@ class Renderer {
   const RenderOptions& options_;
   const int threads_;
   const DirectMethod method_;
-  const CameraRays camera_;
-  const RayScene rays_;
-  double environment_build_ms_ = 0;
-  const std::unique_ptr<const environment::EnvironmentLight> environment_;  // null without one
+  FrameSurfaces surfaces_;
   const std::vector<PackLight> lights_;
   const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
   const std::unique_ptr<const lights::ManyLights> many_lights_;  // null where each light is done by itself
   const DirectTable& direct_;
-  const MipMaps maps_;
-  const Shading shading_;
   const SpecularPass specular_;
-  const int tiles_x_, tiles_y_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
@@ -560,15 +456,15 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> light_bounds_{[] { return std::make_unique<TileVector>(); }};
   tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;
-  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, direct_clock_{"direct"}, specular_clock_{"specular"},
-      sampling_clock_{"sampling"}, environment_clock_{"environment"}, capture_clock_{"indirect: surfaces"}, shadow_clock_{"shadows"};
+  PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"}, capture_clock_{"indirect: surfaces"},
+      shadow_clock_{"shadows"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };
 
 }  // namespace
 
-Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
+Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
   Renderer renderer(scene, options);
   RenderState own;
   RenderState& kept = state != nullptr ? *state : own;

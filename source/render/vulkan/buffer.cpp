@@ -1,16 +1,28 @@
 #include "render/vulkan/buffer.h"
 
 #include <cstring>
+#include <optional>
 
+#include "core/budget.h"
 #include "render/vulkan/buffer_handles.h"
 
 namespace steradian::vulkan {
 namespace {
 
-std::uint32_t memory_type(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted) {
+std::optional<std::uint32_t> memory_type(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted) {
   const auto properties = device.getMemoryProperties();
   for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i)
     if ((allowed >> i & 1u) != 0 && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+  return {};
+}
+
+// One that the host can map, of the kind that the use wants where there is one.
+std::uint32_t memory_type_for(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, BufferUse use) {
+  using Flag = vk::MemoryPropertyFlagBits;
+  const vk::MemoryPropertyFlags needed = Flag::eHostVisible | Flag::eHostCoherent;
+  if (const auto best = memory_type(device, allowed, needed | (use == BufferUse::host_reads ? Flag::eHostCached : Flag::eDeviceLocal)))
+    return *best;
+  if (const auto any = memory_type(device, allowed, needed)) return *any;
   throw Error("Vulkan", "the device has no memory that the host can read");
 }
 
@@ -20,20 +32,20 @@ void check_size(std::size_t bytes, std::size_t available) {
 
 }  // namespace
 
-Buffer::Buffer(const Device& device, std::size_t bytes) : bytes_(bytes), handles_(std::make_unique<Handles>()) {
-  checked("make a buffer", [&] {
+Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use) : bytes_(bytes), handles_(std::make_unique<Handles>()) {
+  checked(("make a buffer of " + readable_bytes(bytes)).c_str(), [&] {
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
     h.buffer = d.device.createBuffer({{}, bytes, vk::BufferUsageFlagBits::eStorageBuffer});
     const auto needed = h.buffer.getMemoryRequirements();
-    const auto wanted = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
-    h.memory = d.device.allocateMemory({needed.size, memory_type(d.physical, needed.memoryTypeBits, wanted)});
+    h.memory = d.device.allocateMemory({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});
     h.buffer.bindMemory(*h.memory, 0);
     h.mapped = h.memory.mapMemory(0, bytes);
   });
 }
 
 Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 Buffer::~Buffer() = default;
 
 void Buffer::write(const void* data, std::size_t bytes) {
@@ -45,5 +57,7 @@ void Buffer::read(void* data, std::size_t bytes) const {
   check_size(bytes, bytes_);
   std::memcpy(data, handles_->mapped, bytes);
 }
+
+void* Buffer::mapped() const { return handles_->mapped; }
 
 }  // namespace steradian::vulkan

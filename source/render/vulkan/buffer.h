@@ -8,15 +8,21 @@
 
 namespace steradian::vulkan {
 
+// What the host mostly does with it: memory near the device is slow for the host to read.
+enum class BufferUse { host_writes, host_reads };
+
 class Buffer {
  public:
-  Buffer(const Device& device, std::size_t bytes);
+  // Throws Error that says how many bytes the device does not have.
+  Buffer(const Device& device, std::size_t bytes, BufferUse use = BufferUse::host_reads);
   Buffer(Buffer&&) noexcept;
+  Buffer& operator=(Buffer&&) noexcept;
   ~Buffer();
 
   std::size_t bytes() const { return bytes_; }
   void write(const void* data, std::size_t bytes);
   void read(void* data, std::size_t bytes) const;
+  void* mapped() const;  // all of it, as long as the buffer lives
 
   struct Handles;
   const Handles& handles() const { return *handles_; }

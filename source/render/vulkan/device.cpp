@@ -1,6 +1,7 @@
 #include "render/vulkan/device.h"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 
 #include "render/vulkan/handles.h"
@@ -41,12 +42,40 @@ std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice
   return {};
 }
 
-DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
-  const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+std::string version_text(std::uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+std::size_t own_memory(const vk::raii::PhysicalDevice& device) {
+  const auto properties = device.getMemoryProperties();
+  std::size_t largest = 0;
+  for (std::uint32_t i = 0; i < properties.memoryHeapCount; ++i)
+    if (properties.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+      largest = std::max(largest, static_cast<std::size_t>(properties.memoryHeaps[i].size));
+  return largest;
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_family) {
+  const auto chain =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties, vk::PhysicalDeviceSubgroupProperties>();
   const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
   const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
-  return {properties.deviceName.data(), std::string(driver.driverName.data()) + ", " + driver.driverInfo.data(),
-          properties.deviceType == vk::PhysicalDeviceType::eCpu};
+  DeviceInfo info;
+  info.name = properties.deviceName.data();
+  info.driver = std::string(driver.driverName.data()) + ", " + driver.driverInfo.data();
+  info.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+  info.vulkan = version_text(properties.apiVersion);
+  info.memory = own_memory(device);
+  info.storage_buffer = properties.limits.maxStorageBufferRange;
+  info.storage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
+  info.subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
+  info.timestamps = device.getQueueFamilyProperties()[queue_family].timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
+  return info;
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 struct Candidate {
@@ -59,7 +88,7 @@ std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
   std::vector<Candidate> found;
   for (const auto& device : vk::raii::PhysicalDevices(instance)) {
     if (device.getProperties().apiVersion < VK_API_VERSION_1_2) continue;
-    if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device)});
+    if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device, *family)});
   }
   std::stable_partition(found.begin(), found.end(), [](const Candidate& c) { return !c.info.software; });
   return found;
@@ -95,21 +124,24 @@ Device::Device(const DeviceOptions& options) {
           {{}, Severity::eWarning | Severity::eError, Type::eGeneral | Type::eValidation | Type::ePerformance, keep_message, &h.messages});
     }
     std::string seen;
+    std::size_t place = 0;
     for (const Candidate& c : candidates(h.instance)) {
-      seen += (seen.empty() ? "" : ", ") + c.info.name;
-      if (c.info.name.find(options.name) == std::string::npos) continue;
+      seen += (seen.empty() ? "" : ", ") + std::to_string(place) + " " + c.info.name;
+      const bool is_place = options.name == std::to_string(place++);
+      if (!is_place && (is_number(options.name) || c.info.name.find(options.name) == std::string::npos)) continue;
       info_ = c.info;
       h.physical = c.device;
       h.queue_family = c.queue_family;
+      h.timestamp_period = h.physical.getProperties().limits.timestampPeriod;
       const float priority = 1.0f;
       const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
       h.device = h.physical.createDevice({{}, queue});
       h.queue = h.device.getQueue(h.queue_family, 0);
-      h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eTransient, h.queue_family});
+      h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, h.queue_family});
       return;
     }
     if (seen.empty()) throw Error("Vulkan", "no device with Vulkan 1.2", "install a driver, such as mesa-vulkan-drivers");
-    throw Error("Vulkan", "no device's name has '" + options.name + "' in it", "here are: " + seen);
+    throw Error("Vulkan", "no device has the number or the name '" + options.name + "'", "here are: " + seen);
   });
 }
 

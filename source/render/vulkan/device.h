@@ -2,6 +2,7 @@
 // changes.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,16 +10,22 @@
 namespace steradian::vulkan {
 
 struct DeviceInfo {
-  std::string name;    // "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string driver;  // driver and its version, or the Vulkan version where the driver does not tell
-  bool software;       // runs on the CPU
+  std::string name;                // "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string driver;              // driver and its version, or the Vulkan version where the driver does not tell
+  bool software;                   // runs on the CPU
+  std::string vulkan;              // version that it offers
+  std::size_t memory = 0;          // bytes of its largest heap of its own
+  std::size_t storage_buffer = 0;  // bytes of the largest that a shader reads
+  unsigned storage_buffers = 0;    // that a shader may have
+  unsigned subgroup = 0;           // threads that run in step
+  bool timestamps = false;         // of compute work
 };
 
 // Every device of Vulkan 1.2 or later with a compute queue, real ones before software. Empty where there is no loader.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
-  std::string name;         // part of the device's name; empty: the first of list_devices()
+  std::string name;         // part of the device's name, or its place in list_devices(), from 0; empty: the first
   bool validation = false;  // demand the validation layer, and keep what it says
 };
 

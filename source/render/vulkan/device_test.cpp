@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/budget.h"
+#include "render/vulkan/buffer.h"
+#include "render/vulkan/direct_light.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -23,6 +26,43 @@ TEST(VulkanDevice, SoftwareDevicesComeLast) {
     EXPECT_FALSE(software && !d.software) << d.name;
     software = d.software;
   }
+}
+
+TEST(VulkanDevice, IsFoundByItsNumberAndByAPartOfItsName) {
+  const auto devices = list_devices();
+  if (devices.empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  EXPECT_EQ(Device({std::to_string(devices.size() - 1), false}).info().name, devices.back().name);
+  EXPECT_EQ(Device({devices.front().name.substr(0, 4), false}).info().name, devices.front().name);
+  EXPECT_GT(devices.front().memory, std::size_t{1} << 20);
+}
+
+TEST(VulkanDevice, MoreMemoryThanThereIsIsRefusedWithItsSize) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const Device device;
+  const std::size_t bytes = std::size_t{1} << 46;
+  try {
+    Buffer buffer(device, bytes);
+    FAIL() << "made a buffer of " << buffer.bytes();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find(readable_bytes(bytes)), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("memory"), std::string::npos) << e.what();
+  }
+}
+
+TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
+  DeviceInfo info;
+  info.name = "Small One";
+  info.storage_buffers = 4;
+  info.storage_buffer = std::size_t{128} << 20;
+  try {
+    check_device(info);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("'Small One'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("4 storage buffers"), std::string::npos) << e.what();
+  }
+  info.storage_buffers = 6;
+  EXPECT_NO_THROW(check_device(info));
 }
 
 }  // namespace steradian::vulkan

@@ -18,6 +18,7 @@ struct Device::Handles {
   std::uint32_t queue_family = 0;
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
+  float timestamp_period = 0;  // nanoseconds of a tick
   std::vector<std::string> messages;
 };
 
@@ -26,6 +27,10 @@ template <class F>
 auto checked(const char* doing, F f) {
   try {
     return f();
+  } catch (const vk::OutOfDeviceMemoryError&) {
+    throw Error("Vulkan", std::string(doing) + ": the device has no memory left", "close what else uses it, or choose another --device");
+  } catch (const vk::DeviceLostError&) {
+    throw Error("Vulkan", std::string(doing) + ": the device was lost", "try again; a driver's log may say why");
   } catch (const vk::SystemError& e) {
     throw Error("Vulkan", std::string(doing) + ": " + e.what());
   }

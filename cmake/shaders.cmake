@@ -1,0 +1,20 @@
+# steradian_shaders(TARGET SHADER...): each shader of shaders/ becomes SPIR-V, as the numbers of an array in SHADER.inc, which the
+# target's sources include.
+find_program(STERADIAN_GLSLC glslc DOC "Compiler of shaders")
+
+function(steradian_shaders target)
+  if(NOT STERADIAN_GLSLC)
+    message(FATAL_ERROR "glslc is not installed: the component render needs it to compile its shaders (apt-get install glslc)")
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(shader ${ARGN})
+    add_custom_command(OUTPUT ${folder}/${shader}.inc
+      COMMAND ${STERADIAN_GLSLC} --target-env=vulkan1.2 -O -mfmt=c -MD -MF ${folder}/${shader}.d -MT ${folder}/${shader}.inc
+              -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR}/kernels
+              ${PROJECT_SOURCE_DIR}/shaders/${shader} -o ${folder}/${shader}.inc
+      DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${shader} DEPFILE ${folder}/${shader}.d VERBATIM)
+    target_sources(${target} PRIVATE ${folder}/${shader}.inc)
+  endforeach()
+  target_include_directories(${target} PRIVATE ${folder})
+endfunction()

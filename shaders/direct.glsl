@@ -1,0 +1,123 @@
+// Direct light of a batch of tiles from lights of one kind by one method: a thread a pixel, the lights of its tile's list in turn.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+//
+// A shader is one lobe by one family of methods: diffuse.comp, ltc.comp, closed_form.comp, representative_point.comp and sheen.comp define which, as LOBE.
+// Drivers compile all that a shader holds for each of its pipelines.
+#include "layout.glsl"
+
+// A pipeline is one choice of these (source/render/vulkan/direct_light.cpp).
+layout(constant_id = 0) const int KIND = 0;
+layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // of transformed cosines: 1: one walk for both lobes
+layout(constant_id = 2) const int COMPACT_TABLE = 0;       // of transformed cosines
+layout(constant_id = 3) const int QUALITY = 1;             // 0 draft, 1 normal, 2 high
+layout(constant_id = 4) const int COAT_LOBE = 0;           // 1: the clear coat's lobe in the place of the base's
+layout(constant_id = 5) const int CAREFUL_LIGHTS = 1;      // some points may see a light as small, or be near its rim
+layout(constant_id = 6) const int CHUNKED_EDGES = 0;       // an outline may have more edges than there is space for
+layout(constant_id = 7) const int FRESNEL_LOBE = 0;        // the table has a lobe of its own for (1 - v.h)^5
+layout(constant_id = 8) const int ONLY_BALLS = 0;          // ellipsoids of three equal axes
+layout(constant_id = 9) const int CORNERS = 12;            // that stand for a round light
+layout(constant_id = 10) const int CORNER_SPACE = 32;      // ... and near its rim
+layout(constant_id = 11) const int EDGE_SPACE = 34;
+layout(constant_id = 12) const int ARC_SPACE = 34;
+layout(constant_id = 13) const int MATRIX_SIZE = 2;
+layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
+const bool CAREFUL = CAREFUL_LIGHTS == 1;
+const bool CHUNKED = CHUNKED_EDGES == 1;
+const bool FRESNEL_TABLE = FRESNEL_LOBE == 1;
+const bool BALLS = ONLY_BALLS == 1;
+const bool COMPACT = COMPACT_TABLE == 1;
+const bool TOGETHER = WITH_DIFFUSE == 1;
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Surfaces { float surfaces[]; };
+layout(std430, binding = 1) buffer Radiance { float radiance[]; };
+layout(std430, binding = 2) readonly buffer Lights { vec4 lights[]; };
+layout(std430, binding = 3) readonly buffer Vertices { vec4 vertices[]; };
+layout(std430, binding = 4) readonly buffer Lists { uint lists[]; };
+layout(std430, binding = 5) readonly buffer Tables { vec4 tables[]; };
+layout(push_constant) uniform Push { uint first_entry; };
+
+#include "kernels.glsl"
+#include "lights.glsl"
+
+PunctualIncident punctual_at(Light light, vec3 p) {
+    PunctualIncident incident;
+    if (light.r[1].w > 0.5) {  // directional
+        incident.direction = -light.r[3].xyz;
+        incident.irradiance = 1.0;
+        return incident;
+    }
+    PunctualSource source;
+    source.position = light.r[2].xyz;
+    source.direction = light.r[3].xyz;
+    source.inverse_range2 = light.r[2].w;
+    source.spot_scale = light.r[3].w;
+    source.spot_offset = light.r[4].w;
+    return punctual_incident(source, p);
+}
+
+#include "outline.glsl"
+#if LOBE == LOBE_DIFFUSE
+#include "diffuse.glsl"
+#elif LOBE == LOBE_SHEEN
+#include "sheen.glsl"
+#else
+#include "specular.glsl"
+#endif
+
+uint plane(uint tile, int number, uint slot) { return (tile * uint(kPlanes) + uint(number)) * uint(kSlots) + slot; }
+float number_at(uint tile, int number, uint slot) { return surfaces[plane(tile, number, slot)]; }
+vec3 vector_at(uint tile, int number, uint slot) {
+    return vec3(number_at(tile, number, slot), number_at(tile, number + 1, slot), number_at(tile, number + 2, slot));
+}
+
+void main() {
+    uint entry = (first_entry + gl_WorkGroupID.y) * uint(kEntry);
+    uint tile = lists[entry];
+    uint first = lists[entry + 1u];
+    uint count = lists[entry + 2u];
+    uint slot = gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocationID.x;
+
+    bool coat = COAT_LOBE == 1;
+    vec3 p = vector_at(tile, kPosition, slot);
+    vec3 n = vector_at(tile, coat ? kCoatNormal : kNormal, slot);
+    vec3 v = vector_at(tile, kView, slot);
+    if (!(dot(n, n) > 0.25)) return;  // no surface
+#if LOBE == LOBE_DIFFUSE
+    vec3 albedo = vector_at(tile, kAlbedo, slot);
+    float loss = number_at(tile, kFresnelLoss, slot);
+#elif LOBE == LOBE_SHEEN
+    vec3 color = vector_at(tile, kSheen, slot);
+    float alpha = number_at(tile, kSheenAlpha, slot);
+#else
+    SpecularLobe lobe;
+    lobe.tangent = vector_at(tile, kTangent, slot);
+    lobe.ax = number_at(tile, coat ? kCoatAlpha : kAlphaX, slot);
+    lobe.ay = coat ? lobe.ax : number_at(tile, kAlphaY, slot);
+    vec3 f90 = coat ? vec3(number_at(tile, kCoat, slot)) : vector_at(tile, kF90, slot);
+    vec3 f0 = coat ? 0.04 * f90 : vector_at(tile, kF0, slot);
+    vec3 albedo = TOGETHER ? vector_at(tile, kAlbedo, slot) : vec3(0.0);
+    float loss = TOGETHER ? number_at(tile, kFresnelLoss, slot) : 0.0;
+#endif
+
+    vec3 sum = vec3(0.0);
+    uint i = 0u;
+    do {
+        Light light = light_at(lists[first + i]);
+#if LOBE == LOBE_DIFFUSE
+        sum += light.r[0].xyz * albedo * lambert_radiance(irradiance_below_boundary(light, p, n, v, loss));
+#elif LOBE == LOBE_SHEEN
+        sum += light.r[0].xyz * color * sheen_radiance(light, p, n, v, alpha);
+#else
+        Answer answer = specular_answer(light, p, n, v, lobe, loss);
+        sum += light.r[0].xyz * (f0 * (answer.specular.x - answer.specular.y) + f90 * answer.specular.y +
+                                 albedo * lambert_radiance(answer.irradiance));
+#endif
+        ++i;
+    } while (i < count);
+
+    uint at = tile * uint(3 * kSlots) + slot;
+    radiance[at] += sum.x;
+    radiance[at + uint(kSlots)] += sum.y;
+    radiance[at + uint(2 * kSlots)] += sum.z;
+}

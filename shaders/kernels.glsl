@@ -1,0 +1,31 @@
+// The kernels that the shaders call, each after what it needs.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#include "prelude/prelude.glsl"
+
+#include "math/constants.glsl"
+#include "math/complex.glsl"
+#include "math/frame.glsl"
+#include "math/gauss_legendre.glsl"
+#include "math/inverse_trig.glsl"
+#include "math/quartic.glsl"
+
+#include "outline/polygon.glsl"
+#include "outline/light_elements.glsl"
+#include "outline/conic.glsl"
+#include "outline/ellipse.glsl"
+#include "outline/capsule.glsl"
+#include "outline/ellipsoid.glsl"
+#include "outline/horizon_clip.glsl"
+#include "outline/punctual.glsl"
+
+#include "lobe/charlie.glsl"
+#include "lobe/lambert.glsl"
+#include "lobe/microfacet.glsl"
+#include "lobe/phong.glsl"
+
+#include "integral/charlie_cubature.glsl"
+#include "integral/ggx_closed_form.glsl"
+#include "integral/ggx_cubature.glsl"
+#include "integral/ltc.glsl"
+
+#include "comparison/representative_point.glsl"

@@ -1,0 +1,145 @@
+// Lights as the host wrote them (source/render/vulkan/light_records.cpp), and how a point sees them. What stands here is what
+// source/shapes is to packs; the parity of frames holds the two together.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// One light.
+//   r[0]  radiance (of a punctual light: intensity); number of the first vertex
+//   r[1]  normal to the lit side; 1 where both sides are lit
+//   r[2]  polygon: a point of its plane, number of places of its outline; others: centre, end_a or position; radius of a ball or
+//         capsule, 1 / range^2
+//   r[3]  polygon: middle, deviation squared; others: axis x, end_b or direction; spot_scale
+//   r[4]  polygon: reach_a; others: axis y, half axis of a capsule; spot_offset
+//   r[5]  polygon: reach_b; others: axis z
+//   r[6]  polygon: area; ellipsoid: row x of the inverse; r[7], r[8]: its rows y and z
+struct Light {
+    vec4 r[kRecord];
+};
+
+Light light_at(uint number) {
+    Light light;
+    for (int i = 0; i < kRecord; i++) light.r[i] = lights[number * uint(kRecord) + uint(i)];
+    return light;
+}
+
+struct Seen {
+    bool lit;
+    bool reversed;
+};
+
+EllipsoidOutline round_outline(Light light, vec3 p) {
+    if (KIND == kDisk) {
+        EllipsoidOutline outline;
+        outline.center = light.r[2].xyz - p;
+        outline.axis_a = light.r[3].xyz;
+        outline.axis_b = light.r[4].xyz;
+        outline.outside = true;
+        return outline;
+    }
+    mat3 axes = mat3(light.r[3].xyz, light.r[4].xyz, light.r[5].xyz);
+    mat3 inverse_axes = transpose(mat3(light.r[6].xyz, light.r[7].xyz, light.r[8].xyz));
+    return ellipsoid_outline(light.r[2].xyz - p, axes, inverse_axes);
+}
+
+// In units of its distance: squares of squares stay in the range of float.
+Ellipse ellipse_in(Light light, mat3 frame, vec3 p) {
+    EllipsoidOutline outline = round_outline(light, p);
+    float size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
+    float unit = inversesqrt(max(size2, 1.0e-30));
+    return ellipse_prepare(transform_transposed(frame, outline.center) * unit, transform_transposed(frame, outline.axis_a) * unit,
+                           transform_transposed(frame, outline.axis_b) * unit);
+}
+
+Capsule capsule_between(vec3 end_a, vec3 end_b, float radius, mat3 frame, vec3 p) {
+    vec3 a = transform_transposed(frame, end_a - p);
+    vec3 b = transform_transposed(frame, end_b - p);
+    float unit = inversesqrt(max(dot(a, a) + dot(b, b) + radius * radius, 1.0e-30));
+    return capsule_prepare(a * unit, b * unit, radius * unit);
+}
+
+Capsule capsule_in(Light light, mat3 frame, vec3 p) {
+    return capsule_between(light.r[2].xyz, light.r[3].xyz, light.r[2].w, frame, p);
+}
+
+Seen see(Light light, vec3 p) {
+    Seen seen;
+    seen.reversed = false;
+    if (KIND == kPolygon || KIND == kDisk) {
+        float height = dot(p - light.r[2].xyz, light.r[1].xyz);
+        bool behind = height < 0.0;
+        seen.lit = height > 0.0 || (behind && light.r[1].w > 0.5);
+        if (KIND == kPolygon) seen.reversed = behind;  // a disk's outline is walked as it is seen
+    } else if (KIND == kEllipsoid) {
+        seen.lit = round_outline(light, p).outside;
+    } else if (KIND == kCapsule) {
+        seen.lit = capsule_in(light, mat3(1.0), p).outside;
+    } else {
+        seen.lit = true;
+    }
+    return seen;
+}
+
+// Mean square of its extent about its middle [m2]; an upper bound of a round light's.
+float deviation2_of(Light light) {
+    if (KIND == kPolygon) return light.r[3].w;
+    if (KIND == kDisk) return (dot(light.r[3].xyz, light.r[3].xyz) + dot(light.r[4].xyz, light.r[4].xyz)) / 4.0;
+    if (KIND == kEllipsoid)
+        return dot(light.r[3].xyz, light.r[3].xyz) + dot(light.r[4].xyz, light.r[4].xyz) + dot(light.r[5].xyz, light.r[5].xyz);
+    return dot(light.r[4].xyz, light.r[4].xyz) + light.r[2].w * light.r[2].w;
+}
+
+float distance2_of(Light light, vec3 p) {
+    vec3 to = light.r[2].xyz - p;
+    if (KIND == kPolygon) to = light.r[3].xyz - p;
+    if (KIND == kCapsule) to = (light.r[2].xyz + light.r[3].xyz) * 0.5 - p;
+    return dot(to, to);
+}
+
+// A capsule's strip, which is as wide from everywhere across, and the half balls at its ends, each with its second moment along the
+// axis: source/shapes/capsule.h.
+LightElements capsule_elements(Light light, vec3 p) {
+    float radius = light.r[2].w;
+    float r2 = radius * radius;
+    vec3 axis = light.r[4].xyz * 2.0;
+    vec3 center = (light.r[2].xyz - p + (light.r[3].xyz - p)) * 0.5;
+    float length2 = dot(axis, axis);
+    vec3 along = axis * inversesqrt(max(length2, smallest_square()));
+    vec3 sight = center * inversesqrt(max(dot(center, center), smallest_square()));
+    vec3 across = sight - along * dot(along, sight);
+    vec3 aside = cross(along, sight);
+    float strip = 2.0 * radius * sqrt(length2);
+    float balls = pi() * r2;
+    float share = 2.0 / max(strip + balls, smallest_square());
+    LightElements e;
+    e.center = center;
+    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 / 12.0 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip / 3.0 + balls * 0.25)));
+    return e;
+}
+
+// In the shading frame, of the side that is seen.
+LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
+    LightElements e;
+    if (KIND == kPolygon) {
+        e.center = light.r[3].xyz - p;
+        e.reach_a = light.r[4].xyz;
+        e.reach_b = light.r[5].xyz;
+        e.area = light.r[6].xyz * (seen.reversed ? -1.0 : 1.0);
+    } else if (KIND == kCapsule) {
+        e = capsule_elements(light, p);
+    } else {
+        EllipsoidOutline outline = round_outline(light, p);
+        e = ellipse_elements(ellipse_prepare(outline.center, outline.axis_a, outline.axis_b));
+    }
+    e.center = transform_transposed(frame, e.center);
+    e.reach_a = transform_transposed(frame, e.reach_a);
+    e.reach_b = transform_transposed(frame, e.reach_b);
+    e.area = transform_transposed(frame, e.area);
+    return e;
+}
+
+// Whether four elements serve in the place of the outline; roundings, least_distance2: source/shapes/small_light.h.
+bool elements_serve(LightElements e, float sharpness, float roundings) {
+    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, roundings, 0.0);
+}
+bool may_be_small(Light light, vec3 p, float least_distance2) { return distance2_of(light, p) > deviation2_of(light) * least_distance2; }

@@ -1,0 +1,7 @@
+// Names of what a shader holds.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#define LOBE_DIFFUSE 0
+#define LOBE_LTC 1
+#define LOBE_CLOSED_FORM 2
+#define LOBE_REPRESENTATIVE_POINT 3
+#define LOBE_SHEEN 4

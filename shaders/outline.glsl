@@ -1,0 +1,119 @@
+// The one walk: what a point sees of a light as corners in walk order, and the edges that the horizon leaves of it.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Corners that stand for a round light about a lobe.
+vec3 corners[CORNER_SPACE];
+int corner_count;
+
+//   axis, width  of the lobe, in the shading frame
+void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
+    corner_count = CORNERS;
+    if (KIND == kCapsule) {
+        CapsuleFan fan = capsule_fan(capsule_in(light, frame, p), axis, width, CORNERS);
+        for (int i = 0; i < CORNERS; i++) corners[i] = polygon_direction(capsule_fan_corner(fan, i));
+    } else {
+        EllipseFan fan = ellipse_fan_concentrated(ellipse_in(light, frame, p), axis, width);
+        if (!CAREFUL) fan.near = false;  // the host knows that no point of the tile is near the rim
+        if (fan.near) corner_count = CORNER_SPACE;
+        vec2 before = ellipse_corner(fan, -1, corner_count);
+        vec2 here = ellipse_corner(fan, 0, corner_count);
+        for (int i = 0; i < corner_count; i++) {
+            vec2 after = ellipse_corner(fan, i + 1, corner_count);
+            corners[i] = polygon_direction(ellipse_pushed_corner(fan, before, here, after));
+            before = here;
+            here = after;
+        }
+    }
+}
+
+// Places of a walk: at those that are not joined, a contour begins.
+int outline_length(Light light) {
+    if (KIND == kPolygon) return int(light.r[2].w);
+    return corner_count + 1;
+}
+
+struct Place {
+    vec3 direction;
+    bool joined;
+};
+
+Place outline_place(Light light, mat3 frame, vec3 p, int i) {
+    Place place;
+    if (KIND == kPolygon) {
+        vec4 v = vertices[uint(light.r[0].w) + uint(i)];
+        place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
+        place.joined = v.w > 0.5;
+    } else {
+        place.direction = corners[i > 0 ? i - 1 : corner_count - 1];
+        place.joined = i > 0;
+    }
+    return place;
+}
+
+// Edges above the horizon, the arcs of the horizon that close them among them.
+vec3 edge_begins[EDGE_SPACE];
+vec3 edge_ends[EDGE_SPACE];
+int edge_count;
+
+void add_edge(vec3 a, vec3 b) {
+    vec3 chord = b - a;
+    if (dot(chord, chord) > smallest_divisor() && edge_count < EDGE_SPACE) {
+        edge_begins[edge_count] = a;
+        edge_ends[edge_count] = b;
+        ++edge_count;
+    }
+}
+
+void add_arc_of_horizon(HorizonClip clip, float facing) {
+    if (!clip.closes) return;
+    vec3 start = clip.arc_start;
+    if (dot(start, clip.arc_end) < -0.9999) {
+        vec3 middle = horizon_arc_middle(start, clip.arc_end, facing);
+        add_edge(start, middle);
+        start = middle;
+    }
+    add_edge(start, clip.arc_end);
+}
+
+// Where a walk stands that fills the edges as far as they have space.
+struct ClippedWalk {
+    int next;
+    vec3 previous;
+    HorizonClip clip;
+    bool more;
+};
+
+ClippedWalk clipped_walk_begin() {
+    ClippedWalk walk;
+    walk.next = 0;
+    walk.previous = vec3(0.0);
+    walk.clip = horizon_clip_begin();
+    walk.more = true;
+    return walk;
+}
+
+// One place of the outline leaves at most an edge and an arc in two parts, and so does its end.
+const int kMostEdgesOfPlace = 3;
+
+ClippedWalk fill_edges(ClippedWalk walk, Light light, Seen seen, mat3 frame, vec3 p) {
+    edge_count = 0;
+    float facing = seen.reversed ? -1.0 : 1.0;
+    int count = outline_length(light);
+    do {
+        Place place = outline_place(light, frame, p, walk.next);
+        walk.clip = horizon_clip_edge(walk.clip, place.joined ? walk.previous : place.direction, place.direction);
+        add_edge(walk.clip.start, walk.clip.end);
+        add_arc_of_horizon(walk.clip, facing);
+        walk.previous = place.direction;
+        ++walk.next;
+    } while (walk.next < count && (!CHUNKED || edge_count + 2 * kMostEdgesOfPlace <= EDGE_SPACE));
+    if (walk.next >= count) {
+        walk.clip = horizon_clip_finish(walk.clip);
+        add_arc_of_horizon(walk.clip, facing);
+        walk.more = false;
+    }
+    return walk;
+}
+
+// What of an irradiance vector reaches a diffuse lobe below a boundary. view: in the vector's frame.
+float irradiance_below(vec3 e, vec3 view, float loss) { return loss > 0.0 ? lambert_irradiance_below(e, view, loss) : e.z; }

@@ -1,0 +1,51 @@
+// Sheen, Charlie's lobe, by its cubature: as source/integrals/charlie.h.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Two walks over the edges; edges that have no space together are walked afresh the second time.
+float sheen_over_outline(Light light, Seen seen, mat3 frame, vec3 p, CharlieLobe lobe) {
+    float facing = seen.reversed ? -1.0 : 1.0;
+    vec3 e = vec3(0.0);
+    CharlieCubature c = charlie_cubature_begin(lobe, e, facing);
+    for (int turn = 0; turn < 2; turn++) {
+        ClippedWalk walk = clipped_walk_begin();
+        do {
+            if (CHUNKED || turn == 0) walk = fill_edges(walk, light, seen, frame, p);
+            for (int i = 0; i < edge_count; i++) {
+                if (turn == 0)
+                    e += polygon_edge(edge_begins[i], edge_ends[i]);
+                else
+                    c = charlie_cubature_edge(c, edge_begins[i], edge_ends[i]);
+            }
+        } while (CHUNKED && walk.more);
+        if (turn == 0) c = charlie_cubature_begin(lobe, e, facing);
+    }
+    return charlie_cubature_finish(c);
+}
+
+// Radiance towards the view of a light of radiance 1, of colour 1.
+float sheen_radiance(Light light, vec3 p, vec3 n, vec3 v, float alpha) {
+    mat3 frame = frame_from_normal(n);
+    vec3 view = transform_transposed(frame, v);
+    CharlieLobe lobe = charlie_prepare(view, alpha);
+    if (KIND == kPunctual) {
+        PunctualIncident incident = punctual_at(light, p);
+        vec3 l = transform_transposed(frame, incident.direction);
+        return l.z > 0.0 ? incident.irradiance * charlie_lobe(lobe, l) : 0.0;
+    }
+    Seen seen = see(light, p);
+    if (!seen.lit || !(view.z > 0.0)) return 0.0;
+    // About the normal and wide: the lobe has no peak about which corners should gather.
+    if (KIND != kPolygon) fill_corners(light, frame, p, vec3(0.0, 0.0, 1.0), 1.0);
+    float sent = sheen_over_outline(light, seen, frame, p, lobe);
+    if (CAREFUL && may_be_small(light, p, 2000.0)) {
+        LightElements e = elements_in(light, seen, frame, p);
+        if (elements_serve(e, light_elements_half_vector_sharpness(sqrt(alpha), view.z), 8.0)) {
+            sent = 0.0;
+            for (int i = 0; i < 4; i++) {
+                LightElement element = light_element_at(e, i);
+                sent += element.direction.z > 0.0 ? charlie_lobe(lobe, element.direction) * element.solid_angle : 0.0;
+            }
+        }
+    }
+    return sent;
+}

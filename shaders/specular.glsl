@@ -1,0 +1,214 @@
+// The specular lobe, GGX, by each of the methods: what arrives at the view of a light of radiance 1, x with F = 1 and y with
+// F = (1 - v.h)^5. A method's way along the outline is that of its file in source/integrals.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Of one point.
+struct SpecularLobe {
+    vec3 tangent;
+    float ax;
+    float ay;
+};
+
+struct Answer {
+    float irradiance;  // that reaches the diffuse lobe, where both are wanted
+    vec2 specular;
+};
+
+#if LOBE == LOBE_LTC
+vec4 look_up(int first, int size, vec2 at) {
+    vec2 place = clamp(at, 0.0, 1.0) * float(size - 1);
+    vec2 cell = min(floor(place), float(size - 2));
+    vec2 f = place - cell;
+    int node = first + int(cell.y) * size + int(cell.x);
+    vec4 top = mix(tables[node], tables[node + 1], f.x);
+    vec4 bottom = mix(tables[node + size], tables[node + size + 1], f.x);
+    return mix(top, bottom, f.y);
+}
+
+struct LtcLobe {
+    LtcMatrix matrix;
+    float n_a;
+    float f_a;
+};
+
+// The table's lobe: matrices from node `first` on, then magnitudes.
+LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
+    vec2 at = ltc_coordinates(roughness, view.z);
+    vec4 entry = look_up(first, MATRIX_SIZE, at);
+    vec4 scale = look_up(first + MATRIX_SIZE * MATRIX_SIZE, MAGNITUDE_SIZE, at);
+    LtcLobe lobe;
+    if (COMPACT)
+        lobe.matrix = ltc_from_compact(entry, max(roughness * roughness, 1.0e-4), view);
+    else
+        lobe.matrix = ltc_from_classic(entry);
+    lobe.n_a = scale.x;
+    lobe.f_a = scale.y;
+    return lobe;
+}
+
+struct LtcAnswer {
+    vec3 irradiance;  // vector, of the diffuse lobe; where both are wanted
+    float specular;   // integral of the transformed cosine
+};
+
+LtcAnswer ltc_walked(Light light, Seen seen, mat3 frame, vec3 p, LtcMatrix m) {
+    PolygonWalk diffuse = polygon_begin();
+    LtcWalk walk = ltc_begin();
+    int count = outline_length(light);
+    int i = 0;
+    vec3 previous = vec3(0.0);
+    vec3 previous_under = vec3(0.0);
+    do {
+        Place place = outline_place(light, frame, p, i);
+        vec3 under = ltc_direction(m, place.direction);
+        vec3 from = place.joined ? previous : place.direction;
+        if (TOGETHER) diffuse = polygon_add_edge(diffuse, from, place.direction);
+        walk = ltc_add_edge(walk, m, from, place.direction, place.joined ? previous_under : under, under);
+        previous = place.direction;
+        previous_under = under;
+        ++i;
+    } while (i < count);
+    LtcAnswer answer;
+    answer.irradiance = polygon_irradiance_vector(diffuse, seen.reversed);
+    answer.specular = ltc_integral(walk, seen.reversed);
+    if (CAREFUL && may_be_small(light, p, 2000.0)) {
+        LightElements e = elements_in(light, seen, frame, p);
+        if (elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), 8.0)) {
+            answer.specular = 0.0;
+            for (int k = 0; k < 4; k++) {
+                LightElement element = light_element_at(e, k);
+                answer.specular += element.direction.z > 0.0 ? ltc_lobe(m, element.direction) * element.solid_angle : 0.0;
+            }
+        }
+        if (elements_serve(e, light_elements_diffuse_sharpness(), 2.0)) answer.irradiance = light_elements_irradiance_vector(e);
+    }
+    if (!seen.lit) answer.irradiance = vec3(0.0);
+    if (!seen.lit) answer.specular = 0.0;
+    return answer;
+}
+
+Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha, float loss) {
+    float roughness = sqrt(alpha);
+    LtcLobe lobe = ltc_lobe_at(0, roughness, view);
+    if (KIND != kPolygon) fill_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * alpha);
+    LtcAnswer walked = ltc_walked(light, seen, frame, p, lobe.matrix);
+    Answer answer;
+    answer.irradiance = TOGETHER ? irradiance_below(walked.irradiance, view, loss) : 0.0;
+    answer.specular = vec2(lobe.n_a, lobe.f_a) * walked.specular;
+    if (FRESNEL_TABLE) {
+        LtcLobe fresnel = ltc_lobe_at(MATRIX_SIZE * MATRIX_SIZE + MAGNITUDE_SIZE * MAGNITUDE_SIZE, roughness, view);
+        answer.specular.y = fresnel.n_a * ltc_walked(light, seen, frame, p, fresnel.matrix).specular;
+    }
+    if (view.z <= 0.0) answer.specular = vec2(0.0);
+    return answer;
+}
+#else
+// By the light's elements where they are better than the outline.
+vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView view, float deviation, float roundings) {
+    LightElements e = elements_in(light, seen, frame, p);
+    if (!elements_serve(e, light_elements_half_vector_sharpness(deviation, view.v.z), roundings)) return outline;
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < 4; i++) {
+        LightElement element = light_element_at(e, i);
+        if (element.direction.z > 0.0) sum += ggx_lobe_and_fresnel(view, element.direction, 1.0) * element.solid_angle;
+    }
+    return sum;
+}
+
+#if LOBE == LOBE_CLOSED_FORM
+ConicArc arcs[ARC_SPACE];
+
+// Two walks over the edges: of their vectors' sum, and of the cubature about it. Edges that have no space together are walked
+// afresh the second time.
+vec2 closed_form(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
+    float facing = seen.reversed ? -1.0 : 1.0;
+    int extra_nodes = QUALITY == 2 ? 2 : 0;
+    vec3 e = vec3(0.0);
+    ClippedWalk walk = clipped_walk_begin();
+    if (CHUNKED) {
+        GgxCubature c = ggx_cubature_begin(view, e, 1.0, facing);
+        for (int turn = 0; turn < 2; turn++) {
+            walk = clipped_walk_begin();
+            while (walk.more) {
+                walk = fill_edges(walk, light, seen, frame, p);
+                for (int i = 0; i < edge_count; i++) {
+                    ConicArc arc = ggx_edge(view, edge_begins[i], edge_ends[i]);
+                    if (turn == 0)
+                        e += conic_vector(arc);
+                    else
+                        c = ggx_cubature_edge(c, arc, extra_nodes);
+                }
+            }
+            if (turn == 0) c = ggx_cubature_begin(view, e, 1.0, facing);
+            if (QUALITY == 0) return ggx_draft(view, e, 1.0, facing);
+        }
+        return ggx_cubature_finish(c);
+    }
+    walk = fill_edges(walk, light, seen, frame, p);
+    for (int i = 0; i < edge_count; i++) {
+        ConicArc arc = ggx_edge(view, edge_begins[i], edge_ends[i]);
+        e += conic_vector(arc);
+        if (QUALITY > 0) arcs[i] = arc;
+    }
+    if (QUALITY == 0) return ggx_draft(view, e, 1.0, facing);
+    GgxCubature c = ggx_cubature_begin(view, e, 1.0, facing);
+    for (int i = 0; i < edge_count; i++) c = ggx_cubature_edge(c, arcs[i], extra_nodes);
+    return ggx_cubature_finish(c);
+}
+#else
+vec2 representative_point(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha) {
+    vec3 mirror = phong_mirror(view);
+    RepresentativeWalk nearest = representative_begin();
+    SolidAngleWalk solid_angle = solid_angle_begin(vec3(0.0, 0.0, 1.0));
+    ClippedWalk walk = clipped_walk_begin();
+    do {
+        walk = fill_edges(walk, light, seen, frame, p);
+        for (int i = 0; i < edge_count; i++) {
+            nearest = representative_add_edge(nearest, mirror, edge_begins[i], edge_ends[i]);
+            solid_angle = solid_angle_add_edge(solid_angle, edge_begins[i], edge_ends[i]);
+        }
+    } while (walk.more);
+    float lobe =
+        representative_radiance(nearest, view, mirror, solid_angle_finish(solid_angle, seen.reversed), alpha, seen.reversed);
+    return vec2(lobe, lobe * fresnel_schlick(0.0, 1.0, representative_v_dot_h(nearest, view, mirror, seen.reversed)));
+}
+#endif
+#endif
+
+Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, float loss) {
+    Answer answer;
+    answer.irradiance = 0.0;
+    answer.specular = vec2(0.0);
+    if (KIND == kPunctual) {
+        mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
+        vec3 view = transform_transposed(frame, v);
+        PunctualIncident incident = punctual_at(light, p);
+        vec3 l = transform_transposed(frame, incident.direction);
+        float sent = incident.irradiance * ggx_lobe(l, view, lobe.ax, lobe.ay);
+        answer.specular = vec2(sent, sent * fresnel_schlick(0.0, 1.0, dot(view, microfacet_half_vector(l, view))));
+        return answer;
+    }
+    Seen seen = see(light, p);
+#if LOBE == LOBE_LTC
+    mat3 frame = frame_from_normal_and_view(n, v);
+    return ltc_answer(light, seen, frame, p, vec3(dot(frame[0], v), 0.0, dot(n, v)), lobe.ax, loss);
+#else
+    if (!seen.lit || !(dot(n, v) > 0.0)) return answer;
+    mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
+    vec3 view = transform_transposed(frame, v);
+    GgxView prepared = ggx_view(view, lobe.ax, lobe.ay);
+    if (KIND != kPolygon) fill_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
+#if LOBE == LOBE_CLOSED_FORM
+    answer.specular = closed_form(light, seen, frame, p, prepared);
+    float roundings = 128.0;
+    float least_distance2 = 500.0;
+#else
+    answer.specular = representative_point(light, seen, frame, p, view, lobe.ax);
+    float roundings = 8.0;
+    float least_distance2 = 2000.0;
+#endif
+    if (CAREFUL && may_be_small(light, p, least_distance2))
+        answer.specular = small_or(answer.specular, light, seen, frame, p, prepared, 0.5 * min(lobe.ax, lobe.ay), roundings);
+    return answer;
+#endif
+}

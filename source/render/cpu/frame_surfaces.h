@@ -1,0 +1,66 @@
+// FrameSurfaces: what the camera sees of a scene, tile by tile: the part of a frame that every back end shares.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "render/cpu/camera_rays.h"
+#include "render/cpu/gbuffer.h"
+#include "render/cpu/pass_clock.h"
+#include "core/mip_maps.h"
+#include "render/cpu/ray_scene.h"
+#include "render/cpu/surface_pack.h"
+#include "render/environment/environment_light.h"
+#include "steradian/render.h"
+
+namespace steradian {
+
+inline constexpr int kMostLayers = 8;  // surfaces that light passes, one behind the other, and what is behind them
+
+class FrameSurfaces {
+ public:
+  // Both must stay.
+  FrameSurfaces(const Scene& scene, const RenderOptions& options);
+
+  int tile_count() const { return tiles_x_ * tiles_y_; }
+  TileArea area(int index) const;
+  const CameraRays& camera() const { return camera_; }
+  const RayScene& rays() const { return rays_; }
+  const environment::EnvironmentLight* environment() const { return environment_.get(); }  // null without one
+  std::span<const AreaLight> environment_spots() const;                                    // lights beside the scene's own
+
+  // The surfaces of a tile through the places of a primary sample, and the background around them. behind: what to look past; null for
+  // the nearest surfaces. Returns where those lie.
+  TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr);
+  // Adds all of the environment's light but its spots'.
+  void add_environment(SurfaceTile& tile);
+
+  double environment_build_ms() const { return environment_build_ms_; }
+  // `rays` and `gbuffer`; `environment` where there is one.
+  PassTime rays_time(int threads) const { return rays_clock_.time(threads); }
+  PassTime gbuffer_time(int threads) const { return gbuffer_clock_.time(threads); }
+  PassTime environment_time(int threads) const { return environment_clock_.time(threads); }
+
+ private:
+  std::unique_ptr<const environment::EnvironmentLight> prepare_environment();
+  void show_background(const TileHits& hits, SurfaceTile& tile, const TilePlane* behind) const;
+
+  const Scene& scene_;
+  const RenderOptions& options_;
+  const CameraRays camera_;
+  const RayScene rays_;
+  double environment_build_ms_ = 0;
+  const std::unique_ptr<const environment::EnvironmentLight> environment_;
+  const MipMaps maps_;
+  const Shading shading_;
+  const int tiles_x_, tiles_y_;
+  PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, environment_clock_{"environment"};
+};
+
+// Multiplies the shares by what the tile's surfaces let through, and moves `behind` past them: 0 where nothing comes through.
+void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind);
+
+// Adds `weight` of a tile's values to the pixels of a picture; shares: what of them arrives, null for all.
+void add_to_picture(const TileVector& values, TileArea area, const TileVector* shares, float weight, std::vector<Vec3f>& pixels, int width);
+
+}  // namespace steradian

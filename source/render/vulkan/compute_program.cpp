@@ -1,0 +1,118 @@
+#include "render/vulkan/compute_program.h"
+
+#include <map>
+#include <utility>
+
+#include "render/vulkan/buffer_handles.h"
+
+namespace steradian::vulkan {
+namespace {
+
+constexpr std::uint64_t kLongestWait = 300'000'000'000;  // ns; a device that takes longer hangs
+
+}  // namespace
+
+struct ComputeProgram::Handles {
+  std::vector<vk::raii::ShaderModule> shaders;
+  vk::raii::DescriptorSetLayout set_layout = nullptr;
+  vk::raii::PipelineLayout layout = nullptr;
+  vk::raii::DescriptorPool pool = nullptr;
+  vk::raii::DescriptorSet set = nullptr;
+  vk::raii::CommandBuffer commands = nullptr;
+  vk::raii::Fence done = nullptr;
+  vk::raii::QueryPool queries = nullptr;
+  std::size_t query_count = 0;
+  std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> numbers;
+  std::vector<vk::raii::Pipeline> pipelines;
+};
+
+ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers)
+    : device_(device), handles_(std::make_unique<Handles>()) {
+  checked("make a compute program", [&] {
+    const vk::raii::Device& d = device.handles().device;
+    Handles& h = *handles_;
+    const auto buffer_count = static_cast<std::uint32_t>(buffers);
+    for (const auto& spirv : shaders) h.shaders.push_back(d.createShaderModule({{}, spirv.size_bytes(), spirv.data()}));
+
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t i = 0; i < buffer_count; ++i)
+      bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+    h.set_layout = d.createDescriptorSetLayout({{}, bindings});
+    const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
+    h.layout = d.createPipelineLayout({{}, *h.set_layout, push});
+
+    const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, buffer_count);
+    h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+    h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.set_layout}).front());
+    h.commands = std::move(d.allocateCommandBuffers({*device.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
+    h.done = d.createFence({});
+  });
+}
+
+ComputeProgram::~ComputeProgram() = default;
+
+std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::int32_t>& constants) {
+  Handles& h = *handles_;
+  if (const auto found = h.numbers.find({shader, constants}); found != h.numbers.end()) return found->second;
+  checked("make a compute pipeline", [&] {
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, i * 4u, sizeof(std::int32_t));
+    const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                                constants.size() * sizeof(std::int32_t), constants.data());
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *h.shaders.at(shader), "main", &specialization);
+    h.pipelines.push_back(device_.handles().device.createComputePipeline(nullptr, {{}, stage, *h.layout}));
+  });
+  return h.numbers.emplace(std::pair(shader, constants), h.pipelines.size() - 1).first->second;
+}
+
+std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
+  return checked("run a compute shader", [&] {
+    const Device::Handles& d = device_.handles();
+    Handles& h = *handles_;
+    for (std::uint32_t i = 0; i < buffers.size(); ++i) {
+      const vk::DescriptorBufferInfo info(*buffers[i]->handles().buffer, 0, VK_WHOLE_SIZE);
+      d.device.updateDescriptorSets(vk::WriteDescriptorSet(*h.set, i, 0, vk::DescriptorType::eStorageBuffer, {}, info), nullptr);
+    }
+    const bool timed = device_.info().timestamps;
+    const auto stamps = static_cast<std::uint32_t>(dispatches.size() + 1);
+    if (timed && h.query_count < stamps) {
+      h.queries = d.device.createQueryPool({{}, vk::QueryType::eTimestamp, stamps});
+      h.query_count = stamps;
+    }
+
+    h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    if (timed) {
+      h.commands.resetQueryPool(*h.queries, 0, stamps);
+      h.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *h.queries, 0);
+    }
+    h.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *h.layout, 0, *h.set, nullptr);
+    // What a dispatch wrote becomes visible to the next one, and to the host.
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    const vk::MemoryBarrier written(Access::eShaderWrite, Access::eShaderRead | Access::eShaderWrite | Access::eHostRead);
+    for (std::uint32_t i = 0; i < dispatches.size(); ++i) {
+      const Dispatch& one = dispatches[i];
+      h.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *h.pipelines.at(one.pipeline));
+      h.commands.pushConstants<std::uint32_t>(*h.layout, vk::ShaderStageFlagBits::eCompute, 0, one.push);
+      h.commands.dispatch(one.groups_x, one.groups_y, 1);
+      h.commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader | Stage::eHost, {}, written, nullptr, nullptr);
+      if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, i + 1);
+    }
+    h.commands.end();
+
+    d.device.resetFences(*h.done);
+    d.queue.submit(vk::SubmitInfo({}, {}, *h.commands, {}), *h.done);
+    if (d.device.waitForFences(*h.done, VK_TRUE, kLongestWait) != vk::Result::eSuccess)
+      throw Error("Vulkan device '" + device_.info().name + "'", "did not finish a compute shader within five minutes");
+
+    std::vector<double> times;
+    if (!timed) return times;
+    const auto ticks = h.queries.getResults<std::uint64_t>(0, stamps, stamps * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                                           vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    for (std::size_t i = 0; i < dispatches.size(); ++i)
+      times.push_back(static_cast<double>(ticks.second[i + 1] - ticks.second[i]) * static_cast<double>(d.timestamp_period) * 1e-6);
+    return times;
+  });
+}
+
+}  // namespace steradian::vulkan

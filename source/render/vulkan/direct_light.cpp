@@ -1,0 +1,286 @@
+#include "render/vulkan/direct_light.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "render/cpu/ltc_points.h"
+#include "render/vulkan/shaders.h"
+#include "scene/table_file.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/layout.glsl"
+
+constexpr std::size_t kBuffers = 6;
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
+constexpr std::size_t kTilesOfBatch = 256;
+constexpr int kCornersNearRim = 32;
+constexpr int kMostEdges = 48;  // kept by a thread; longer outlines are walked in pieces
+
+constexpr auto bytes_of_planes(int planes) { return static_cast<std::size_t>(planes) * static_cast<std::size_t>(kSlots) * sizeof(float); }
+
+static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
+
+enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie };
+
+Shader shader_of(const DirectMethod& method) {
+  switch (method.ggx) {
+    case Method::closed_form: return kClosedForm;
+    case Method::ltc:
+    case Method::ltc_compact: return kLtc;
+    case Method::representative_point: return kRepresentativePoint;
+    default: throw UsageError("--method " + method.name, "does not run on Vulkan yet", "use auto, ltc, ltc-compact or --backend cpu");
+  }
+}
+
+LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
+  if (!table.empty()) return ltc_pack_tables(scene::read_classic_table(table));
+  if (method.ggx == Method::ltc) return method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables();
+  return method.ggx == Method::ltc_compact ? ltc_compact_pack_tables() : LtcPackTables{};
+}
+
+void put_plane(float* planes, int number, const TilePlane& plane) {
+  std::memcpy(planes + number * kSlots, plane.data(), bytes_of_planes(1));
+}
+void put_vector(float* planes, int number, const TileVector& v) {
+  put_plane(planes, number, v.x);
+  put_plane(planes, number + 1, v.y);
+  put_plane(planes, number + 2, v.z);
+}
+
+// Squared distances of a point from a box.
+struct Distances {
+  float nearest = 0, farthest = 0;
+};
+Distances distances(Vec3f p, Vec3f low, Vec3f high) {
+  Distances d;
+  const auto add = [&](float at, float from, float to) {
+    const float outside = std::max({from - at, at - to, 0.0f}), across = std::max(at - from, to - at);
+    d.nearest += outside * outside;
+    d.farthest += across * across;
+  };
+  add(p.x, low.x, high.x);
+  add(p.y, low.y, high.y);
+  add(p.z, low.z, high.z);
+  return d;
+}
+
+}  // namespace
+
+void check_device(const DeviceInfo& device) {
+  const std::string who = "Vulkan device '" + device.name + "'";
+  if (device.storage_buffers < kBuffers)
+    throw Error(
+        who,
+        "lets a shader have " + std::to_string(device.storage_buffers) + " storage buffers, " + std::to_string(kBuffers) + " are needed",
+        "choose another --device, or --backend cpu");
+  if (device.storage_buffer < kLargestBuffer)
+    throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
+}
+
+struct DirectLight::Pass {
+  std::size_t shader = kDiffuse;
+  bool coat = false;
+  bool with_diffuse = false;  // one walk for both
+  bool over_lobe() const { return shader != kDiffuse; }
+  const char* name() const { return shader == kDiffuse ? "direct" : shader == kCharlie ? "sheen" : coat ? "coat" : "specular"; }
+};
+
+// The lists of a batch: for each pipeline, tiles with their lights.
+struct DirectLight::Work {
+  struct Entry {
+    std::uint32_t tile;
+    std::vector<std::uint32_t> lights;
+  };
+  struct Key {
+    std::size_t shader;
+    std::vector<std::int32_t> constants;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Group {
+    std::string name;
+    std::vector<Entry> entries;
+  };
+  std::map<Key, Group> groups;
+};
+
+DirectLight::DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights)
+    : device_(device),
+      method_(method),
+      specular_shader_(shader_of(method)),
+      tiles_((check_device(device.info()), kTilesOfBatch)),
+      program_(device, {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader()}, kBuffers) {
+  for (const PackLight& light : lights) records_.add(light);
+  scene_lights_ = records_.lights.size();
+  scene_vertices_ = records_.vertices.size();
+  for (const LightRecord& light : records_.lights)
+    if (light.edges <= kMostEdges) most_edges_ = std::max(most_edges_, light.edges);
+
+  const LtcPackTables tables = tables_of(method, table);
+  std::vector<float> nodes;
+  for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
+    nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());
+  nodes.resize(std::max<std::size_t>(nodes.size(), 4));
+  matrix_size_ = std::max(tables.matrix.size, 2);
+  magnitude_size_ = std::max(tables.magnitude.size, 2);
+  fresnel_table_ = tables.fresnel_matrix.size > 0;
+  fitting(tables_, nodes.size() * sizeof(float)).write(nodes.data(), nodes.size() * sizeof(float));
+  fitting(surfaces_, tiles_ * bytes_of_planes(kPlanes));
+  radiance_ = std::make_unique<Buffer>(device, tiles_ * bytes_of_planes(3), BufferUse::host_reads);
+}
+
+bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
+
+// The buffer, made anew where it is too small: room for half as much again, so that frames that follow find it.
+Buffer& DirectLight::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const {
+  if (bytes > kLargestBuffer)
+    throw Error("Vulkan", "the lights' lists take " + std::to_string(bytes) + " bytes, more than the 128 MiB of a storage buffer",
+                "use fewer --max-lights, or --backend cpu");
+  if (buffer == nullptr || buffer->bytes() < bytes)
+    buffer =
+        std::make_unique<Buffer>(device_, buffer == nullptr ? bytes : std::min(bytes + bytes / 2, kLargestBuffer), BufferUse::host_writes);
+  return *buffer;
+}
+
+void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
+  float* planes = static_cast<float*>(surfaces_->mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
+  put_vector(planes, kPosition, tile.position);
+  put_vector(planes, kNormal, tile.normal);
+  put_vector(planes, kView, tile.view);
+  if (tile.any_diffuse) {
+    put_vector(planes, kAlbedo, tile.albedo);
+    put_plane(planes, kFresnelLoss, tile.fresnel_loss);
+  }
+  if (tile.any_specular || tile.any_coat) put_vector(planes, kTangent, tile.tangent);
+  if (tile.any_specular) {
+    put_vector(planes, kF0, tile.f0);
+    put_vector(planes, kF90, tile.f90);
+    put_plane(planes, kAlphaX, tile.alpha_x);
+    put_plane(planes, kAlphaY, tile.alpha_y);
+  }
+  if (tile.any_sheen) {
+    put_vector(planes, kSheen, tile.sheen);
+    put_plane(planes, kSheenAlpha, tile.sheen_alpha);
+  }
+  if (tile.any_coat) {
+    put_plane(planes, kCoat, tile.coat);
+    put_plane(planes, kCoatAlpha, tile.coat_alpha);
+    put_vector(planes, kCoatNormal, tile.coat_normal);
+  }
+  put_vector(static_cast<float*>(radiance_->mapped()) + place * static_cast<std::size_t>(3 * kSlots), 0, tile.radiance);
+}
+
+void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
+  const float* planes = static_cast<const float*>(radiance_->mapped()) + place * static_cast<std::size_t>(3 * kSlots);
+  for (TilePlane* plane : {&radiance.x, &radiance.y, &radiance.z}) {
+    std::memcpy(plane->data(), planes, bytes_of_planes(1));
+    planes += kSlots;
+  }
+}
+
+// As SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
+bool DirectLight::brings_diffuse(const Tile& tile, const PackLight& light) const {
+  return is_ltc() && tile.any_specular && tile.any_diffuse && light.is_polygon();
+}
+
+// Whether some point of a box may see the light as small, or be near its rim; others spare the shaders both.
+bool DirectLight::is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass) const {
+  if (light.kind == kPunctual) return false;
+  const float along_edges = pass.over_lobe() ? 2000.0f : 4000.0f;
+  const bool arcs = pass.over_lobe() ? pass.shader == kClosedForm : light.kind != kPolygon;
+  const Distances d = distances(light.middle, where.low, where.high);
+  return d.farthest > light.deviation2 * (arcs ? 500.0f : along_edges) || (pass.over_lobe() && d.nearest < light.near_distance2);
+}
+
+std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful) const {
+  const bool chunked = light.edges > most_edges_;
+  const bool fine = method_.quality == Quality::high && (pass.shader == kClosedForm || pass.shader == kRepresentativePoint);
+  const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
+  const int edges = light.kind == kPolygon ? (chunked ? kMostEdges : most_edges_) : space + 2;
+  const int arcs = pass.shader == kClosedForm && !chunked ? edges : 1;
+  const bool specular = pass.over_lobe();
+  return {light.kind,
+          pass.with_diffuse ? 1 : 0,
+          specular && method_.ggx == Method::ltc_compact ? 1 : 0,
+          specular ? static_cast<int>(method_.quality) : 1,
+          pass.coat ? 1 : 0,
+          careful ? 1 : 0,
+          specular && chunked ? 1 : 0,
+          specular && fresnel_table_ ? 1 : 0,
+          light.ball ? 1 : 0,
+          corners,
+          specular ? space : 1,
+          specular ? edges : 1,
+          specular ? arcs : 1,
+          matrix_size_,
+          magnitude_size_};
+}
+
+std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
+  return cut ? records_.add(light) : static_cast<std::uint32_t>(light.index);
+}
+
+void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass) {
+  for (const PackLight* light : tile.lights.lights) {
+    const bool together = brings_diffuse(tile, *light);
+    if (pass.shader == kDiffuse && together) continue;
+    Pass own = pass;
+    own.with_diffuse = together && pass.shader == kLtc && !pass.coat;
+    const bool cut = std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& c) { return c.get() == light; });
+    const std::uint32_t number = number_of(*light, cut);
+    const LightRecord& record = records_.lights[number];
+    Work::Group& group = work.groups[{own.shader, choices(record, own, is_careful(record, tile.lights, own))}];
+    group.name = own.name();
+    if (group.entries.empty() || group.entries.back().tile != place) group.entries.push_back({place, {}});
+    group.entries.back().lights.push_back(number);
+  }
+}
+
+void DirectLight::run(const std::vector<Tile>& tiles) {
+  records_.keep(scene_lights_, scene_vertices_);
+  Work work;
+  for (std::uint32_t place = 0; place < tiles.size(); ++place) {
+    const Tile& tile = tiles[place];
+    if (tile.any_diffuse) list(work, place, tile, {});
+    if (tile.any_specular) list(work, place, tile, {specular_shader_});
+    if (tile.any_sheen) list(work, place, tile, {kCharlie});
+    if (tile.any_coat) list(work, place, tile, {specular_shader_, true});
+  }
+  if (work.groups.empty()) return;
+
+  std::vector<std::uint32_t> entries, numbers;
+  std::vector<ComputeProgram::Dispatch> dispatches;
+  std::size_t count = 0;
+  for (const auto& [key, group] : work.groups) count += group.entries.size();
+  const std::size_t after_entries = count * static_cast<std::size_t>(kEntry);
+  for (const auto& [key, group] : work.groups) {
+    dispatches.push_back({program_.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfTile),
+                          static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
+    for (const Work::Entry& entry : group.entries) {
+      entries.insert(entries.end(), {entry.tile, static_cast<std::uint32_t>(after_entries + numbers.size()),
+                                     static_cast<std::uint32_t>(entry.lights.size())});
+      numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
+    }
+  }
+  entries.insert(entries.end(), numbers.begin(), numbers.end());
+
+  const auto write = [&](std::unique_ptr<Buffer>& buffer, const auto& values) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    const std::size_t bytes = values.size() * sizeof(Value);
+    Buffer& to = fitting(buffer, std::max<std::size_t>(bytes, sizeof(Vec4Floats)));
+    to.write(values.data(), bytes);
+  };
+  write(lists_, entries);
+  write(lights_, records_.values);
+  write(vertices_, records_.vertices);
+
+  const std::vector<double> ms =
+      program_.run({surfaces_.get(), radiance_.get(), lights_.get(), vertices_.get(), lists_.get(), tables_.get()}, dispatches);
+  std::size_t i = 0;
+  for (const auto& [key, group] : work.groups)
+    if (i < ms.size()) times_[group.name] += ms[i++];
+}
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,68 @@
+// Direct light on a device: batches of tiles, whose surfaces the host writes, lit by compute shaders (shaders/direct.glsl).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/cpu/light_list.h"
+#include "render/cpu/methods.h"
+#include "render/cpu/tile.h"
+#include "render/vulkan/compute_program.h"
+#include "render/vulkan/light_records.h"
+
+namespace steradian::vulkan {
+
+// Throws Error, with the device's name, for what it lacks.
+void check_device(const DeviceInfo& device);
+
+class DirectLight {
+ public:
+  // table: as RenderOptions::table. The device and the lights must stay. Throws UsageError for a method that the shaders do not have, and
+  // Error for a device that lacks something.
+  DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
+
+  std::size_t tiles_of_batch() const { return tiles_; }
+
+  // What the device needs of a tile, which is number `place` of the batch. Threads may put different places at the same time.
+  void put(std::size_t place, const SurfaceTile& tile);
+
+  // What of a tile the passes go by.
+  struct Tile {
+    ReachingLights lights;
+    bool any_diffuse = false, any_specular = false, any_sheen = false, any_coat = false;
+  };
+  // Adds the light of the lists to what the tiles had as radiance.
+  void run(const std::vector<Tile>& tiles);
+  void take_radiance(std::size_t place, TileVector& radiance) const;
+
+  // Milliseconds on the device so far, by pass; empty where it does not tell.
+  const std::map<std::string, double>& times() const { return times_; }
+
+ private:
+  struct Pass;
+  struct Work;
+  bool brings_diffuse(const Tile& tile, const PackLight& light) const;
+  void list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass);
+  bool is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass) const;
+  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful) const;
+  std::uint32_t number_of(const PackLight& light, bool cut);
+  Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const;
+  bool is_ltc() const;
+
+  const Device& device_;
+  const DirectMethod method_;
+  std::size_t specular_shader_;
+  LightRecords records_;
+  std::size_t scene_lights_ = 0, scene_vertices_ = 0;
+  int most_edges_ = 0;  // of the scene's polygons, as far as there is space for them
+  int matrix_size_ = 2, magnitude_size_ = 2;
+  bool fresnel_table_ = false;
+  std::size_t tiles_;
+  ComputeProgram program_;
+  std::unique_ptr<Buffer> surfaces_, radiance_, lights_, vertices_, lists_, tables_;
+  std::map<std::string, double> times_;
+};
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,254 @@
+#include "render/vulkan/frame.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/float_mode.h"
+#include "render/cpu/direct.h"
+#include "render/cpu/frame_surfaces.h"
+#include "render/cpu/methods.h"
+#include "render/cpu/specular.h"
+#include "render/cpu/textured_diffuse.h"
+#include "render/vulkan/direct_light.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+constexpr const char* kOtherwise = "use --backend cpu";
+
+void refuse(bool has, const std::string& what) {
+  if (has) throw UsageError("--backend vulkan", "does not have " + what + " yet", kOtherwise);
+}
+
+// Whatever would be left out of the picture.
+void refuse_what_is_missing(const RenderOptions& options, const DirectMethod& method) {
+  if (options.shadows != Shadows::off)
+    throw UsageError("--backend vulkan", "does not have shadows yet", "add --shadows off, or use --backend cpu");
+  refuse(method.estimates(), "the method " + method.name);
+  refuse(options.lights == LightSum::tree, "--lights tree");
+  refuse(options.indirect.mode != IndirectMode::off, "the bounce of --indirect");
+}
+
+bool shaders_have(const PackLight& light) {
+  const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
+  return light.textured == nullptr && (punctual == nullptr || punctual->profile == nullptr);
+}
+
+// What the shaders do not have, and the host lights: a sentence each.
+std::vector<std::string> lit_by_host(const Scene& scene) {
+  std::vector<std::string> sentences;
+  const auto say = [&](const std::string& what) {
+    const std::string sentence = "the CPU lights " + what + ": the shaders do not have that yet";
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
+  };
+  for (const AreaLight& light : scene.area_lights)
+    if (light.texture && light.texture->use.present()) say("by the textured light '" + light.name + "'");
+  for (const PunctualLight& light : scene.punctual_lights)
+    if (light.profile != nullptr) say("by the measured lamp '" + light.name + "'");
+  for (const Mesh& mesh : scene.meshes) {
+    const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+    if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
+    const std::string of = " of material '" + m.name + "'";
+    for (const Material& lobe : m.specular_override)
+      if (lobe.brdf != Brdf::lambert) say(std::string("the ") + name_of(lobe.brdf) + " lobe" + of);
+  }
+  return sentences;
+}
+
+DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
+  const DirectMethod method = choose_method(scene, options);
+  refuse_what_is_missing(options, method);
+  return method;
+}
+
+// What is seen through one primary sample of a tile, past as many surfaces as `layer` says.
+struct Job {
+  int tile;
+  std::unique_ptr<TileVector> shares;  // of the light from there; null before the first surface that light passes
+  TilePlane behind;                    // where those surfaces lie
+  bool passing = false;                // light passes what it has found, too
+};
+
+}  // namespace
+
+struct Frame::Parts {
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d)
+      : scene(s),
+        options(o),
+        threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
+        method(chosen(s, o)),
+        device(d != nullptr ? std::move(d) : std::make_shared<const Device>(DeviceOptions{o.device, false})),
+        surfaces(s, o),
+        lights(prepare_lights(s, surfaces.environment_spots())),
+        host_specular(method, o.table),
+        direct(*device, method, o.table, lights),
+        arena(threads) {
+    for (const PackLight& light : lights) light_pointers.push_back(&light);
+    build_ms = ms_since(start);
+  }
+
+  bool stopped() const { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); }
+
+  template <class Work>
+  void each(std::size_t count, Work work) {
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const FlushDenormals flush;
+        work(i);
+      });
+    });
+  }
+
+  // Adds what the shaders do not have; lights that they have remain.
+  void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching) {
+    const bool specular = tile.any_specular, sheen = tile.any_sheen, coat = tile.any_coat, override_lobes = tile.any_override;
+    if (override_lobes) {
+      tile.any_specular = tile.any_sheen = tile.any_coat = false;
+      host_specular.add(tile, reaching);
+      tile.any_specular = specular;
+      tile.any_sheen = sheen;
+      tile.any_coat = coat;
+    }
+    const auto on_host =
+        std::stable_partition(reaching.begin(), reaching.end(), [](const PackLight* light) { return shaders_have(*light); });
+    const std::vector<const PackLight*> here(on_host, reaching.end());
+    if (here.empty()) return;
+    reaching.erase(on_host, reaching.end());
+    if (tile.any_diffuse) {
+      const std::vector<const PackLight*> plain = without_textured(here);
+      if (!plain.empty()) direct_table_for(active_simd()).add_diffuse(tile, plain.data(), plain.size());
+      add_diffuse_from_textured(tile, here);
+    }
+    tile.any_override = false;
+    host_specular.add(tile, here, SpecularPass::Walk::specular_alone);
+    tile.any_override = override_lobes;
+  }
+
+  // The surfaces of the jobs, put on the device, and the lights that may reach them.
+  std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
+    std::vector<DirectLight::Tile> tiles(jobs.size());
+    each(jobs.size(), [&](std::size_t i) {
+      Job& job = jobs[i];
+      SurfaceTile& tile = *workspaces.local();
+      const TilePlane found = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
+      surfaces.add_environment(tile);
+      lists_clock.run([&] {
+        tiles[i] = {lights_reaching(light_pointers, tile), tile.any_diffuse, tile.any_specular, tile.any_sheen, tile.any_coat};
+      });
+      host_clock.run([&] { light_on_host(tile, tiles[i].lights.lights); });
+      upload_clock.run([&] { direct.put(i, tile); });
+      job.passing = tile.any_passing && layer + 1 < kMostLayers;
+      if (!job.passing) return;
+      // The shares of what this layer sends are still wanted: those of the next one are kept beside them.
+      job.behind = found;
+      next_shares[i] = job.shares ? std::make_unique<TileVector>(*job.shares) : std::make_unique<TileVector>();
+      if (!job.shares)
+        for (TilePlane* plane : {&next_shares[i]->x, &next_shares[i]->y, &next_shares[i]->z}) plane->fill(1);
+      look_through(tile, *next_shares[i], job.behind);
+    });
+    return tiles;
+  }
+
+  // Lights the jobs and adds them to the picture; returns those behind which there may be more.
+  std::vector<Job> light(std::vector<Job> jobs, int sample, int layer, Picture& picture) {
+    next_shares.clear();
+    next_shares.resize(jobs.size());
+    const std::vector<DirectLight::Tile> tiles = find_surfaces(jobs, sample, layer);
+    device_clock.run([&] { direct.run(tiles); });
+    const float weight = 1.0f / static_cast<float>(options.aa);
+    each(jobs.size(), [&](std::size_t i) {
+      resolve_clock.run([&] {
+        TileVector& radiance = *radiances.local();
+        direct.take_radiance(i, radiance);
+        add_to_picture(radiance, surfaces.area(jobs[i].tile), jobs[i].shares.get(), weight, picture.pixels, options.width);
+      });
+    });
+    std::vector<Job> next;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      if (!jobs[i].passing) continue;
+      next.push_back(std::move(jobs[i]));
+      next.back().shares = std::move(next_shares[i]);
+    }
+    return next;
+  }
+
+  Picture render() {
+    Picture picture(options.width, options.height);
+    const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
+    for (int first = 0; first < count && !stopped(); first += batch) {
+      const int end = std::min(first + batch, count);
+      for (int sample = 0; sample < options.aa && !stopped(); ++sample) {
+        std::vector<Job> jobs;
+        for (int tile = first; tile < end; ++tile) jobs.push_back({tile, nullptr, {}, false});
+        for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
+      }
+      if (options.progress)
+        for (int tile = first; tile < end; ++tile)
+          options.progress(static_cast<std::uint64_t>(tile) + 1, static_cast<std::uint64_t>(count));
+    }
+    return picture;
+  }
+
+  void report(RenderStats& stats) {
+    stats.passes = {{"build", build_ms},      surfaces.rays_time(threads), surfaces.gbuffer_time(threads), lists_clock.time(threads),
+                    host_clock.time(threads), upload_clock.time(threads),  device_clock.time(1),           resolve_clock.time(threads)};
+    for (const auto& [name, ms] : direct.times()) stats.passes.push_back({"device: " + name, ms});
+    if (const auto* environment = surfaces.environment()) {
+      stats.passes.front().ms -= surfaces.environment_build_ms();
+      stats.passes.push_back({"environment: maps", surfaces.environment_build_ms()});
+      stats.passes.push_back(surfaces.environment_time(threads));
+      stats.environment_spots = environment->share_of_spots();
+      stats.diffuse_residual = environment->diffuse_residual();
+    }
+    for (PassTime& pass : stats.passes) pass.ms -= std::exchange(reported[pass.name], pass.ms);
+    stats.threads = threads;
+    stats.lights = lights.size();
+    stats.triangles = scene.triangle_count();
+    stats.method = method.name;
+    stats.device = device->info().name;
+    stats.warnings = lobes_under_means(scene, method);
+    for (std::string& sentence : lit_by_host(scene)) stats.warnings.push_back(std::move(sentence));
+  }
+
+  const Clock::time_point start = Clock::now();
+  const Scene& scene;
+  const RenderOptions& options;
+  const int threads;
+  const DirectMethod method;
+  const std::shared_ptr<const Device> device;
+  FrameSurfaces surfaces;
+  const std::vector<PackLight> lights;
+  std::vector<const PackLight*> light_pointers;
+  const SpecularPass host_specular;
+  DirectLight direct;
+  tbb::task_arena arena;
+  double build_ms = 0;
+  PassClock lists_clock{"lists"}, host_clock{"host lights"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"};
+  std::vector<std::unique_ptr<TileVector>> next_shares;  // by job
+  tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> workspaces{[] { return std::make_unique<SurfaceTile>(); }};
+  tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> radiances{[] { return std::make_unique<TileVector>(); }};
+  std::map<std::string, double> reported;  // milliseconds of passes up to the last report
+};
+
+Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device))) {}
+Frame::~Frame() = default;
+
+Picture Frame::render(RenderStats* stats) {
+  const auto start = Clock::now();
+  Picture picture = parts_->render();
+  if (stats != nullptr) {
+    parts_->report(*stats);
+    stats->total_ms = ms_since(start);
+  }
+  return picture;
+}
+
+}  // namespace steradian::vulkan

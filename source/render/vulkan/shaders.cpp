@@ -1,0 +1,31 @@
+#include "render/vulkan/shaders.h"
+
+namespace steradian::vulkan {
+namespace {
+
+// Written by glslc: cmake/shaders.cmake.
+constexpr std::uint32_t kDiffuse[] =
+#include "diffuse.comp.inc"
+    ;
+constexpr std::uint32_t kLtc[] =
+#include "ltc.comp.inc"
+    ;
+constexpr std::uint32_t kClosedForm[] =
+#include "closed_form.comp.inc"
+    ;
+constexpr std::uint32_t kRepresentativePoint[] =
+#include "representative_point.comp.inc"
+    ;
+constexpr std::uint32_t kSheen[] =
+#include "sheen.comp.inc"
+    ;
+
+}  // namespace
+
+std::span<const std::uint32_t> diffuse_shader() { return kDiffuse; }
+std::span<const std::uint32_t> ltc_shader() { return kLtc; }
+std::span<const std::uint32_t> closed_form_shader() { return kClosedForm; }
+std::span<const std::uint32_t> representative_point_shader() { return kRepresentativePoint; }
+std::span<const std::uint32_t> sheen_shader() { return kSheen; }
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,16 @@
+// The shaders of shaders/, compiled at build time and part of the program.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace steradian::vulkan {
+
+// Of direct light: the diffuse lobe, GGX by each family of methods, sheen.
+std::span<const std::uint32_t> diffuse_shader();
+std::span<const std::uint32_t> ltc_shader();
+std::span<const std::uint32_t> closed_form_shader();
+std::span<const std::uint32_t> representative_point_shader();
+std::span<const std::uint32_t> sheen_shader();
+
+}  // namespace steradian::vulkan
