@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "plane/frame/lane_bits.h"
+#include "core/pack_bits.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {

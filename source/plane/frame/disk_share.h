@@ -5,7 +5,7 @@
 
 #include "core/pack.h"
 #include "plane/frame/events.h"
-#include "plane/frame/lane_bits.h"
+#include "core/pack_bits.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "plane/frame/event_cut.h"
 #include "plane/frame/events.h"
-#include "plane/frame/lane_bits.h"
+#include "core/pack_bits.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
