@@ -111,7 +111,7 @@ struct Hits {
   PackVec3 geometric, blend;  // unit normals of the front face: the triangle's, the vertices'
   PackReal towards, side;     // the triangle's cosine to the view; -1 where that is its back
 
-  Hits(const Mesh& mesh, const TileHits& hits, std::size_t slot, std::uint32_t slots) : at(mesh, hits, slot, slots) {
+  STERADIAN_INLINE Hits(const Mesh& mesh, const TileHits& hits, std::size_t slot, std::uint32_t slots) : at(mesh, hits, slot, slots) {
     edges = at.edges_product(mesh.positions);
     blend = at(mesh.normals);
     const PackReal edges2 = dot(edges, edges), blend2 = dot(blend, blend), low(1e-30), high(1e30);
@@ -134,8 +134,8 @@ struct Lobes {
 };
 
 // Returns the lanes that it has written.
-Mask write_surfaces(const Mesh& mesh, const Hits& hits, const PackVec3& normal, const PackVec3& tangent, const Lobes& lobes,
-                    const SurfaceMaterial* material, std::size_t slot, SurfaceTile& tile) {
+STERADIAN_INLINE Mask write_surfaces(const Mesh& mesh, const Hits& hits, const PackVec3& normal, const PackVec3& tangent,
+                                     const Lobes& lobes, const SurfaceMaterial* material, std::size_t slot, SurfaceTile& tile) {
   alignas(64) std::array<float, kLanes> here;
   for (std::size_t k = 0; k < kLanes; ++k) here[k] = (hits.kept >> k & 1) != 0 ? 1.0f : 0.0f;
   const Writer write = {slot, load(here.data()) > PackReal(0.5), hits.kept == (std::uint32_t{1} << kLanes) - 1};
