@@ -47,7 +47,7 @@ def chart(path, title, across, lines):
     ys = [y for _, _, points in lines for _, y in points]
     first, last = math.floor(math.log10(min(xs)) + 0.01), math.ceil(math.log10(max(xs)) - 0.01)
     low, high = math.floor(math.log10(min(ys))), math.ceil(math.log10(max(ys)))
-    width, height, left, right, bottom = 420, 330, 60, 400, 280
+    width, height, left, right, bottom = 450, 330, 60, 400, 280
     unit, up = (right - left) / (last - first), (bottom - 30) / (high - low)
     place_x = lambda x: left + unit * (math.log10(x) - first)
     place_y = lambda y: bottom - up * (math.log10(y) - low)
