@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace steradian::plane {
@@ -14,6 +15,12 @@ struct Disk {
 
 Disk around(const Curve& c) {
   if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
+  if (c.tau_span < std::numbers::pi) {
+    // About the chord, in the space where the ellipse is round and from there in the plane.
+    const Ellipse& e = c.ellipse;
+    const double longest = e.x == Vec2d{e.y.y, -e.y.x} ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
+    return {(e.at(c.tau0) + e.at(c.tau0 + c.tau_span)) * 0.5, longest * std::sin(0.5 * c.tau_span)};
+  }
   return {c.ellipse.center, std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y))};
 }
 
@@ -38,6 +45,90 @@ std::vector<const Curve*> curves_that_matter_within(const std::vector<const Curv
   }
   result.insert(result.end(), curves.begin() + static_cast<std::ptrdiff_t>(own), curves.end());
   return result;
+}
+
+namespace {
+
+// Do edges that follow each other run across all ways from one disk to the other? Between the two, all ways lie within the lines that
+// touch both from outside.
+bool divides(const std::vector<const Curve*>& edges, std::size_t count, const Disk& from, const Disk& to) {
+  const Vec2d axis = to.center - from.center;
+  const double d = length(axis), growth = to.radius - from.radius;
+  if (d <= from.radius + to.radius) return false;
+  const Vec2d along = axis / d;
+  const double sine = growth / d, widen = 1 / std::sqrt(1 - sine * sine);
+  bool low = false, high = false, under_way = false;
+  const Curve* before = nullptr;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Curve& c = *edges[i];
+    const Vec2d a = c.a - from.center, b = c.b - from.center;
+    const double xa = dot(along, a), xb = dot(along, b);
+    const bool between = std::min(xa, xb) > from.radius && std::max(xa, xb) < d - to.radius;
+    const bool follows = under_way && (before->b == c.a || before->a == c.b || before->a == c.a || before->b == c.b);
+    under_way = between;
+    before = &c;
+    if (!between) continue;
+    const double ya = cross(along, a), yb = cross(along, b);
+    const double wide_a = (from.radius + sine * xa) * widen, wide_b = (from.radius + sine * xb) * widen;
+    low = (follows && low) || ya < -wide_a || yb < -wide_b;
+    high = (follows && high) || ya > wide_a || yb > wide_b;
+    if (low && high) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SeenWithin seen_within(const LightInterior& polygon, Vec2d center, double radius) {
+  std::vector<const Curve*> curves(polygon.curves.begin(), polygon.curves.begin() + static_cast<std::ptrdiff_t>(polygon.own));
+  for (const Curve& part : polygon.parts)
+    if (!divides(polygon.curves, polygon.own, {center, radius}, around(part))) curves.push_back(&part);
+  SeenWithin seen;
+  const std::size_t parts = curves.size() - polygon.own;
+  if (parts == 0) return seen;
+  seen.curves = curves_that_matter_within(curves, polygon.own, center, radius);
+  seen.own = seen.curves.size() - parts;
+  return seen;
+}
+
+void keep_seen_from(const SeenWithin& all, Vec2d p, SeenWithin& seen) {
+  seen.curves.clear();
+  const auto parts = all.curves.begin() + static_cast<std::ptrdiff_t>(all.own);
+  const auto faces = [&](const Curve& c) {
+    if (c.kind != Curve::Kind::segment) return true;
+    // As an envelope takes it; of a part, rounding has moved the ends off the line that it is seen edge on from.
+    const double turn = cross(c.a - p, c.b - p);
+    return std::fabs(turn) > 1e-10 * length(c.b - c.a) && (c.two_sided || turn < 0);
+  };
+  const auto within = [&](const Curve& edge, const Curve& part) {
+    Vec2d a = part.a - p, b = part.b - p;
+    if (part.kind != Curve::Kind::segment) {
+      // Where the tangents of the circle about it touch.
+      const Disk disk = around(part);
+      const Vec2d to = disk.center - p, left{-to.y, to.x};
+      const double d2 = dot(to, to), tangent2 = d2 - disk.radius * disk.radius;
+      if (tangent2 <= 0) return true;
+      const double share = tangent2 / d2, across = disk.radius * std::sqrt(tangent2) / d2;
+      a = to * share - left * across;
+      b = to * share + left * across;
+      const double beyond = std::sqrt(d2) + disk.radius;
+      const Vec2d c = edge.a - p, d = edge.b - p;
+      if (std::min(dot(to, c), dot(to, d)) > beyond * std::sqrt(d2)) return false;
+      return !((cross(a, c) < 0 && cross(a, d) < 0) || (cross(b, c) > 0 && cross(b, d) > 0));
+    }
+    if (cross(a, b) < 0) std::swap(a, b);
+    const Vec2d c = edge.a - p, d = edge.b - p;
+    const bool outside = (cross(a, c) < 0 && cross(a, d) < 0) || (cross(b, c) > 0 && cross(b, d) > 0) ||
+                         (cross(b - a, c - a) < 0 && cross(b - a, d - a) < 0);
+    return !outside;
+  };
+  for (std::size_t i = 0; i < all.own; ++i) {
+    const Curve& edge = *all.curves[i];
+    if (std::any_of(parts, all.curves.end(), [&](const Curve* part) { return faces(*part) && within(edge, *part); }))
+      seen.curves.push_back(&edge);
+  }
+  seen.own = seen.curves.size();
+  std::copy_if(parts, all.curves.end(), std::back_inserter(seen.curves), [&](const Curve* part) { return faces(*part); });
 }
 
 std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circle) {
@@ -67,14 +158,21 @@ std::optional<Curve> circle_clipped_to_circle(const Curve& other, const Ellipse&
   return part;
 }
 
-double open_share(const std::vector<Curve>& chords, Vec2d p) {
+namespace {
+
+const Curve& curve_of(const Curve& c) { return c; }
+const Curve& curve_of(const Curve* c) { return *c; }
+
+template <class Curves>
+double share_between(const Curves& chords, Vec2d p) {
   constexpr double pi = std::numbers::pi;
   struct Interval {
     double begin, end;
   };
   thread_local std::vector<Interval> taken;
   taken.clear();
-  for (const Curve& chord : chords) {
+  for (const auto& of : chords) {
+    const Curve& chord = curve_of(of);
     const Vec2d a = chord.a - p, b = chord.b - p;
     const double turn = cross(a, b);
     if (turn == 0 || (turn > 0 && !chord.two_sided)) continue;  // on its line; behind it: inside an occluder
@@ -91,5 +189,10 @@ double open_share(const std::vector<Curve>& chords, Vec2d p) {
   }
   return 1 - sum / (2 * pi);
 }
+
+}  // namespace
+
+double open_share(const std::vector<Curve>& chords, Vec2d p) { return share_between(chords, p); }
+double open_share(const std::vector<const Curve*>& chords, Vec2d p) { return share_between(chords, p); }
 
 }  // namespace steradian::plane

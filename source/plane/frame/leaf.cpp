@@ -11,6 +11,9 @@ namespace {
 
 float f(double x) { return static_cast<float>(x); }
 
+// An edge of size 1 at this distance from one of its ends is at least 5 from a pixel: TilePart::small.
+constexpr double kSmallParts = 6;
+
 Vec2d nearest_on(Vec2d a, Vec2d b, Vec2d p) {
   const Vec2d ab = b - a;
   const double l = dot(ab, ab);
@@ -341,9 +344,11 @@ void LeafBuilder::add_parts(const Emitter& run) {
   for (const Emitter* e = &run + 1; e < &run + run.group; ++e) {
     if (is_run(*e)) continue;
     const Vec2d a = e->a - tile_.center, b = e->b - tile_.center, n = e->normal, t{n.y, -n.x};
-    const Vec3d from = e->radiance.b, slope = (e->radiance.a - e->radiance.b) / length(e->b - e->a);
-    parts_.push_back(
-        {f(a.x), f(a.y), f(n.x), f(n.y), f(dot(b, t)), f(dot(a, t)), f(from.x), f(from.y), f(from.z), f(slope.x), f(slope.y), f(slope.z)});
+    const double size = length(e->b - e->a);
+    const Vec3d from = e->radiance.b, slope = (e->radiance.a - e->radiance.b) / size;
+    const bool small = length(a) - tile_.radius > kSmallParts * size && length(b) - tile_.radius > kSmallParts * size;
+    parts_.push_back({f(a.x), f(a.y), f(n.x), f(n.y), f(dot(b, t)), f(dot(a, t)), f(from.x), f(from.y), f(from.z), f(slope.x), f(slope.y),
+                      f(slope.z), f(b.x), f(b.y), f(a.x), f(a.y), small});
   }
 }
 

@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "plane/exact/intersect.h"
 #include "plane/frame/emitters.h"
 #include "plane/frame/overlap.h"
 
 namespace steradian::plane {
 namespace {
+
+// Where on a curve a point of it lies, from 0 at its start to 1 at its end; beyond 1 where it does not.
+double place_on(const Curve& c, Vec2d p) {
+  if (c.kind == Curve::Kind::segment) return dot(p - c.a, c.b - c.a) / dot(c.b - c.a, c.b - c.a);
+  const Vec2d unit = c.ellipse.to_unit(p);
+  const double turned = std::fmod(std::atan2(unit.y, unit.x) - c.tau0, 2 * std::numbers::pi);
+  return (turned < 0 ? turned + 2 * std::numbers::pi : turned) / c.tau_span;
+}
+
+Vec2d middle_of(const Curve& c) { return c.kind == Curve::Kind::segment ? (c.a + c.b) * 0.5 : c.ellipse.at(c.tau0 + 0.5 * c.tau_span); }
 
 class Finding {
  public:
@@ -45,6 +57,12 @@ class Finding {
       inside.own = inside.curves.size();
       for (std::size_t o : others)
         if (o != i) add(o);
+      if (body(i).shape == PlaneBody::Shape::polygon) {
+        inside.in_polygon = true;
+        for (std::size_t c = inside.own; c < inside.curves.size(); ++c) add_parts_within(i, *inside.curves[c], inside.parts);
+        inside.curves.resize(inside.parts.empty() ? 0 : inside.own);
+        continue;
+      }
       const Curve& own = world_.curves[world_.first_curve[i]];
       inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
                            return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
@@ -94,6 +112,27 @@ class Finding {
     const bool reaches = reaches_into(light, edge);
     frame_.vertices.resize(edge.first);
     return reaches;
+  }
+
+  // The parts of a curve within a polygon, between where it crosses the outline.
+  void add_parts_within(std::size_t polygon, const Curve& c, std::vector<Curve>& parts) {
+    std::vector<double> cuts{0, 1};
+    spend_(10 * (world_.first_curve[polygon + 1] - world_.first_curve[polygon]));
+    for (std::size_t k = world_.first_curve[polygon]; k < world_.first_curve[polygon + 1]; ++k) {
+      const Curve& edge = world_.curves[k];
+      const Vec2d along = edge.b - edge.a;
+      const Crossings crossings = intersect(c, edge);
+      for (int i = 0; i < crossings.count; ++i) {
+        const double at = dot(crossings.at[i] - edge.a, along) / dot(along, along);
+        if (at >= -1e-9 && at <= 1 + 1e-9) cuts.push_back(std::clamp(place_on(c, crossings.at[i]), 0.0, 1.0));
+      }
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      if (cuts[k] >= cuts[k + 1]) continue;
+      const Curve part = part_of(c, cuts[k], cuts[k + 1]);
+      if (world_.contains(polygon, middle_of(part))) parts.push_back(part);
+    }
   }
 
   bool reaches_into(std::size_t polygon, const Blocker& b) {

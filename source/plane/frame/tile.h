@@ -71,6 +71,8 @@ struct TilePart {
   float nx, ny, begin, end;                  // as of an edge
   float red, green, blue;                    // at `begin` ...
   float red_slope, green_slope, blue_slope;  // ... and their change per distance along it
+  float from_x, from_y, to_x, to_y;          // its ends: where it begins and ends
+  bool small;                                // no pixel is nearer to it than five times its length
 };
 
 // Directions in which a spot's light arrives: counter-clockwise from low to high.

@@ -308,6 +308,7 @@ class Worker {
     if (inside.curves.empty()) return radiance_at(*world_.scene.bodies[body].light, p);
     if (inside.by_chords) return radiance_at(*world_.scene.bodies[body].light, p) * open_share(inside.chords, p);
     if (inside.by_parts) return light_between(world_, inside.parts, p, static_cast<int>(body));
+    if (inside.in_polygon) return interior_of_polygon(inside, body, p);
     if (static_cast<int>(body) != interior_body_) {
       interior_body_ = static_cast<int>(body);
       interior_curves_ = curves_that_matter_within(inside.curves, inside.own, tile_.center, tile_.radius);
@@ -316,6 +317,24 @@ class Worker {
     return envelope_light(world_, curves_that_matter_within(interior_curves_, own, p, 0), p, static_cast<int>(body),
                           EmissionParts::radiance)
         .radiance;
+  }
+
+  Vec3d interior_of_polygon(const LightInterior& inside, std::size_t body, Vec2d p) {
+    if (static_cast<int>(body) != interior_body_) {
+      interior_body_ = static_cast<int>(body);
+      seen_within_ = seen_within(inside, tile_.center, tile_.radius);
+    }
+    const auto own = [&] { return radiance_at(*world_.scene.bodies[body].light, p); };
+    if (seen_within_.curves.empty()) return own();
+    keep_seen_from(seen_within_, p, seen_from_);
+    if (seen_from_.curves.size() == seen_from_.own) return own();
+    // Dark and not hidden from the point: what they take needs no depth.
+    const auto is_dark = [&](const Curve* c) {
+      return c->kind == Curve::Kind::segment && !world_.scene.bodies[static_cast<std::size_t>(c->body)].light;
+    };
+    if (seen_from_.own == 0 && std::all_of(seen_from_.curves.begin(), seen_from_.curves.end(), is_dark))
+      return own() * open_share(seen_from_.curves, p);
+    return envelope_light(world_, seen_from_.curves, p, static_cast<int>(body), EmissionParts::radiance).radiance;
   }
 
   // Which body fills each pixel: in double and by the same test as a query.
@@ -409,6 +428,7 @@ class Worker {
   TileArea tile_;
   int interior_body_ = -1;  // whose curves these are, of those that matter to the tile
   std::vector<const Curve*> interior_curves_;
+  SeenWithin seen_within_, seen_from_;  // of a polygon: the tile, a pixel
 };
 
 }  // namespace
