@@ -19,6 +19,7 @@ void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
 void add_ggx(BenchList& list);
 void add_plane(BenchList& list);
+void add_plane_on_device(BenchList& list, const std::string& device);
 void add_frame(BenchList& list, const Where& where);
 void add_scaling(BenchList& list);
 void add_indirect(BenchList& list);
@@ -29,6 +30,7 @@ inline BenchList all_benches(const Where& where = {}) {
   BenchList list;
   if (where.backend == Backend::vulkan) {
     add_frame(list, where);
+    add_plane_on_device(list, where.device);
     return list;
   }
   add_lambert(list);

@@ -2,6 +2,7 @@
 // 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
 // marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
 // plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them;
+// vulkan/plane/frame/LxB: plane/frame/LxB on a Vulkan device, all threads of the host;
 // plane/move/LxB and plane/move-lamp/LxB: a box, and a lamp, moves by 3.6 pixels, another one every time, and a 1080p stage follows.
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "plane/frame/drawing.h"
 #include "plane/frame/light_field.h"
 #include "steradian/plane_bounce.h"
+#include "steradian/plane_device.h"
 #include "steradian/plane_stage.h"
 
 namespace steradian::bench {
@@ -53,6 +55,33 @@ Bench warm(const LightField& field, const BenchOptions& options) {
             render_plane_into(*picture, *world, one_thread());
             keep(picture->pixels.front());
           }};
+}
+
+Bench on_device(const LightField& field, const std::string& device) {
+  struct Work {
+    PlaneScene scene;
+    PlaneDevice device;
+    Picture picture;
+  };
+  auto work = std::make_shared<Work>(Work{make_light_field(field, kSeed), PlaneDevice(device), {}});
+  const auto passes = [work] {
+    const PlaneDeviceStats& s = work->device.stats();
+    return std::vector<BenchPass>{{"lists", s.lists_ms},
+                                  {"upload", s.upload_ms},
+                                  {"device", s.device_ms},
+                                  {"resolve", s.resolve_ms},
+                                  {"device: round lights", s.disks_ms},
+                                  {"device: edges", s.cuts_ms}};
+  };
+  return {"vulkan/plane/frame/" + suffix(field),
+          pixels(field),
+          name_of(active_simd()),
+          [work] {
+            work->device.render_into(work->picture, PlaneWorld(work->scene), {});
+            keep(work->picture.pixels.front());
+          },
+          false,
+          passes};
 }
 
 Bench rays(const LightField& field) {
@@ -165,6 +194,11 @@ void add_plane(BenchList& list) {
     list.add("plane/par/" + suffix(field), [field](const BenchOptions&) { return points(field, "par", PlaneMethod::par); });
     list.add("plane/marched/" + suffix(field), [field](const BenchOptions&) { return points(field, "marched", PlaneMethod::marched); });
   }
+}
+
+void add_plane_on_device(BenchList& list, const std::string& device) {
+  for (const LightField& field : kLightFields)
+    list.add("vulkan/plane/frame/" + suffix(field), [field, device](const BenchOptions&) { return on_device(field, device); });
 }
 
 }  // namespace steradian::bench

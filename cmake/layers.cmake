@@ -1,9 +1,10 @@
 # The libraries, from the bottom to the top: steradian::NAME for each layer that STERADIAN_COMPONENTS asks for.
 #   needs      layers below that it stands on, all of them
+#   joins      it is built wherever all that it needs is
 #   packages   what else it asks for, with their libraries; a program that links it needs them too
 #   build_packages, build_libraries  headers that only its own build needs
 #   sources    its files, as a pattern of paths under source/
-set(STERADIAN_LAYERS integrals shadow image scene reference fit plane render)
+set(STERADIAN_LAYERS integrals shadow image scene reference fit plane render plane_vulkan)
 
 # No package at all. The reference methods are part of it: `radiance` answers by them too.
 set(STERADIAN_integrals_sources "^(core|shapes|lobes|reference|integrals)/")
@@ -39,6 +40,12 @@ set(STERADIAN_render_needs integrals shadow scene reference image)
 set(STERADIAN_render_packages TBB "embree 3")
 set(STERADIAN_render_libraries TBB::tbb embree)
 
+set(STERADIAN_plane_vulkan_sources "^plane_vulkan/")
+set(STERADIAN_plane_vulkan_needs plane render)
+set(STERADIAN_plane_vulkan_joins TRUE)
+set(STERADIAN_plane_vulkan_packages TBB)
+set(STERADIAN_plane_vulkan_libraries TBB::tbb)
+
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${STERADIAN_LAYERS})
 else()
@@ -57,6 +64,13 @@ function(steradian_with_needs out)
   endforeach()
   set(found ${STERADIAN_LAYERS})
   foreach(name ${STERADIAN_LAYERS})
+    if(STERADIAN_${name}_joins)
+      set(without ${STERADIAN_${name}_needs})
+      list(REMOVE_ITEM without ${wanted})
+      if(NOT without)
+        list(APPEND wanted ${name})
+      endif()
+    endif()
     if(NOT name IN_LIST wanted)
       list(REMOVE_ITEM found ${name})
     endif()

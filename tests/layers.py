@@ -20,6 +20,7 @@ ROWS = [
     ["studies"],
     ["bench"],
     ["apps/steradian/eval"],
+    ["source/plane_vulkan"],
     ["source/render"],
     ["source/plane", "source/fit"],
     ["source/scene", "source/shadow"],

@@ -185,8 +185,8 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--camera", false, third},
              {"--target-error", false, third},
              {"--resume", false, third},
-             {"--backend", options.backend == "cpu", third},
-             {"--device", false, third},
+             {"--backend", options.frames.empty() || options.backend == "cpu", "one picture, not --frames"},
+             {"--device", options.backend == "vulkan", "--backend vulkan"},
              {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
              {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
              {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
@@ -212,6 +212,8 @@ void run_plane(Options& options) {
   job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
   job.frames = options.frames;
   job.edits = options.edits;
+  job.vulkan = options.backend == "vulkan";
+  job.device = options.render.device;
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
   job.frame.moments = options.moments;

@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/simd.h"
 #include "steradian/error.h"
+#include "steradian/plane_device.h"
 #include "steradian/version.h"
 
 namespace steradian::app {
@@ -64,7 +65,9 @@ void render_plane_scene(const PlaneRender& job) {
     progress->add();
   };
   PlaneFrameStats stats;
-  Picture picture = render_plane(world, options, &stats);
+  std::optional<PlaneDevice> device;
+  if (job.vulkan) device.emplace(job.device);
+  Picture picture = device ? device->render(world, options, &stats) : render_plane(world, options, &stats);
   progress.reset();
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", job.scene},
@@ -77,11 +80,11 @@ void render_plane_scene(const PlaneRender& job) {
   if (bounces) picture.metadata["steradian.bounces"] = job.bounces == kAllBounces ? "all" : std::to_string(job.bounces);
   write_picture(picture, job.output, job.exposure);
   if (job.stats.empty()) return;
-  const nlohmann::ordered_json passes = {{{"name", "prepare"}, {"ms", stats.prepare_ms}}, {{"name", "frame"}, {"ms", stats.frame_ms}}};
+  nlohmann::ordered_json passes = {{{"name", "prepare"}, {"ms", stats.prepare_ms}}, {{"name", "frame"}, {"ms", stats.frame_ms}}};
   nlohmann::ordered_json json = {{"version", version()},
                                  {"command", command_line()},
-                                 {"backend", "cpu"},
-                                 {"device", "cpu"},
+                                 {"backend", device ? "vulkan" : "cpu"},
+                                 {"device", device ? device->name() : "cpu"},
                                  {"simd", name_of(active_simd())},
                                  {"threads", stats.threads},
                                  {"width", picture.width},
@@ -94,6 +97,16 @@ void render_plane_scene(const PlaneRender& job) {
                                  {"method", name_of(options.method)},
                                  {"passes", passes},
                                  {"total_ms", stats.prepare_ms + stats.frame_ms}};
+  if (device) {
+    // Parts of the frame's time; those of the device are its own clock's.
+    const PlaneDeviceStats& d = device->stats();
+    const std::pair<const char*, double> parts[] = {{"frame: lists", d.lists_ms},         {"frame: upload", d.upload_ms},
+                                                    {"frame: device", d.device_ms},       {"frame: resolve", d.resolve_ms},
+                                                    {"device: round lights", d.disks_ms}, {"device: edges", d.cuts_ms},
+                                                    {"device: arcs", d.arcs_ms}};
+    for (const auto& [name, ms] : parts) json["passes"].push_back({{"name", name}, {"ms", ms}});
+    json["tiles"] = {{"on_device", d.tiles - d.tiles_of_cpu}, {"on_cpu", d.tiles_of_cpu}, {"bytes", d.bytes}};
+  }
   if (bounces) {
     const PlaneBounceStats& b = bounces->stats();
     json["bounces"] = {{"elements", b.elements}, {"rounds", b.rounds}, {"sweeps", b.sweeps}, {"ms", b.ms}, {"error", b.error}};

@@ -15,6 +15,8 @@ struct PlaneRender {
   int bounces = 0;     // kAllBounces: all
   std::string frames;  // A..B; empty: one picture
   std::string edits;   // of frames
+  bool vulkan = false;
+  std::string device;  // of vulkan
   Limits limits;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "plane/frame/hull.h"
 
@@ -43,9 +44,9 @@ class Squares {
   EventSquares squares_;
 };
 
-float slack_of(const FrameScene& frame) { return static_cast<float>(std::max(frame.slack, 1e-3)); }
-
 }  // namespace
+
+float slack_of(const FrameScene& frame) { return static_cast<float>(std::max(frame.slack, 1e-3)); }
 
 EventWalk::EventWalk(const FrameScene& frame, const PixelGrid& grid) : frame_(frame), grid_(grid), slack_(slack_of(frame)) {
   for (std::size_t e = 0; e < frame.emitters.size(); ++e)
@@ -101,27 +102,59 @@ void EventWalk::split(const std::vector<Entry>& lights, const int* pairs, int x,
   }
 }
 
-void EventWalk::add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general) {
-  const int child = (y - y_64_) / kTileSide * 4 + (x - x_64_) / kTileSide;
-  const Squares blocks(grid_, x, y, 4, slack_);
+namespace {
+
+EventLight event_light(const FrameScene& frame, const TileArea& tile) {
   EventLight light{};
-  light.open = open & blocks.in_picture;
   light.tile_x = tile.center.x;
   light.tile_y = tile.center.y;
-  light.vertices = frame_.vertices.data();
-  light.pairs = frame_.pairs.data();
+  light.vertices = frame.vertices.data();
+  light.pairs = frame.pairs.data();
+  return light;
+}
+
+void set_emitter(EventLight& light, const FrameScene& frame, const Emitter& e) {
+  const PlaneEmission& emission = emission_of(frame, e);
+  light.x = static_cast<float>(e.center.x - light.tile_x);
+  light.y = static_cast<float>(e.center.y - light.tile_y);
+  light.radius = static_cast<float>(e.radius);
+  light.inverse_range = emission.range < 1e300 ? static_cast<float>(1 / emission.range) : 0;
+  light.red = static_cast<float>(emission.radiance.x);
+  light.green = static_cast<float>(emission.radiance.y);
+  light.blue = static_cast<float>(emission.radiance.z);
+}
+
+}  // namespace
+
+void EventWalk::list_lights(int x, int y, const TileArea& tile, TileLists& lists, LeafBuilder& general) {
+  const int child = child_of_64(x, y);
+  EventLight light = event_light(frame_, tile);
+  for (const Entry& entry : of_64_.lights[child]) {
+    const Emitter& e = frame_.emitters[static_cast<std::size_t>(entry.emitter)];
+    set_emitter(light, frame_, e);
+    const int *list = of_64_.pairs[child].data() + entry.begin, *last = list + entry.count;
+    ++tile_lights;
+    tile_blockers += static_cast<std::uint64_t>(entry.count);
+    const auto has_lines = [&](int pair) { return frame_.pairs[static_cast<std::size_t>(pair)].kind <= EventPair::Kind::round; };
+    if (std::all_of(list, last, has_lines) && lists.add(light, list, entry.count)) continue;
+    rest_.blockers.clear();
+    std::transform(list, last, std::back_inserter(rest_.blockers),
+                   [&](int pair) { return frame_.pairs[static_cast<std::size_t>(pair)].blocker; });
+    const auto [whole, visible] = general.build(e, rest_.blockers.data(), rest_.blockers.size());
+    if (visible) lists.add(whole);
+  }
+}
+
+void EventWalk::add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general) {
+  const int child = child_of_64(x, y);
+  const Squares blocks(grid_, x, y, 4, slack_);
+  EventLight light = event_light(frame_, tile);
+  light.open = open & blocks.in_picture;
   light.block = static_cast<float>(4 * std::max(grid_.step.x, grid_.step.y));
   for (const Entry& entry : of_64_.lights[child]) {
     const Emitter& e = frame_.emitters[static_cast<std::size_t>(entry.emitter)];
     light.blocks = blocks.from(e);
-    const PlaneEmission& emission = emission_of(frame_, e);
-    light.x = static_cast<float>(e.center.x - tile.center.x);
-    light.y = static_cast<float>(e.center.y - tile.center.y);
-    light.radius = static_cast<float>(e.radius);
-    light.inverse_range = emission.range < 1e300 ? static_cast<float>(1 / emission.range) : 0;
-    light.red = static_cast<float>(emission.radiance.x);
-    light.green = static_cast<float>(emission.radiance.y);
-    light.blue = static_cast<float>(emission.radiance.z);
+    set_emitter(light, frame_, e);
     const int* list = of_64_.pairs[child].data() + entry.begin;
     table_.add_light(light, list, entry.count, buffer, rest_);
     tile_lights += rest_.lit ? 1 : 0;

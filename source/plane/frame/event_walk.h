@@ -6,9 +6,13 @@
 
 #include "plane/frame/leaf.h"
 #include "plane/frame/scene.h"
+#include "plane/frame/tile_lists.h"
 #include "plane/frame/tiles.h"
 
 namespace steradian::plane {
+
+// How far a line has to be from what it decides about.
+float slack_of(const FrameScene& frame);
 
 class EventWalk {
  public:
@@ -19,6 +23,9 @@ class EventWalk {
   void enter_64(int x, int y);
   // Adds the light on the tile's blocks in `open`; `general` takes what has no rule of its own here.
   void add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general);
+
+  // The same into lists.
+  void list_lights(int x, int y, const TileArea& tile, TileLists& lists, LeafBuilder& general);
 
   std::uint64_t tile_lights = 0, tile_blockers = 0;
 
@@ -35,6 +42,7 @@ class EventWalk {
     std::size_t used[16];
   };
 
+  int child_of_64(int x, int y) const { return (y - y_64_) / kTileSide * 4 + (x - x_64_) / kTileSide; }
   void split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, Children& to) const;
 
   const FrameScene& frame_;

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/budget.h"
-#include "plane/frame/tiles.h"
+#include "plane/frame/frame.h"
 #include "plane/frame/wall_emitters.h"
 #include "steradian/error.h"
 
@@ -66,14 +66,14 @@ void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const P
 }
 
 // A frame of the walls' errors alone, as a layer.
-void add_bounce_error(const PlaneWorld::Impl& world, const PlaneFrameOptions& options, const PixelGrid& grid, Budget& budget,
-                      Picture& picture) {
+void add_bounce_error(const FillTiles& fill, const PlaneWorld::Impl& world, const PlaneFrameOptions& options, const PixelGrid& grid,
+                      Budget& budget, Picture& picture) {
   const FrameLights errors{false, wall_emitters(options.bounces->impl(), WallLight::error)};
   Picture result(picture.width, picture.height);
   PlaneFrameStats unused;
   PlaneFrameOptions silent = options;
   silent.progress = nullptr;
-  render_tiles(prepare_frame(world, budget, errors), silent, grid, result, unused);
+  fill(prepare_frame(world, budget, errors), silent, grid, result, unused);
   picture.layers["bounce_error"] = std::move(result.pixels);
 }
 
@@ -109,9 +109,6 @@ PixelGrid grid_of(const PlaneScene& scene, int width, int height) {
 
 namespace steradian {
 
-using plane::Clock;
-using plane::ms_since;
-
 Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
   Picture picture;
   render_plane_into(picture, world, options, stats);
@@ -119,8 +116,19 @@ Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, 
 }
 
 void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  const plane::FillTiles by_packs = [](const plane::FrameScene& frame, const PlaneFrameOptions& o, const plane::PixelGrid& grid,
+                                       Picture& picture, PlaneFrameStats& counts) { render_tiles(frame, o, grid, picture, counts); };
+  plane::render_plane_with(by_packs, result, world, options, stats);
+}
+
+}  // namespace steradian
+
+namespace steradian::plane {
+
+void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options,
+                       PlaneFrameStats* stats) {
   const PlaneScene& scene = world.scene();
-  const plane::World& inner = world.impl();
+  const World& inner = world.impl();
   const int n = static_cast<int>(std::ceil(std::sqrt(std::max(options.aa, 1)) - 1e-9));
   const int width = options.width > 0 ? options.width : std::max(static_cast<int>(std::lround(scene.width)), 1);
   const int height = options.height > 0 ? options.height : std::max(static_cast<int>(std::lround(scene.height)), 1);
@@ -151,28 +159,28 @@ void render_plane_into(Picture& result, const PlaneWorld& world, const PlaneFram
   for (const PlaneBody& body : scene.bodies) ++(body.light ? own.lights : own.occluders);
   arena.execute([&] {
     const auto start = Clock::now();
-    const plane::PixelGrid grid = plane::grid_of(inner.scene, picture.width, picture.height);
+    const PixelGrid grid = grid_of(inner.scene, picture.width, picture.height);
     if (options.method != PlaneMethod::exact || options.moments) {
-      plane::by_query(world, options, plane::grid_of(scene, picture.width, picture.height), picture);
+      by_query(world, options, grid_of(scene, picture.width, picture.height), picture);
       own.frame_ms = ms_since(start);
     } else {
       try {
-        plane::FrameLights lights;
-        if (options.bounces != nullptr) lights.walls = plane::wall_emitters(options.bounces->impl(), plane::WallLight::radiance);
-        const plane::FrameScene frame = plane::prepare_frame(inner, budget, lights);
+        FrameLights lights;
+        if (options.bounces != nullptr) lights.walls = wall_emitters(options.bounces->impl(), WallLight::radiance);
+        const FrameScene frame = prepare_frame(inner, budget, lights);
         own.prepare_ms = ms_since(start);
         const auto tiles = Clock::now();
-        plane::render_tiles(frame, options, grid, picture, own);
+        fill(frame, options, grid, picture, own);
         own.frame_ms = ms_since(tiles);
-        if (options.bounces != nullptr && options.bounce_error) plane::add_bounce_error(inner, options, grid, budget, picture);
+        if (options.bounces != nullptr && options.bounce_error) add_bounce_error(fill, inner, options, grid, budget, picture);
       } catch (const std::bad_alloc&) {
         throw budget.out_of_memory();
       }
     }
-    plane::draw_occluders(inner, options.occluders, grid, picture);
+    draw_occluders(inner, options.occluders, grid, picture);
   });
   if (stats != nullptr) *stats = own;
-  if (n > 1) result = plane::averaged(picture, n);
+  if (n > 1) result = averaged(picture, n);
 }
 
-}  // namespace steradian
+}  // namespace steradian::plane

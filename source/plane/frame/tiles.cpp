@@ -66,8 +66,10 @@ struct Level {
 // One thread's work.
 class Worker {
  public:
-  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only)
+  // lists: null for the packs.
+  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only, TileLists* lists)
       : only_(only),
+        lists_(lists),
         frame_(frame),
         world_(*frame.world),
         grid_(grid),
@@ -254,6 +256,7 @@ class Worker {
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
     leaf_.enter(tile);
     mark_inside(level, x0, y0);
+    if (lists_ != nullptr) lists_->begin_tile(x0, y0, tile.center);
     // Where something fills every pixel, no light arrives from outside.
     const bool filled =
         marked_.size() == static_cast<std::size_t>(std::min(kTileSide, grid_.width - x0) * std::min(kTileSide, grid_.height - y0));
@@ -263,13 +266,20 @@ class Worker {
       const auto [light, visible] =
           leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
-      table_.add_light(light, buffer_, kAllBlocks);
+      if (lists_ != nullptr)
+        lists_->add(light);
+      else
+        table_.add_light(light, buffer_, kAllBlocks);
       ++tile_lights;
       tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count +
                                                   light.disk_count + light.span_count + light.body_count + light.chord_count +
                                                   light.deep_count + light.round_count + light.lens_count);
     }
-    if (!filled) events_.add_lights(x0, y0, tile, open_blocks(), buffer_, leaf_);
+    if (!filled && lists_ != nullptr)
+      events_.list_lights(x0, y0, tile, *lists_, leaf_);
+    else if (!filled)
+      events_.add_lights(x0, y0, tile, open_blocks(), buffer_, leaf_);
+    if (lists_ != nullptr) lists_->end_tile(filled_pixels());
     table_.write(buffer_, std::min(kTileSide, grid_.width - x0), std::min(kTileSide, grid_.height - y0), &picture_.at(x0, y0).x,
                  3 * static_cast<std::size_t>(grid_.width));
     for (int i : marked_) {
@@ -279,6 +289,12 @@ class Worker {
     if (!level.general.empty()) add_general(level, tile, x0, y0);
     for (int i : marked_) inside_[i] = kOutside;
     marked_.clear();
+  }
+
+  std::bitset<kTilePixels> filled_pixels() const {
+    std::bitset<kTilePixels> filled;
+    for (int i : marked_) filled.set(static_cast<std::size_t>(i));
+    return filled;
   }
 
   // Blocks of which something is not filled.
@@ -411,6 +427,7 @@ class Worker {
 
   static constexpr int kOutside = -1, kDark = -2;
   const TileSet* only_;
+  TileLists* lists_;
   const FrameScene& frame_;
   const World& world_;
   const PixelGrid& grid_;
@@ -446,15 +463,18 @@ bool TileSet::any(int x, int y, int side) const {
   return false;
 }
 
-void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
-                  PlaneFrameStats& stats, const TileSet* only) {
+namespace {
+
+void work_on_squares(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
+                     PlaneFrameStats& stats, const TileSet* only, const ListsOfSquare* lists) {
   const TileTable& table = tile_table_for(active_simd());
   const int columns = (grid.width + kSides[0] - 1) / kSides[0], rows = (grid.height + kSides[0] - 1) / kSides[0];
   std::atomic<std::uint64_t> done{0}, lights{0}, blockers{0};
   tbb::parallel_for(0, columns * rows, [&](int i) {
     if (only != nullptr && !only->any(i % columns * kSides[0], i / columns * kSides[0], kSides[0])) return;
     const FlushDenormals flush;
-    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only);
+    TileLists* own = lists != nullptr ? &(*lists)(static_cast<std::size_t>(i)) : nullptr;
+    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only, own);
     worker->run(i % columns * kSides[0], i / columns * kSides[0]);
     lights += worker->tile_lights;
     blockers += worker->tile_blockers;
@@ -462,6 +482,23 @@ void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, con
   });
   stats.tile_lights = lights;
   stats.tile_blockers = blockers;
+}
+
+}  // namespace
+
+std::size_t squares_of(const PixelGrid& grid) {
+  const auto along = [](int pixels) { return static_cast<std::size_t>((pixels + kSides[0] - 1) / kSides[0]); };
+  return along(grid.width) * along(grid.height);
+}
+
+void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
+                  PlaneFrameStats& stats, const TileSet* only) {
+  work_on_squares(frame, options, grid, picture, stats, only, nullptr);
+}
+
+void list_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, const ListsOfSquare& lists,
+                Picture& picture, PlaneFrameStats& stats) {
+  work_on_squares(frame, options, grid, picture, stats, nullptr, &lists);
 }
 
 }  // namespace steradian::plane

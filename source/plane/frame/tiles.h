@@ -1,10 +1,12 @@
 // The pixels of a frame, tile by tile.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "plane/frame/scene.h"
 #include "plane/frame/tile.h"
+#include "plane/frame/tile_lists.h"
 #include "steradian/picture.h"
 
 namespace steradian::plane {
@@ -31,6 +33,13 @@ struct TileSet {
 // Fills the picture's pixels, or those of some tiles, and the counts of the statistics.
 void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
                   PlaneFrameStats& stats, const TileSet* only = nullptr);
+
+// The same with tiles' light left to the lists of each square of 256 pixels, which are asked for by the square's number, row by row, from
+// any thread. What the host alone knows is in the picture: pixels that something fills, and lights that only the general method serves.
+using ListsOfSquare = std::function<TileLists&(std::size_t square)>;
+std::size_t squares_of(const PixelGrid& grid);
+void list_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, const ListsOfSquare& lists,
+                Picture& picture, PlaneFrameStats& stats);
 PixelGrid grid_of(const PlaneScene& scene, int width, int height);
 
 }  // namespace steradian::plane

@@ -1,0 +1,8 @@
+// Arcs in the plane.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "plane_kinds.glsl"
+#define KIND PLANE_ARCS
+#include "plane.glsl"

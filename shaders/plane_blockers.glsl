@@ -1,0 +1,206 @@
+// Blockers of the general rules: what they take of the slopes from an axis (source/plane/frame/tile_cut.h).
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Components of v along the axis and across it.
+vec2 along_axis(vec2 axis, vec2 v) { return vec2(dot(v, axis), cross2(axis, v)); }
+
+float slope_to(vec2 axis, vec2 v) {
+    vec2 c = along_axis(axis, v - eye);
+    return c.y / c.x;
+}
+
+struct Interval {
+    float from;
+    float to;
+};
+
+// Of two directions, p the clockwise one, that span less than half a turn; empty where both are behind the pixel.
+Interval between(vec2 p, vec2 q) {
+    if (!(p.x > 1.0e-12 || q.x > 1.0e-12)) return Interval(1.0, 0.0);
+    return Interval(slope(p.x, p.y, -kBeyond), slope(q.x, q.y, kBeyond));
+}
+Interval between_in_any_order(vec2 p, vec2 q) {
+    bool swap = cross2(p, q) < 0.0;
+    return between(swap ? q : p, swap ? p : q);
+}
+
+bool is_nearer(uint at) { return number(at) * eye.x + number(at + 1u) * eye.y + number(at + 2u) > 0.0; }
+
+// The outermost of some vertices on one side.
+vec2 outermost(uint at, uint count, float sign_of_side) {
+    vec2 v = pair_of_numbers(at) - eye;
+    for (uint i = 1u; i < count; i++) {
+        vec2 c = pair_of_numbers(at + i * uint(kVertex)) - eye;
+        if (cross2(v, c) * sign_of_side > 0.0) v = c;
+    }
+    return v;
+}
+
+// Slopes of a disk's tangents, the disk in front of the axis.
+float disk_tangent(vec2 axis, uint at, float side) {
+    vec2 v = pair_of_numbers(at) - eye;
+    float radius = number(at + 2u);
+    float root = plane_root(max(dot(v, v) - radius * radius, 0.0));
+    vec2 c = along_axis(axis, vec2(v.x * root - side * v.y * radius, v.y * root + side * v.x * radius));
+    return c.y / c.x;
+}
+
+// An ellipse: centre, half axes x and y, rows of the map to the unit circle.
+struct Round {
+    vec2 center;
+    vec2 axis_x;
+    vec2 axis_y;
+    vec2 row_u;
+    vec2 row_v;
+};
+Round round_at(uint at) {
+    return Round(pair_of_numbers(at), pair_of_numbers(at + 2u), pair_of_numbers(at + 4u), pair_of_numbers(at + 6u),
+                 pair_of_numbers(at + 8u));
+}
+vec2 to_unit(Round r, vec2 v) { return vec2(dot(r.row_u, v), dot(r.row_v, v)); }
+vec2 from_unit(Round r, vec2 n) { return r.axis_x * n.x + r.axis_y * n.y; }
+float outside2(vec2 unit) { return dot(unit, unit) - 1.0; }
+
+// Tangent directions from the pixel, given in unit space: the centre's direction turned by the angle whose sine is 1 / d, to the
+// clockwise side (1) or the other (-1).
+vec2 tangent_direction(Round r, vec2 unit, float side) {
+    float tangent = sqrt(max(outside2(unit), 0.0));
+    return from_unit(r, vec2(-unit.x * tangent - side * unit.y, -unit.y * tangent + side * unit.x));
+}
+
+// On the line from the eye through a point, a share 1 of the way: the share at which it enters the ellipse.
+float entry_before(Round r, vec2 unit, vec2 v) {
+    vec2 n = to_unit(r, v);
+    return min(max(outside2(unit), 0.0) / max(dot(n, n), 1.0e-30), 1.0);
+}
+
+// A round blocker that overlaps the light: which of the two is nearer changes only at a crossing that is seen on both.
+void take_lens(uint at, uint light, vec2 axis) {
+    Round r = round_at(at);
+    int count = int(lists[at + 10u]);
+    uint crossings = at + 11u;
+    vec2 unit = to_unit(r, eye - r.center);
+    vec2 p = along_axis(axis, tangent_direction(r, unit, 1.0));
+    vec2 q = along_axis(axis, tangent_direction(r, unit, -1.0));
+    float first = slope(p.x, p.y, -kBeyond);
+    float last = slope(q.x, q.y, kBeyond);
+    if (!(outside2(unit) > 0.0 && (p.x > 1.0e-12 || q.x > 1.0e-12) && first < last)) return;
+    bool seen[4];
+    float places[4];
+    bool any_seen = false;
+    for (int i = 0; i < count; i++) {
+        uint c = crossings + uint(i * kCrossing);
+        vec2 v = pair_of_numbers(c) - eye;
+        seen[i] = dot(v, pair_of_numbers(c + 2u)) < 0.0 && dot(v, pair_of_numbers(c + 4u)) < 0.0;
+        vec2 along = along_axis(axis, v);
+        places[i] = slope(along.x, along.y, 0.0);
+        any_seen = any_seen || seen[i];
+    }
+    if (!any_seen) {
+        // The order is the same everywhere, also towards the first crossing.
+        vec2 v = pair_of_numbers(crossings) - eye;
+        float light_entry = 1.0;
+        if (int(lists[light]) != 1) {
+            Round own = round_at(light + uint(kLightShape));
+            light_entry = entry_before(own, to_unit(own, eye - own.center), v);
+        }
+        if (!(entry_before(r, unit, v) < light_entry)) return;
+    }
+    // In front from each crossing where it begins to be, up to the next where it ends; from its tangent up to one where it ends and none
+    // has begun.
+    for (int i = 0; i < (any_seen ? count : 1); i++) {
+        if (any_seen && !seen[i]) continue;
+        bool begins_here = lists[crossings + uint(i * kCrossing) + 6u] == 1u;
+        float from = begins_here && any_seen ? places[i] : first;
+        float to = begins_here || !any_seen ? last : places[i];
+        bool counts = true;
+        for (int k = 0; k < count; k++) {
+            if (k == i || !seen[k]) continue;
+            bool other = lists[crossings + uint(k * kCrossing) + 6u] == 1u;
+            if (begins_here && !other && places[k] > places[i]) to = min(to, places[k]);
+            if (!begins_here && other && places[k] < places[i]) counts = false;
+        }
+        if (counts) take(from, to);
+    }
+}
+
+// Leaves the directions in which a spot's light arrives.
+void cut_spot(uint at, vec2 axis) {
+    uint kind = lists[at];
+    if (kind == 0u) return;
+    vec2 l = along_axis(axis, pair_of_numbers(at + 1u));
+    vec2 h = along_axis(axis, pair_of_numbers(at + 3u));
+    bool either = l.x > 1.0e-12 || h.x > 1.0e-12;
+    if (kind == 2u) {
+        // The rest is less than half a turn, from high to low.
+        if (either) take(slope(h.x, h.y, -kBeyond), slope(l.x, l.y, kBeyond));
+        return;
+    }
+    low = max(low, slope(l.x, l.y, -kBeyond));
+    high = either ? min(high, slope(h.x, h.y, kBeyond)) : low;
+}
+
+// Where the lists of a light begin, in the order in which they stand.
+uint length_of_list(uint light, int list) { return lists[light + uint(kLightCounts + list)]; }
+
+void cut_blockers(uint light, vec2 axis) {
+    cut_spot(light + uint(kLightSpot), axis);
+    uint at = light + uint(kLight) + length_of_list(light, 0) * uint(kPart);
+    for (uint n = length_of_list(light, 1); n > 0u; n--) {
+        low = max(low, slope_to(axis, pair_of_numbers(at)));
+        at += uint(kVertex);
+    }
+    for (uint n = length_of_list(light, 2); n > 0u; n--) {
+        high = min(high, slope_to(axis, pair_of_numbers(at)));
+        at += uint(kVertex);
+    }
+    for (uint n = length_of_list(light, 3); n > 0u; n--) {
+        low = max(low, disk_tangent(axis, at, 1.0));
+        at += uint(kDiskBlocker);
+    }
+    for (uint n = length_of_list(light, 4); n > 0u; n--) {
+        high = min(high, disk_tangent(axis, at, -1.0));
+        at += uint(kDiskBlocker);
+    }
+    // The lists one after another, so that drivers compile one `take`.
+    int list = 5;
+    uint left = length_of_list(light, list);
+    while (list < 11 && low < high) {
+        if (left == 0u) {
+            ++list;
+            left = length_of_list(light, list);
+            continue;
+        }
+        --left;
+        Interval taken_here = Interval(1.0, 0.0);
+        if (list == 5) {
+            taken_here = Interval(disk_tangent(axis, at, -1.0), disk_tangent(axis, at, 1.0));
+            at += uint(kDiskBlocker);
+        } else if (list == 6 || list == 7) {
+            uint first_count = lists[at];
+            uint last_count = lists[at + 1u];
+            uint v = at + uint(list == 6 ? kSpan : kBody);
+            vec2 p = along_axis(axis, outermost(v, first_count, -1.0));
+            vec2 q = along_axis(axis, outermost(v + first_count * uint(kVertex), last_count, 1.0));
+            if (list == 6 || lists[at + 2u] == 0u || is_nearer(at + 3u)) taken_here = between(p, q);
+            at = v + (first_count + last_count) * uint(kVertex);
+        } else if (list == 8 || list == 9) {
+            vec2 p = along_axis(axis, pair_of_numbers(at) - eye);
+            vec2 q = along_axis(axis, pair_of_numbers(at + 2u) - eye);
+            if (list == 8 || is_nearer(at + 4u)) taken_here = between_in_any_order(p, q);
+            at += uint(list == 8 ? kChord : kDeep);
+        } else {
+            Round r = round_at(at);
+            vec2 unit = to_unit(r, eye - r.center);
+            vec2 p = along_axis(axis, tangent_direction(r, unit, 1.0));
+            vec2 q = along_axis(axis, tangent_direction(r, unit, -1.0));
+            if (outside2(unit) > 0.0 && is_nearer(at + 10u)) taken_here = between_in_any_order(p, q);
+            at += uint(kRound);
+        }
+        take(taken_here.from, taken_here.to);
+    }
+    for (uint n = length_of_list(light, 11); n > 0u && low < high; n--) {
+        take_lens(at, light, axis);
+        at += uint(kLens);
+    }
+}

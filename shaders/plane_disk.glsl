@@ -1,0 +1,41 @@
+// Round lights: what a part of one sends.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// What a pixel sees of a round light. x is the signed distance at which a ray passes its centre.
+struct DiskView {
+    vec2 to;      // its centre
+    float reach;  // the most x that is seen, either way
+    float d2;     // of the centre; in units of the range, where there is one
+    float rho2;
+    float scale;  // 1 / range, 0 without
+};
+
+DiskView disk_view(vec2 center, float radius, float inverse_range) {
+    DiskView view;
+    view.to = center - eye;
+    view.scale = inverse_range;
+    float unit = inverse_range > 0.0 ? inverse_range : 1.0;
+    vec2 to = view.to * unit;
+    view.d2 = dot(to, to);
+    float rho = radius * unit;
+    view.rho2 = rho * rho;
+    float reach = view.d2 > view.rho2 ? rho : 0.0;
+    if (inverse_range > 0.0 && view.d2 - view.rho2 > 1.0) {
+        // The near side leaves the range before the tangent: law of cosines.
+        float along = 0.5 * (view.d2 + 1.0 - view.rho2);
+        reach = min(sqrt(max(view.d2 - along * along, 0.0)), rho);
+    }
+    view.reach = reach / unit;
+    return view;
+}
+
+float disk_slope(DiskView view, float x) {
+    if (view.scale > 0.0) x *= view.scale;
+    return x * inversesqrt(max(view.d2 - x * x, 1.0e-12));
+}
+
+// Between two rays given by their slopes from the centre's direction.
+float disk_share(DiskView view, float from, float to) {
+    if (view.scale > 0.0) return plane_disk_window(to, view.d2, view.rho2) - plane_disk_window(from, view.d2, view.rho2);
+    return trig_atan2_unwrapped(to - from, 1.0 + from * to);
+}

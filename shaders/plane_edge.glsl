@@ -1,0 +1,136 @@
+// Disks, edges and runs of edges by the general rules (source/plane/frame/tile_pack.cpp).
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+vec3 disk_light(uint at) {
+    DiskView view = disk_view(pair_of_numbers(at + uint(kLightX)), number(at + uint(kLightRadius)), number(at + uint(kLightInverseRange)));
+    float reach = disk_slope(view, view.reach);
+    open_cut(-reach, reach);
+    cut_blockers(at, view.to);
+    float sum = 0.0;
+    float from = low;
+    for (int k = 0; k <= taken; k++) {
+        float to = gap_end(k);
+        if (to > from) sum += disk_share(view, from, to);
+        from = after_gap(k, from);
+    }
+    return colour_at(at + uint(kLightColour)) * (max(sum, 0.0) * kInverseTurn);
+}
+
+// An edge seen from the pixel: slopes are from its perpendicular, and run along it.
+struct Edge {
+    vec2 normal;  // to the lit side
+    float d;      // of its line
+    float foot;   // of the perpendicular, along it
+    float begin;
+    float inverse_d;
+    float q;  // (d / range)^2
+};
+
+Edge edge_of(vec2 point, vec2 normal, float begin, float inverse_range) {
+    Edge e;
+    e.normal = normal;
+    e.d = dot(eye - point, normal);
+    e.foot = cross2(-normal, eye);
+    e.begin = begin;
+    e.inverse_d = 1.0 / max(e.d, 1.0e-6);
+    float in_range = max(e.d, 1.0e-6) * inverse_range;
+    e.q = in_range * in_range;
+    return e;
+}
+
+float slope_along(Edge e, float place) { return clamp((place - e.foot) * e.inverse_d, -kBeyond, kBeyond); }
+
+float reach_of(Edge e) { return sqrt(max(1.0 / max(e.q, 1.0e-30) - 1.0, 0.0)); }
+
+// How it shines.
+struct Emission {
+    bool ranged;
+    bool linear;
+    int profile;
+};
+
+// Integrals over slopes: of the light at the edge's foot, and of its change along the edge.
+vec2 edge_integral(Edge e, Emission emission, float from, float to) {
+    int power = emission.profile == 0 ? 0 : 1;
+    vec2 sum = vec2(0.0);
+    // plane_edge_integral's terms one by one, so that drivers compile one of them: of a range 1, -2 q and q^2 times powers that fall by 2.
+    int terms = emission.ranged ? 3 : 1;
+    int degrees = emission.linear ? 2 : 1;
+    for (int i = 0; i < 2 * terms * degrees; i++) {
+        float t = (i & 1) == 0 ? from : to;
+        int degree = (i >> 1) % degrees;
+        int term = (i >> 1) / degrees;
+        float share = term == 0 ? 1.0 : term == 1 ? -2.0 * e.q : e.q * e.q;
+        float value = ((i & 1) == 0 ? -share : share) * plane_term(degree, power - 2 * term, t, trig_atan2(t, 1.0));
+        if (degree == 0)
+            sum.x += value;
+        else
+            sum.y += value;
+    }
+    return sum;
+}
+
+// One edge of a run, or one that is its own run: what it sends of the slopes that are left of the run's chord.
+vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range) {
+    Edge e = edge_of(pair_of_numbers(part), pair_of_numbers(part + 2u), number(part + 4u), inverse_range);
+    e.d = max(e.d, 1.0e-6);
+    float own_low = slope_along(e, number(part + 4u));
+    float own_high = slope_along(e, number(part + 5u));
+    if (emission.ranged) {
+        float reach = reach_of(e);
+        own_low = max(own_low, -reach);
+        own_high = min(own_high, reach);
+    }
+    // A slope m of the run is the direction axis + m across.
+    vec2 c = along_axis(-e.normal, run_axis);
+    vec2 sum = vec2(0.0);
+    float from = low;
+    for (int k = 0; k <= taken; k++) {
+        float to = gap_end(k);
+        if (to > from) {
+            vec2 a = vec2(c.x - from * c.y, c.y + from * c.x);
+            vec2 b = vec2(c.x - to * c.y, c.y + to * c.x);
+            float own_from = max(slope(a.x, a.y, a.y > 0.0 ? kBeyond : -kBeyond), own_low);
+            float own_to = min(slope(b.x, b.y, b.y > 0.0 ? kBeyond : -kBeyond), own_high);
+            if (own_to > own_from) sum += edge_integral(e, emission, own_from, own_to);
+        }
+        from = after_gap(k, from);
+    }
+    sum *= kInverseTurn;
+    if (emission.profile == 2) sum *= e.inverse_d;
+    return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * ((e.foot - e.begin) * sum.x + sum.y * e.d);
+}
+
+// An edge that is the same in all directions and at all distances, or a chord that stands for such edges, has no parts.
+vec3 edge_light(uint at) {
+    float inverse_range = number(at + uint(kLightInverseRange));
+    uint parts = length_of_list(at, 0);
+    Edge e = edge_of(pair_of_numbers(at + uint(kLightX)), pair_of_numbers(at + uint(kLightNormal)), number(at + uint(kLightBegin)),
+                     inverse_range);
+    vec2 axis = -e.normal;
+    float from = slope_along(e, e.begin);
+    float to = slope_along(e, number(at + uint(kLightEnd)));
+    open_cut(from, e.d > 1.0e-6 ? to : from);
+    cut_blockers(at, axis);
+    if (parts > 0u) {
+        Emission emission;
+        emission.ranged = inverse_range > 0.0;
+        emission.linear = lists[at + uint(kLightLinear)] == 1u;
+        emission.profile = int(lists[at + uint(kLightProfile)]);
+        vec3 light = vec3(0.0);
+        uint part = at + uint(kLight);
+        for (; parts > 0u && low < high; parts--) {
+            light += part_light(part, axis, emission, inverse_range);
+            part += uint(kPart);
+        }
+        return light;
+    }
+    float sum = 0.0;
+    from = low;
+    for (int k = 0; k <= taken; k++) {
+        to = gap_end(k);
+        if (to > from) sum += trig_atan2_unwrapped(to - from, 1.0 + from * to);
+        from = after_gap(k, from);
+    }
+    return colour_at(at + uint(kLightColour)) * (sum * kInverseTurn);
+}

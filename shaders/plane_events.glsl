@@ -1,0 +1,131 @@
+// A round light's blockers by event lines (source/plane/frame/event_lines.h).
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+float number_of_pair(uint pair, int line, int i) { return uintBitsToFloat(pairs[pair + uint(line * 3 + i)]); }
+float pair_line(uint pair, int line, vec2 p) {
+    return number_of_pair(pair, line, 0) * p.x + (number_of_pair(pair, line, 1) * p.y - number_of_pair(pair, line, 2));
+}
+
+// A vertex from the tile's centre.
+vec2 vertex_at(uint number, vec4 center) {
+    vec4 v = vertices[number];
+    return vec2((v.x - center.x) + (v.y - center.y), (v.z - center.z) + (v.w - center.w));
+}
+
+// Where the ray through a vertex passes the light's centre; beyond all of the light where the vertex is behind the pixel.
+float place_on_light(vec2 from_light, vec2 from_eye) {
+    float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+    float ahead = dot(from_eye - from_light, from_eye);
+    if (ahead > 0.0) return across * inversesqrt(max(dot(from_eye, from_eye), 1.0e-30));
+    return across > 0.0 ? 1.0e6 : -1.0e6;
+}
+
+struct RoundEnds {
+    float begin;
+    float end;
+    bool begins_ahead;
+    bool ends_ahead;
+};
+
+RoundEnds round_ends(vec2 to_light, vec2 from_light, float s) {
+    vec2 k = from_light + to_light;
+    float k2 = dot(k, k);
+    float t = plane_root(max(k2 - s * s, 0.0));
+    float across = cross2(to_light, from_light);
+    float ahead = dot(to_light, k);
+    float inverse = 1.0 / max(k2, 1.0e-30);
+    RoundEnds e;
+    e.begin = (t * across - s * ahead) * inverse;
+    e.end = (t * across + s * ahead) * inverse;
+    e.begins_ahead = t * ahead + s * across > 0.0;
+    e.ends_ahead = t * ahead - s * across > 0.0;
+    return e;
+}
+
+float beyond_light(float place) { return place > 0.0 ? 1.0e6 : -1.0e6; }
+
+// A blocker that stands within the light, or that no line decides about.
+void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
+    if (!(pair_line(pair, 2, p) > 0.0)) return;
+    uint first = pairs[pair + uint(kPairFirst)];
+    uint kind = pairs[pair + uint(kPairKind)];
+    if ((kind & 255u) == 1u) {
+        RoundEnds e = round_ends(-p, vertex_at(first, center) - light, uintBitsToFloat(pairs[pair + uint(kPairRadius)]));
+        if (e.begins_ahead || e.ends_ahead) take(e.begins_ahead ? e.begin : -1.0e6, e.ends_ahead ? e.end : 1.0e6);
+        return;
+    }
+    // A vertex behind the pixel is beyond all of the light, on that side of the blocker's nearest point, which is ahead.
+    vec3 line = vec3(number_of_pair(pair, 2, 0), number_of_pair(pair, 2, 1), number_of_pair(pair, 2, 2));
+    vec2 near = line.xy * (line.z / dot(line.xy, line.xy)) - p;
+    float from = 1.0e6;
+    float to = -1.0e6;
+    uint count = kind >> 8;
+    for (uint k = 0u; k < count; k++) {
+        vec2 v = vertex_at(first + k, center);
+        vec2 from_eye = v - eye;
+        vec2 from_light = v - light;
+        float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+        float place = across * inversesqrt(max(dot(from_eye, from_eye), 1.0e-30));
+        if (!(dot(p, from_eye) < 0.0)) place = cross2(near, from_eye) > 0.0 ? 1.0e6 : -1.0e6;
+        from = min(from, place);
+        to = max(to, place);
+    }
+    take(from, to);
+}
+
+// All from one end of the light up to where the blocker ends, or down to where it begins.
+void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
+    uint first = pairs[pair + uint(kPairFirst)];
+    uint kind = pairs[pair + uint(kPairKind)];
+    if ((kind & 255u) == 1u) {
+        RoundEnds e = round_ends(-p, vertex_at(first, center) - light, uintBitsToFloat(pairs[pair + uint(kPairRadius)]));
+        if (from_low)
+            low = max(low, e.ends_ahead ? e.end : beyond_light(e.end));
+        else
+            high = min(high, e.begins_ahead ? e.begin : beyond_light(e.begin));
+        return;
+    }
+    uint chain = pairs[pair + uint(kPairChain)] >> (from_low ? 0 : 16);
+    uint count = kind >> 8;
+    uint k = chain & 255u;
+    uint more = (chain >> 8) & 255u;
+    for (; more > 0u; more--) {
+        vec2 v = vertex_at(first + k, center);
+        float place = place_on_light(v - light, v - eye);
+        low = from_low ? max(low, place) : low;
+        high = from_low ? high : min(high, place);
+        k = k + 1u < count ? k + 1u : 0u;
+    }
+}
+
+vec3 event_light(uint at, vec4 center) {
+    vec2 light = pair_of_numbers(at);
+    DiskView view = disk_view(light, number(at + 2u), number(at + 3u));
+    uint count = lists[at + 7u];
+    float slack = number(2u);
+    vec2 p = eye - light;
+    open_cut(-view.reach, view.reach);
+    for (uint i = 0u; i < count && low < high; i++) {
+        uint pair = lists[at + uint(kDiskLight) + i] * uint(kPair);
+        float separator = pair_line(pair, 2, p);
+        if (pair_line(pair, 0, p) < -slack || pair_line(pair, 1, p) < -slack || separator < -slack) continue;
+        bool beyond = separator > slack && pair_line(pair, 5, p) > slack;
+        bool from_low = beyond && pair_line(pair, 3, p) > slack;
+        bool to_high = beyond && pair_line(pair, 4, p) > slack;
+        if (from_low && to_high)
+            high = low;
+        else if (from_low || to_high)
+            take_end(pair, from_low, p, light, center);
+        else
+            take_within(pair, p, light, center);
+    }
+    float sum = 0.0;
+    float from = max(low, -view.reach);
+    high = min(high, view.reach);
+    for (int k = 0; k <= taken; k++) {
+        float to = gap_end(k);
+        if (to > from) sum += disk_share(view, disk_slope(view, from), disk_slope(view, to));
+        from = after_gap(k, from);
+    }
+    return vec3(number(at + 4u), number(at + 5u), number(at + 6u)) * (max(sum, 0.0) * kInverseTurn);
+}

@@ -1,0 +1,5 @@
+// Names of what a shader of the plane holds.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#define PLANE_DISKS 0
+#define PLANE_CUTS 1
+#define PLANE_ARCS 2

@@ -1,0 +1,20 @@
+// A frame of the plane but for who fills its tiles.
+#pragma once
+
+#include <functional>
+
+#include "plane/frame/scene.h"
+#include "plane/frame/tiles.h"
+#include "steradian/picture.h"
+
+namespace steradian::plane {
+
+// Adds the light of a prepared scene to the picture, which has the grid's size, and says in the statistics what it met.
+using FillTiles = std::function<void(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
+                                     PlaneFrameStats& stats)>;
+
+// As render_plane_into. The method is the exact one, without moments.
+void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options,
+                       PlaneFrameStats* stats);
+
+}  // namespace steradian::plane

@@ -1,0 +1,264 @@
+#include "steradian/plane_device.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+
+#include "plane/frame/event_walk.h"
+#include "plane/frame/frame.h"
+#include "plane_vulkan/recorded_tiles.h"
+#include "plane_vulkan/shaders.h"
+#include "render/vulkan/compute_program.h"
+#include "render/vulkan/direct_light.h"
+#include "steradian/error.h"
+
+namespace steradian::plane {
+namespace {
+
+#include "shaders/plane_layout.glsl"
+
+using Clock = std::chrono::steady_clock;
+using vulkan::Buffer;
+using vulkan::BufferUse;
+
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
+constexpr std::size_t kWordsOfBatch = std::size_t{4} << 20;
+constexpr std::size_t kTilesOfBatch = 8192;
+constexpr std::size_t kWordBytes = sizeof(std::uint32_t);
+constexpr std::size_t kHeader = kJob;  // pixel steps, slack: in the place of a job
+constexpr std::uint32_t kGroupsOfTile = 4;
+
+static_assert(kPixels == kTilePixels);
+
+// A float, and what it leaves.
+struct Split {
+  float most, rest;
+  explicit Split(double x) : most(static_cast<float>(x)), rest(static_cast<float>(x - static_cast<double>(most))) {}
+};
+
+std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
+
+std::uint32_t bytes_of(unsigned a, unsigned b, unsigned c = 0, unsigned d = 0) { return a | b << 8 | c << 16 | d << 24; }
+
+void put_pair(std::uint32_t* to, const EventPair& pair) {
+  for (int line = 0; line < 6; ++line)
+    for (int i = 0; i < 3; ++i) to[line * 3 + i] = bits(pair.lines[line][i]);
+  to[kPairRadius] = bits(pair.radius);
+  to[kPairFirst] = static_cast<std::uint32_t>(pair.first);
+  to[kPairKind] = bytes_of(pair.kind == EventPair::Kind::round ? 1 : 0, pair.count);
+  to[kPairChain] = bytes_of(pair.end_first, pair.ends, pair.begin_first, pair.begins);
+}
+
+}  // namespace
+}  // namespace steradian::plane
+
+namespace steradian {
+
+using namespace plane;
+
+struct PlaneDevice::Impl {
+  explicit Impl(std::shared_ptr<const vulkan::Device> d) : device(std::move(d)), program(usable(*device), plane_shaders(), 4) {
+    for (std::size_t g = 0; g < kLightGroups; ++g) pipelines[g] = program.pipeline(g);
+  }
+
+  // One that holds so many bytes: made anew, with room for half as much again, where it is too small.
+  Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, BufferUse use) {
+    if (buffer == nullptr || buffer->bytes() < bytes) {
+      const std::size_t room = std::min(bytes + bytes / 2, kLargestBuffer);
+      buffer.reset();
+      buffer = std::make_unique<Buffer>(*device, std::max<std::size_t>(room, 4096), use);
+    }
+    return *buffer;
+  }
+
+  // Pairs and vertices that the device has; lights with others go by the general rules.
+  std::size_t upload_pairs(const FrameScene& frame) {
+    const std::size_t vertex_bytes = 4 * sizeof(float) * frame.vertices.size(), most = kLargestBuffer / (kPair * kWordBytes);
+    const std::size_t count = vertex_bytes > kLargestBuffer ? 0 : std::min(frame.pairs.size(), most);
+    auto* to = static_cast<std::uint32_t*>(fitting(pairs, count * kPair * kWordBytes, BufferUse::host_writes).mapped());
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { put_pair(to + i * kPair, frame.pairs[i]); });
+    auto* v = static_cast<float*>(fitting(vertices, count == 0 ? 0 : vertex_bytes, BufferUse::host_writes).mapped());
+    for (std::size_t i = 0; count > 0 && i < frame.vertices.size(); ++i) {
+      const Split x(frame.vertices[i].x), y(frame.vertices[i].y);
+      for (float number : {x.most, x.rest, y.most, y.rest}) *v++ = number;
+    }
+    return count;
+  }
+
+  void fill(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture, PlaneFrameStats& counts);
+  void run(const PixelGrid& grid, float slack, Picture& picture);
+  void resolve(const PixelGrid& grid, Picture& picture);
+
+  const std::shared_ptr<const vulkan::Device> device;
+  vulkan::ComputeProgram program;
+  std::size_t pipelines[kLightGroups];
+  std::unique_ptr<Buffer> lists, pairs, vertices, sums;
+  std::vector<RecordedTiles> squares;
+  struct Listed {
+    const RecordedTiles* of;
+    const RecordedTile* tile;
+  };
+  std::vector<Listed> batch;
+  std::vector<const RecordedTile*> for_cpu;
+  PlaneDeviceStats stats;
+
+ private:
+  static const vulkan::Device& usable(const vulkan::Device& device) {
+    vulkan::check_device(device.info());
+    return device;
+  }
+};
+
+// The batch's tiles on the device, and their sums into the picture.
+void PlaneDevice::Impl::run(const PixelGrid& grid, float slack, Picture& picture) {
+  if (batch.empty()) return;
+  auto start = Clock::now();
+  std::size_t jobs = 0, words = kHeader;
+  int rounds = 0;
+  for (const Listed& l : batch) {
+    jobs += l.tile->jobs;
+    words += l.tile->jobs * kJob + l.tile->words;
+    for (std::size_t k = 0; k < l.tile->jobs; ++k) rounds = std::max(rounds, l.of->jobs(*l.tile)[k].round + 1);
+  }
+  auto* to = static_cast<std::uint32_t*>(fitting(lists, words * kWordBytes, BufferUse::host_writes).mapped());
+  to[0] = bits(static_cast<float>(grid.step.x));
+  to[1] = bits(static_cast<float>(grid.step.y));
+  to[2] = bits(slack);
+  std::uint32_t *job = to + kHeader, *free = job + jobs * kJob;
+  std::vector<bool> begun(batch.size(), false);
+  std::vector<vulkan::ComputeProgram::Dispatch> dispatches;
+  std::vector<double PlaneDeviceStats::*> clocks;
+  for (const LightGroup group : {LightGroup::disks, LightGroup::cuts, LightGroup::arcs})
+    for (int round = 0; round < rounds; ++round) {
+      const auto first = static_cast<std::uint32_t>((job - to) / kJob);
+      std::uint32_t count = 0;
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        const RecordedTile& tile = *batch[i].tile;
+        const RecordedJob *begin = batch[i].of->jobs(tile), *end = begin + tile.jobs;
+        const RecordedJob* one = std::find_if(begin, end, [&](const RecordedJob& j) { return j.group == group && j.round == round; });
+        if (one == end) continue;
+        const Split x(tile.center.x), y(tile.center.y);
+        const std::uint32_t values[kJob] = {static_cast<std::uint32_t>(i),
+                                            static_cast<std::uint32_t>(free - to),
+                                            one->lights,
+                                            bits(x.most),
+                                            bits(x.rest),
+                                            bits(y.most),
+                                            bits(y.rest),
+                                            begun[i] ? 0u : 1u};
+        begun[i] = true;
+        job = std::copy(std::begin(values), std::end(values), job);
+        free = std::copy_n(batch[i].of->words(group) + one->first, one->words, free);
+        ++count;
+      }
+      if (count == 0) continue;
+      dispatches.push_back({pipelines[static_cast<std::size_t>(group)], kGroupsOfTile, count, first});
+      clocks.push_back(group == LightGroup::disks  ? &PlaneDeviceStats::disks_ms
+                       : group == LightGroup::cuts ? &PlaneDeviceStats::cuts_ms
+                                                   : &PlaneDeviceStats::arcs_ms);
+    }
+  Buffer& result = fitting(sums, batch.size() * kTileSums * sizeof(float), BufferUse::host_reads);
+  for (std::size_t i = 0; i < batch.size(); ++i) static_cast<float*>(result.mapped())[i * kTileSums + kToCpu] = 0;
+  stats.upload_ms += ms_since(start);
+
+  start = Clock::now();
+  const std::vector<double> ms = program.run({lists.get(), pairs.get(), vertices.get(), sums.get()}, dispatches);
+  for (std::size_t i = 0; i < ms.size(); ++i) stats.*clocks[i] += ms[i];
+  stats.device_ms += ms_since(start);
+
+  start = Clock::now();
+  resolve(grid, picture);
+  stats.resolve_ms += ms_since(start);
+  stats.tiles += batch.size();
+  batch.clear();
+}
+
+void PlaneDevice::Impl::resolve(const PixelGrid& grid, Picture& picture) {
+  const auto* from = static_cast<const float*>(sums->mapped());
+  tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+    const RecordedTile& tile = *batch[i].tile;
+    const float* red = from + i * kTileSums;
+    for (int y = 0; y < plane::kTileSide && tile.y + y < grid.height; ++y)
+      for (int x = 0; x < plane::kTileSide && tile.x + x < grid.width; ++x) {
+        const int k = y * plane::kTileSide + x;
+        if (!tile.filled[static_cast<std::size_t>(k)])
+          picture.at(tile.x + x, tile.y + y) += Vec3f{red[k], red[kPixels + k], red[2 * kPixels + k]};
+      }
+  });
+  for (std::size_t i = 0; i < batch.size(); ++i)
+    if (from[i * kTileSums + kToCpu] != 0) for_cpu.push_back(batch[i].tile);
+}
+
+void PlaneDevice::Impl::fill(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
+                             PlaneFrameStats& counts) {
+  auto start = Clock::now();
+  const std::size_t on_device = upload_pairs(frame);
+  stats.upload_ms += ms_since(start);
+  start = Clock::now();
+  if (squares.size() < squares_of(grid)) squares.resize(squares_of(grid));
+  for (RecordedTiles& square : squares) square.clear(on_device);
+  const ListsOfSquare lists_of = [&](std::size_t square) -> TileLists& { return squares[square]; };
+  list_tiles(frame, options, grid, lists_of, picture, counts);
+  stats.lists_ms += ms_since(start);
+
+  for_cpu.clear();
+  batch.clear();
+  std::size_t words = 0;
+  for (const RecordedTiles& square : squares)
+    for (const RecordedTile& tile : square.tiles()) {
+      const std::size_t more = tile.words + tile.jobs * kJob;
+      if (tile.for_cpu || (more + kHeader) * kWordBytes > kLargestBuffer) {
+        for_cpu.push_back(&tile);
+        ++stats.tiles;
+        continue;
+      }
+      if (words + more > kWordsOfBatch || batch.size() == kTilesOfBatch) run(grid, slack_of(frame), picture), words = 0;
+      batch.push_back({&square, &tile});
+      words += more;
+    }
+  run(grid, slack_of(frame), picture);
+
+  stats.tiles_of_cpu += for_cpu.size();
+  if (for_cpu.empty()) return;
+  TileSet again(grid);
+  for (const RecordedTile* tile : for_cpu) again.mark(tile->x, tile->y, plane::kTileSide);
+  PlaneFrameOptions silent = options;
+  silent.progress = nullptr;
+  PlaneFrameStats unused;
+  render_tiles(frame, silent, grid, picture, unused, &again);
+}
+
+PlaneDevice::PlaneDevice(const std::string& device)
+    : PlaneDevice(std::make_shared<const vulkan::Device>(vulkan::DeviceOptions{device, false})) {}
+PlaneDevice::PlaneDevice(std::shared_ptr<const vulkan::Device> device) : impl_(std::make_unique<Impl>(std::move(device))) {}
+PlaneDevice::~PlaneDevice() = default;
+PlaneDevice::PlaneDevice(PlaneDevice&&) noexcept = default;
+PlaneDevice& PlaneDevice::operator=(PlaneDevice&&) noexcept = default;
+
+const std::string& PlaneDevice::name() const { return impl_->device->info().name; }
+const PlaneDeviceStats& PlaneDevice::stats() const { return impl_->stats; }
+
+Picture PlaneDevice::render(const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  Picture picture;
+  render_into(picture, world, options, stats);
+  return picture;
+}
+
+void PlaneDevice::render_into(Picture& picture, const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats) {
+  if (options.method != PlaneMethod::exact)
+    throw UsageError("--backend vulkan", std::string("does not have the method ") + name_of(options.method) + " of the plane",
+                     "use exact, or --backend cpu");
+  if (options.moments) throw UsageError("--backend vulkan", "does not have --moments", "use --backend cpu");
+  impl_->stats = {};
+  const FillTiles fill = [this](const FrameScene& frame, const PlaneFrameOptions& o, const PixelGrid& grid, Picture& to,
+                                PlaneFrameStats& counts) { impl_->fill(frame, o, grid, to, counts); };
+  render_plane_with(fill, picture, world, options, stats);
+  for (const auto* buffer : {&impl_->lists, &impl_->pairs, &impl_->vertices, &impl_->sums})
+    if (*buffer != nullptr) impl_->stats.bytes += (*buffer)->bytes();
+}
+
+}  // namespace steradian

@@ -1,0 +1,166 @@
+// The CPU judges the device: whole frames of the plane.
+#include "steradian/plane_device.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "paths.h"
+#include "plane/exact/families.h"
+#include "plane/frame/drawing.h"
+#include "plane/frame/light_field.h"
+#include "render/vulkan/device.h"
+#include "steradian/error.h"
+#include "steradian/plane_bounce.h"
+
+namespace steradian::plane {
+namespace {
+
+PlaneScene scene_of(const std::string& name) {
+  PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/" + name + ".svg").scene;
+  scene.fit = PlaneFit::stretch;
+  return scene;
+}
+
+PlaneFrameOptions sized(int width, int height) {
+  PlaneFrameOptions options;
+  options.width = width;
+  options.height = height;
+  return options;
+}
+
+class VulkanPlane : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (vulkan::list_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  }
+
+  // The bound is the interface's: either is within 1e-5 of the query where its light is 1, and where there is none both are 0.
+  void expect_same(const std::string& name, const PlaneScene& scene, PlaneFrameOptions options, double bound = 1e-5) {
+    const PlaneWorld world(scene);
+    const Picture cpu = render_plane(world, options);
+    PlaneFrameStats stats;
+    const Picture pictured = device().render(world, options, &stats);
+    double squares = 0, errors = 0, largest = 0;
+    for (std::size_t i = 0; i < cpu.pixels.size(); ++i) {
+      const Vec3f off = pictured.pixels[i] - cpu.pixels[i];
+      const auto error = static_cast<double>(dot(off, off));
+      ASSERT_TRUE(std::isfinite(error)) << name << " pixel " << i;
+      squares += static_cast<double>(dot(cpu.pixels[i], cpu.pixels[i]));
+      errors += error;
+      largest = std::max(largest, std::sqrt(error));
+    }
+    const double relative = std::sqrt(errors / std::max(squares, 1e-30));
+    const PlaneDeviceStats& d = device().stats();
+    std::printf("%-24s relative L2 %.1e, largest %.1e; %zu tiles, %zu of them by the CPU; %.0f ms on the device\n", name.c_str(), relative,
+                largest, d.tiles, d.tiles_of_cpu, d.device_ms);
+    EXPECT_LE(relative, bound) << name;
+    EXPECT_GT(d.tiles, d.tiles_of_cpu) << name << ": the device drew something";
+  }
+
+  // Pipelines are made once.
+  static PlaneDevice& device() {
+    static PlaneDevice device;
+    return device;
+  }
+};
+
+TEST_F(VulkanPlane, DrawsTheProjectsScenesAsTheCpu) {
+  for (const char* name : {"lamps", "room", "city"}) expect_same(name, scene_of(name), sized(193, 121));
+}
+
+TEST_F(VulkanPlane, DrawsLightFieldsAsTheCpu) {
+  LightField field = kLightFields[1];
+  field.lights = 12;
+  field.boxes = 90;
+  field.width = 500;
+  field.height = 300;
+  expect_same("field", make_light_field(field, 3), sized(500, 300));
+}
+
+// Every shape with every emission: edges, runs, arcs, spots.
+TEST_F(VulkanPlane, DrawsEveryLightAsTheCpu) {
+  for (const Drawing& drawing : all_drawings()) {
+    // A software device takes its time over outlines of hundreds of edges.
+    if (drawing.shape == "stroke" && drawing.emission != "uniform" && drawing.emission != "gradient") continue;
+    const PlaneFrameOptions size = drawing.shape == "stroke" || drawing.shape == "curve" ? sized(33, 21) : sized(97, 61);
+    // As PlaneFrame: lights divided by the distance are within 3e-5 close to them.
+    expect_same(drawing.shape + "-" + drawing.emission, make_drawing(drawing), size, drawing.emission == "inverse" ? 3e-5 : 1e-5);
+  }
+}
+
+// What overlaps, stands within lights, or hides them: lenses, concave outlines, niches.
+TEST_F(VulkanPlane, DrawsEveryFamilyAsTheCpu) {
+  for (int family = 1; family <= 10; ++family)
+    if (family != 5)  // dark
+      expect_same("family " + std::to_string(family), make_plane_family(family, 1), sized(64, 64));
+}
+
+TEST_F(VulkanPlane, DrawsBouncesAsTheCpu) {
+  const PlaneScene scene = scene_of("bounce");
+  const PlaneWorld world(scene);
+  PlaneBounceOptions how;
+  how.bounces = 2;
+  const PlaneBounces bounces(world, how);
+  PlaneFrameOptions options = sized(96, 64);
+  options.bounces = &bounces;
+  const Picture cpu = render_plane(world, options), pictured = device().render(world, options);
+  double squares = 0, errors = 0;
+  for (std::size_t i = 0; i < cpu.pixels.size(); ++i) {
+    const Vec3f off = pictured.pixels[i] - cpu.pixels[i];
+    squares += static_cast<double>(dot(cpu.pixels[i], cpu.pixels[i]));
+    errors += static_cast<double>(dot(off, off));
+  }
+  EXPECT_LE(std::sqrt(errors / squares), 1e-5);
+}
+
+// More intervals within a light than a thread keeps: a comb before a long light.
+TEST_F(VulkanPlane, LeavesToTheCpuWhatItHasNoRoomFor) {
+  PlaneScene scene;
+  scene.width = scene.height = 128;
+  scene.bodies.push_back(plane_polygon({{2, 2}, {126, 2}, {126, 4}, {2, 4}}));
+  scene.bodies.back().light.emplace();
+  for (int i = 0; i < 40; ++i) {
+    const double x = 4 + 3 * i;
+    scene.bodies.push_back(plane_polygon({{x, 10}, {x + 1, 10}, {x + 1, 11}, {x, 11}}));
+  }
+  expect_same("comb", scene, sized(128, 128));
+  EXPECT_GT(device().stats().tiles_of_cpu, 0u);
+}
+
+TEST_F(VulkanPlane, KeepsItsBuffersFromFrameToFrame) {
+  const PlaneWorld world(scene_of("room"));
+  device().render(world, sized(193, 121));
+  const std::size_t bytes = device().stats().bytes;
+  const Picture first = device().render(world, sized(193, 121)), second = device().render(world, sized(193, 121));
+  EXPECT_EQ(device().stats().bytes, bytes);
+  EXPECT_EQ(std::memcmp(first.pixels.data(), second.pixels.data(), first.pixels.size() * sizeof(Vec3f)), 0);
+}
+
+TEST_F(VulkanPlane, LeavesNothingToTheValidationLayer) {
+  std::shared_ptr<const vulkan::Device> validated;
+  try {
+    validated = std::make_shared<const vulkan::Device>(vulkan::DeviceOptions{"", true});
+  } catch (const Error& e) {
+    GTEST_SKIP() << e.what();
+  }
+  PlaneDevice device(validated);
+  for (const char* name : {"lamps", "room"}) device.render(PlaneWorld(scene_of(name)), sized(96, 60));
+  EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
+}
+
+TEST_F(VulkanPlane, RefusesWhatItDoesNotHave) {
+  const PlaneWorld world(scene_of("lamps"));
+  PlaneFrameOptions options = sized(16, 16);
+  options.method = PlaneMethod::sampled;
+  EXPECT_THROW(device().render(world, options), UsageError);
+  options = sized(16, 16);
+  options.moments = true;
+  EXPECT_THROW(device().render(world, options), UsageError);
+  EXPECT_THROW(PlaneDevice("no such device"), Error);
+}
+
+}  // namespace
+}  // namespace steradian::plane

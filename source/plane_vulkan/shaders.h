@@ -1,0 +1,13 @@
+// The shaders of the plane, compiled at build time and part of the program.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace steradian::plane {
+
+// By LightGroup.
+std::vector<std::span<const std::uint32_t>> plane_shaders();
+
+}  // namespace steradian::plane
