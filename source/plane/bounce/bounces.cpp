@@ -1,6 +1,5 @@
 #include "plane/bounce/bounces.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -131,7 +130,8 @@ class Solver {
   void look_at(const std::vector<char>& fresh) {
     const std::size_t count = elements_.all().size();
     const auto looks = static_cast<std::size_t>(std::count(fresh.begin(), fresh.end(), 1));
-    const std::string what = fmt::format("what {} elements of its walls see of {} edges", looks, world_.curves.size());
+    const std::string what =
+        "what " + std::to_string(looks) + " elements of its walls see of " + std::to_string(world_.curves.size()) + " edges";
     budget_.take_work(world_.scene.name, what, 3 * looks * world_.curves.size() * 150);
     budget_.take_memory(world_.scene.name, what, 3 * looks * (sizeof(Node) + 40 * (sizeof(Visible) + sizeof(Row::Weight))));
     nodes_.resize(count);

@@ -1,5 +1,4 @@
 // Frames of the plane: by tiles where that is possible, pixel by pixel otherwise.
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -139,7 +138,7 @@ void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld&
   Budget budget(options.limits);
   const auto pixels = static_cast<std::uint64_t>(width * n) * static_cast<std::uint64_t>(height * n);
   budget.take_memory(
-      scene.name, fmt::format("a picture of {} x {} pixels (--size makes it smaller)", width * n, height * n),
+      scene.name, "a picture of " + std::to_string(width * n) + " x " + std::to_string(height * n) + " pixels (--size makes it smaller)",
       pixels * sizeof(Vec3f) *
           ((options.moments ? 3 : 1) + (options.bounce_error ? 2 : 0) + (options.occluders == PlaneOccluders::clear ? 1 : 0)) *
           (n > 1 ? 2 : 1));

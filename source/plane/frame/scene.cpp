@@ -1,7 +1,5 @@
 #include "plane/frame/scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -88,8 +86,8 @@ class Preparation {
       if (body(i).light && !(body(i).light->range < 1e8)) pieces += curves;
     }
     Budget look = budget_;
-    const std::string what =
-        fmt::format("the {} pieces of its lights without a range and the {} bodies that may block them", pieces, bodies);
+    const std::string what = "the " + std::to_string(pieces) + " pieces of its lights without a range and the " + std::to_string(bodies) +
+                             " bodies that may block them";
     look.take_work(world_.scene.name, what, pieces * bodies * kPairSteps);
   }
 
@@ -104,7 +102,8 @@ class Preparation {
       if (e.kind == Emitter::Kind::disk) of_disks += within;
       ++pieces;
     }
-    const std::string what = fmt::format("the {} pairs of its {} pieces of light and what may block them", pairs, pieces);
+    const std::string what =
+        "the " + std::to_string(pairs) + " pairs of its " + std::to_string(pieces) + " pieces of light and what may block them";
     budget_.take_work(world_.scene.name, what, pairs * kPairSteps);
     budget_.take_memory(world_.scene.name, what, pairs * kPairBytes);
     frame_.pairs.reserve(of_disks);
@@ -121,7 +120,7 @@ class Preparation {
       ++lights;
       steps += kPixels * (1000 + 4 * world_.curves.size() + 80 * (gradient ? gradient->stops.size() : 0));
     }
-    budget_.take_work(world_.scene.name, fmt::format("its {} lights that are very thin ellipses", lights), steps);
+    budget_.take_work(world_.scene.name, "its " + std::to_string(lights) + " lights that are very thin ellipses", steps);
   }
 
   // Steps that are known only as they are made.

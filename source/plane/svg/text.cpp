@@ -1,9 +1,9 @@
 #include "plane/svg/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 namespace steradian::plane::svg {
 namespace {
@@ -20,8 +20,11 @@ std::string_view trimmed(std::string_view text) {
 
 std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> result;
-  std::istringstream in{std::string(text)};
-  for (std::string w; in >> w;) result.push_back(w);
+  for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+    const auto end = std::find_if(text.begin(), text.end(), is_space);
+    result.emplace_back(text.begin(), end);
+    text.remove_prefix(result.back().size());
+  }
   return result;
 }
 

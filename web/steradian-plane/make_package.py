@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""make_package.py BUILD OUT: builds the module by emscripten in BUILD, and writes the npm package into OUT; in it room.html, the page as one
+file that works without a server.
+"""
+import base64
+import gzip
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+MODULES = ("plane_wasm", "wasm", "bodies", "picture", "index")  # each after those that it imports
+
+
+def build(folder):
+    """The module's path, or what fails, on standard error."""
+    commands = [["cmake", "--build", str(folder)]]
+    if not (folder / "build.ninja").exists():
+        commands.insert(0, ["emcmake", "cmake", "-B", str(folder), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", str(HERE)])
+    for command in commands:
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join(command)}:\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+    return folder / "plane.wasm"
+
+
+def wasm_module(path):
+    packed = base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
+    return f'// The WebAssembly module, zipped, as base64. Made by make_package.py.\nexport const PLANE_WASM = "{packed}";\n'
+
+
+def as_block(name, text):
+    """A module as a block of its own in a script: what it exports is returned, what it imports is taken from the blocks before."""
+    text = re.sub(r'^import \{([^}]*)\} from "\./(\w+)\.js";$', r"const {\1} = from_\2;", text, flags=re.M)
+    given = []
+    for names in re.findall(r"^export \{([^}]*)\};$", text, flags=re.M):
+        given += [n.strip() for n in names.split(",")]
+    given += re.findall(r"^export (?:async )?(?:const|class|function) (\w+)", text, flags=re.M)
+    text = re.sub(r"^export \{[^}]*\};$\n", "", text, flags=re.M)
+    text = re.sub(r"^export ", "", text, flags=re.M)
+    return f"const from_{name} = (() => {{\n{text}return {{ {', '.join(given)} }};\n}})();\n"
+
+
+def room(modules):
+    page = (HERE / "page" / "room.html").read_text()
+    script = "".join(as_block(name, modules[name]) for name in MODULES)
+    script += re.sub(r'^import \{([^}]*)\} from "[^"]*";$', r"const {\1} = from_index;", (HERE / "page" / "room.js").read_text(), flags=re.M)
+    assert "</script" not in script
+    tag = '<script type="module" src="room.js"></script>'
+    assert tag in page
+    return page.replace(tag, '<script type="module">\n' + script + '</script>')
+
+
+def main():
+    wasm, out = build(Path(sys.argv[1])), Path(sys.argv[2])
+    modules = {name: (HERE / "src" / f"{name}.js").read_text() for name in MODULES if name != "plane_wasm"}
+    modules["plane_wasm"] = wasm_module(wasm)
+    (out / "src").mkdir(parents=True, exist_ok=True)
+    for name, text in modules.items():
+        (out / "src" / f"{name}.js").write_text(text)
+    shutil.copy(HERE / "src" / "index.d.ts", out / "src")
+    for name in ("package.json", "README.md", "LICENSE"):
+        shutil.copy(HERE / name, out)
+    (out / "room.html").write_text(room(modules))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""plane_test.py PROGRAM SCRATCH: the package steradian-plane in node and its page in headless Chromium, against the program.
+
+The package is built into SCRATCH. Exit 77 (skipped) where there is no emscripten or no node; without Chromium, the page alone is skipped.
+"""
+import json
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+PACKAGE = HERE.parent
+ROOT = PACKAGE.parent.parent
+sys.path.insert(0, str(PACKAGE.parent))
+sys.dont_write_bytecode = True
+import browser  # noqa: E402
+
+PROGRAM, SCRATCH = sys.argv[1], Path(sys.argv[2])
+SCENES = ["room", "lamps", "city", "bounce"]
+BEHIND = [0, 0, 0.003253776, 0.009677733, 0.015683592, 0.002307676]  # disk of radius 1 behind a square: the open angle over 2 pi
+FRAME = 2e-5  # a frame of a page may be off by this from the query, times what arrives where that is more than 1: as frames of the program
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(77)
+
+
+def eval_plane(scene, points):
+    lines = "".join(json.dumps({"scene": str(scene), "position": p}) + "\n" for p in points)
+    done = subprocess.run([PROGRAM, "eval", "--plane"], input=lines, capture_output=True, text=True)
+    return [json.loads(line)["mean_radiance"] for line in done.stdout.splitlines()]
+
+
+def distance(a, b):
+    return max(abs(x - y) for x, y in zip(a, b))
+
+
+def display(radiance):
+    """The tone curve of the program's .png, in codes."""
+    c = [min(max(x, 0), 1e6) for x in radiance]
+    low = min(c)
+    offset = low - 6.25 * low * low if low < 0.08 else 0.04
+    c = [x - offset for x in c]
+    peak = max(c)
+    if peak >= 0.76:
+        new_peak = 1 - 0.0576 / (peak + 0.24 - 0.76)
+        g = 1 - 1 / (0.15 * (peak - new_peak) + 1)
+        c = [x * new_peak / peak * (1 - g) + new_peak * g for x in c]
+    return [255 * (12.92 * x if x <= 0.0031308 else 1.055 * min(x, 1) ** (1 / 2.4) - 0.055) for x in c]
+
+
+def check_package(package):
+    scenes = [ROOT / "scenes" / "plane" / f"{s}.svg" for s in SCENES]
+    done = subprocess.run(["node", HERE / "plane_test.mjs", package, *scenes], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert all(abs(a - b) < 1e-9 for a, b in zip(found["behind"], BEHIND)), found["behind"]
+    # The same double code, but for the mathematical library: 1e-12 is a thousand roundings of a light.
+    worst = 0.0
+    for path in {q["path"] for q in found["queries"]}:
+        mine = [q for q in found["queries"] if q["path"] == path]
+        for q, want in zip(mine, eval_plane(path, [q["position"] for q in mine])):
+            worst = max(worst, distance(q["radiance"], want) / max(1, *want))
+    print(f"queries, {len(found['queries'])} points: off by at most {worst:.1e} from the program")
+    assert worst < 1e-12, worst
+    for frame in found["frames"]:
+        want = eval_plane(frame["path"], [p["position"] for p in frame["pixels"]])
+        off = max(distance(p["radiance"], w) / max(1, *w) for p, w in zip(frame["pixels"], want))
+        print(f"{Path(frame['path']).name}: light map in {frame['ms']:.0f} ms, 60 pixels off by at most {off:.1e}")
+        assert off < FRAME, off
+    edit = found["edits"][0]
+    svg = SCRATCH / "edited.svg"
+    svg.write_text(edit["svg"])
+    for p, want in zip(edit["points"], eval_plane(svg, [p["position"] for p in edit["points"]])):
+        # The SVG has all digits of a place, but colours and ranges go through a text.
+        assert distance(p["radiance"], want) < 1e-9 * max(1, *want), (p, want)
+    assert distance(edit["again"], edit["points"][1]["radiance"]) < 1e-9, edit
+    assert found["map"]["inside"] == 0 and found["map"]["outside"] == 1, found["map"]
+    assert -found["map"]["radiance"] <= found["map"]["moment"] < -0.9 * found["map"]["radiance"], found["map"]  # all light comes from the left
+    # 200,000 stratified rays of an angle: two edges, each off by less than a ray.
+    assert abs(found["rays"] - BEHIND[3]) < 2 / 200000, found["rays"]
+    for sentence in found["refused"]:
+        print("refused:", sentence)
+        assert not sentence.startswith("not "), sentence
+    assert found["refused"][0].startswith("a.svg:2: <rect>"), found["refused"][0]
+    assert found["refused"][1].startswith("b.svg:2: "), found["refused"][1]
+
+
+def check_manual(package):
+    """The JavaScript of README.md, each piece as a module of its own; a canvas stands for the page's."""
+    pieces = re.findall(r"```js\n(.*?)```", (PACKAGE / "README.md").read_text(), re.DOTALL)
+    assert len(pieces) >= 3, "README.md has lost its JavaScript"
+    svg = json.dumps((ROOT / "scenes" / "plane" / "room.svg").read_text())
+    head = f"const roomSvg = {svg};\n"
+    for i, piece in enumerate(pieces):
+        module = package / f"manual_{i}.mjs"  # beside the package, where its name is known
+        needs_page = "canvas" in piece
+        text = piece if "import" in piece else 'import { Plane } from "steradian-plane";\n' + piece
+        module.write_text(head + text)
+        if needs_page:
+            continue  # check_page draws
+        done = subprocess.run(["node", module], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, f"README.md, piece {i}: {done.stderr}"
+        for line, said in zip(re.findall(r"console\.log\(.*?// (.*)", piece), done.stdout.splitlines()):
+            assert line.strip() == said.strip(), f"README.md says {line}, node {said}"
+    print(f"README.md: {len(pieces)} pieces")
+
+
+def check_page(package, chromium):
+    page = SCRATCH / "visited.html"
+    visitor = (HERE / "visitor.js").read_text()
+    def visited(address):
+        script = f'<script type="module">const ANSWER_TO = "{address}";\n{visitor}</script>'
+        page.write_text((package / "room.html").read_text().replace("</html>", script + "</html>"))
+        return page.as_uri()
+
+    results = json.loads(browser.answer_of(chromium, visited))
+    picture = SCRATCH / "room.png"
+    browser.picture_of(chromium, (package / "room.html").as_uri(), picture)
+    assert results[-1]["what"] != "failed", results[-1]
+    before = None
+    for r in results:
+        assert r["problem"] == "", r
+        scene = SCRATCH / "seen.svg"
+        scene.write_text(r["svg"])
+        assert r["svg"] != before or r["what"] in ("all bounces", "half by rays"), f"{r['what']}: the scene has not changed"
+        before = r["svg"]
+        bounced = ["--bounces", "all"] if r["what"] == "all bounces" else []
+        box = [float(x) for x in re.search(r'viewBox="([^"]*)"', r["svg"]).group(1).split()]
+        # What is under the pointer, with the digits that the page shows.
+        place = [float(x) for x in r["at"].split(",")]
+        if not bounced:
+            want = eval_plane(scene, [place])[0]
+            said = [float(x) for x in r["value"].split()]
+            assert distance(said, want) < 0.6e-5, (r["what"], said, want)
+        # What is shown, in codes of the display.
+        s = max(box[2] / r["width"], box[3] / r["height"])  # all of the scene, in the middle
+        left, top = box[0] + (box[2] - s * r["width"]) / 2, box[1] + (box[3] - s * r["height"]) / 2
+        half = r["what"] == "half by rays"
+        pixels = [p for p in r["shown"] if not half or p[0] < r["width"] / 2 - 1]
+        where = [[left + (x + 0.5) * s, top + (y + 0.5) * s] for x, y, *_ in pixels]
+        if not bounced:
+            off = [distance(display(w), p[2:]) for p, w in zip(pixels, eval_plane(scene, where))]
+            print(f"{r['what']}: {len(off)} pixels, off by at most {max(off):.2f} of 255; {r['tiles']}, {r['light']}")
+            assert max(off) <= 1.01, max(off)  # a code is rounded, and the value may be off by FRAME
+        else:
+            lit = sum(sum(p[2:]) for p in pixels) / len(pixels)
+            direct = sum(sum(display(w)) for w in eval_plane(scene, where)) / len(pixels)
+            print(f"{r['what']}: mean code {lit / 3:.1f}, of direct light {direct / 3:.1f}; error {r['error']}")
+            assert lit > direct + 3, (lit, direct)
+    drawn, tiles = map(int, re.findall(r"\d+", next(r for r in results if r["what"] == "a wall is drawn")["tiles"]))
+    assert 0 < drawn < tiles, "a short wall draws every tile anew"
+    print(f"screenshot: {picture}")
+
+
+def frame_times(package):
+    """Of the room, by the machine's clock: the page's own stands still while it works."""
+    script = f"""
+import {{ Plane }} from {json.dumps((package / "src" / "index.js").as_uri())};
+const text = {json.dumps((PACKAGE / "page" / "room.js").read_text())};
+const plane = await Plane.load(text.match(/`(<svg[^`]*)`/)[1]);
+const call = () => plane.machine.call("plane_draw", plane.handle, 1280, 800, 0, 0);
+const timed = (job) => {{ const t = performance.now(); job(); return performance.now() - t; }};
+const cold = timed(call), lamp = plane.lights.get("candle"), moves = [];
+for (let i = 0; i < 40; ++i) {{ lamp.moveBy(0.5, i % 2 ? -0.3 : 0.2); moves.push(timed(call)); }}
+moves.sort((a, b) => a - b);
+console.log(`the room at 1280 x 800, one thread of WebAssembly: ${{cold.toFixed(0)}} ms cold, ${{moves[20].toFixed(1)}} ms where the candle moves`);
+"""
+    done = subprocess.run(["node", "--input-type=module", "-e", script], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    print(done.stdout.strip())
+
+
+def main():
+    for tool, package in (("emcmake", "emscripten"), ("node", "nodejs"), ("ninja", "ninja-build")):
+        if not shutil.which(tool):
+            skip(f"{tool} is not installed (./dev web, or apt-get install {package})")
+    if not Path("/usr/include/rapidxml").exists():
+        skip("there is no RapidXML (./dev web, or apt-get install librapidxml-dev)")
+    package = SCRATCH / "steradian-plane"
+    SCRATCH.mkdir(parents=True, exist_ok=True)
+    subprocess.run([sys.executable, PACKAGE / "make_package.py", SCRATCH / "build", package], check=True)
+    zipped = len(subprocess.run(["gzip", "-9", "-c", package / "room.html"], capture_output=True, check=True).stdout)
+    print(f"room.html: {zipped / 1000:.0f} KB zipped")
+    check_package(package)
+    check_manual(package)
+    frame_times(package)
+    chromium = browser.find()
+    if chromium is None:
+        print("the page was not tried: there is no Chromium here (apt-get install chromium)")
+        return
+    check_page(package, chromium)
+
+
+if __name__ == "__main__":
+    main()
