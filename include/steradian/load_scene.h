@@ -41,6 +41,7 @@ struct LoadedScene {
   FileFacts file;
   double texture_ms = 0;              // of the reading: its pictures
   std::vector<std::string> warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
+  std::vector<int> mesh_nodes;        // by Scene::meshes: the file's node that it is of
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file

@@ -75,14 +75,9 @@ nlohmann::json parse_json(std::string_view text, const std::string& path, Budget
   }
 }
 
-struct Container {
-  std::string_view json;
-  std::optional<std::span<const std::uint8_t>> binary;
-};
-
 bool is_glb(std::span<const std::uint8_t> file) { return file.size() >= 4 && std::memcmp(file.data(), "glTF", 4) == 0; }
 
-Container split_glb(std::span<const std::uint8_t> file, const std::string& path) {
+GltfContainer split_glb(std::span<const std::uint8_t> file, const std::string& path) {
   const char* hint = "the file may be truncated; export it again";
   if (file.size() < 20) throw Error(path, "header: a .glb has at least 20 bytes, here are " + std::to_string(file.size()), hint);
   const std::uint32_t version = little_endian_32(file.data() + 4);
@@ -92,7 +87,7 @@ Container split_glb(std::span<const std::uint8_t> file, const std::string& path)
   if (length > file.size() || length < 20)
     throw Error(path, "header: length " + std::to_string(length) + ", the file has " + std::to_string(file.size()) + " bytes", hint);
 
-  Container container;
+  GltfContainer container;
   std::size_t at = 12;
   for (int chunk = 0; at < length; ++chunk) {
     const std::string place = path + ": chunk " + std::to_string(chunk);
@@ -231,16 +226,18 @@ std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffe
   return bytes.subspan(offset, length);
 }
 
-GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget) {
+GltfContainer gltf_container(std::span<const std::uint8_t> file, const std::string& path) {
   if (file.empty()) throw Error(path, "the file is empty");
+  if (is_glb(file)) return split_glb(file, path);
+  if (path.ends_with(".glb")) throw Error(path, "does not begin with \"glTF\"", "this is not a .glb file");
+  return {{reinterpret_cast<const char*>(file.data()), file.size()}, {}};
+}
+
+GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget) {
   GltfDocument document;
   document.path = path;
   document.sources = std::make_unique<GltfSources>(GltfSources{budget});
-  Container container{{reinterpret_cast<const char*>(file.data()), file.size()}, {}};
-  if (is_glb(file))
-    container = split_glb(file, path);
-  else if (path.ends_with(".glb"))
-    throw Error(path, "does not begin with \"glTF\"", "this is not a .glb file");
+  const GltfContainer container = gltf_container(file, path);
   document.json = parse_json(container.json, path, budget);
   const JsonCursor root = document.root();
   if (!document.json.is_object()) root.fail("the document must be a JSON object");

@@ -6,8 +6,10 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +39,13 @@ struct GltfDocument {
   std::size_t count(const char* array) const;  // of a top-level array
   JsonCursor object(const char* array, int index) const;
 };
+
+// The two parts of a file: its JSON, and a .glb's binary chunk where it has one.
+struct GltfContainer {
+  std::string_view json;
+  std::optional<std::span<const std::uint8_t>> binary;
+};
+GltfContainer gltf_container(std::span<const std::uint8_t> file, const std::string& path);
 
 // path: for messages, and the place that other files are relative to.
 // The document points into `file`, which must outlive it.

@@ -31,7 +31,7 @@ JsonElements lights_of(const GltfDocument& document, const char* extension) {
   return root ? root->elements("lights") : JsonElements{};
 }
 
-// Calls make(definition, node, transform) for every visible node that carries a light of the extension.
+// Calls make(definition, node's JSON, node) for every visible node that carries a light of the extension.
 template <class Make>
 void for_each_light(const GltfDocument& document, const GltfNodes& nodes, const char* extension, Make make) {
   const auto lights = lights_of(document, extension);
@@ -40,7 +40,7 @@ void for_each_light(const GltfDocument& document, const GltfNodes& nodes, const 
     const auto reference = find_extension(node, extension);
     if (!reference) continue;
     const int light = reference->at("light").as_index(lights.size(), "light");
-    make(lights[static_cast<std::size_t>(light)], node, visible.world);
+    make(lights[static_cast<std::size_t>(light)], node, visible);
   }
 }
 
@@ -56,6 +56,14 @@ double ellipsoid_area(Vec3d x, Vec3d y, Vec3d z) {
   constexpr double p = 1.6075;
   const double a = std::pow(length(x), p), b = std::pow(length(y), p), c = std::pow(length(z), p);
   return 4 * kPi * std::pow((a * b + a * c + b * c) / 3, 1 / p);
+}
+
+// "extras": {"steradian": {"two_sided": true}}: the extension has no word for it.
+bool shines_to_both_sides(const JsonCursor& light) {
+  const auto extras = light.find("extras");
+  if (!extras || !extras->value().is_object()) return false;
+  const auto ours = extras->find("steradian");
+  return ours && ours->value().is_object() && ours->flag("two_sided", false);
 }
 
 AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const Affine& world) {
@@ -91,6 +99,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk, sphere and capsule");
   }
   light.radiance = radiance;
+  light.two_sided = light.is_flat() && shines_to_both_sides(json);
   light.power = luminance(radiance) * area;
   if (!std::isfinite(light.power)) json.fail("the light leaves the range of numbers");
   return light;
@@ -102,6 +111,7 @@ SurfaceMaterial material_of_light(const AreaLight& light) {
   m.base_color = {0, 0, 0, 1};
   m.specular = 0;
   m.metallic = 0;
+  m.double_sided = light.two_sided;
   m.emissive = static_cast<Vec3f>(light.radiance);
   return m;
 }
@@ -175,12 +185,13 @@ Mesh mesh_of_light(const AreaLight& light) {
   return mesh;
 }
 
-void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
-  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor&, const JsonCursor& node, const Affine&) {
+std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
+  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor&, const JsonCursor& node, const GltfNode&) {
     document.budget().take_memory(node.place(), "its light's mesh", kLargestLightMesh);
   });
-  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
-    AreaLight light = read_area_light(json, node, world);
+  std::vector<int> nodes_of_meshes;
+  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
+    AreaLight light = read_area_light(json, node, visible.world);
     if (light.power > 0) {
       Mesh mesh = mesh_of_light(light);
       for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
@@ -188,9 +199,11 @@ void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene
       mesh.triangle_lights.assign(mesh.triangle_count(), static_cast<std::int32_t>(scene.area_lights.size()));
       scene.materials.push_back(material_of_light(light));
       scene.meshes.push_back(std::move(mesh));
+      nodes_of_meshes.push_back(visible.index);
     }
     scene.area_lights.push_back(std::move(light));
   });
+  return nodes_of_meshes;
 }
 
 namespace {
@@ -215,7 +228,8 @@ std::shared_ptr<const LightProfile> read_profile(const GltfDocument& document, c
 void add_profile_lights(const GltfDocument& document, const GltfNodes& nodes, std::vector<PunctualLight>& lights) {
   constexpr const char* kExtension = "EXT_lights_ies";
   std::map<std::string, std::shared_ptr<const LightProfile>> read;  // by place
-  for_each_light(document, nodes, kExtension, [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+  for_each_light(document, nodes, kExtension, [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
+    const Affine& world = visible.world;
     PunctualLight light;
     light.name = json.text("name", node.text("name", ""));
     light.position = world.t;
@@ -238,7 +252,8 @@ void add_profile_lights(const GltfDocument& document, const GltfNodes& nodes, st
 
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes) {
   std::vector<PunctualLight> result;
-  for_each_light(document, nodes, "KHR_lights_punctual", [&](const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+  for_each_light(document, nodes, "KHR_lights_punctual", [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
+    const Affine& world = visible.world;
     PunctualLight light;
     light.name = json.text("name", node.text("name", ""));
     const std::string type = json.at("type").as_text();

@@ -7,8 +7,8 @@
 namespace steradian::scene {
 
 // Appends the area lights of the visible nodes, and for each the mesh and the material by which the camera
-// sees it.
-void add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene);
+// sees it. The nodes of these meshes, in order.
+std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene);
 
 // Of both extensions.
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes);

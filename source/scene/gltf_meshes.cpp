@@ -230,6 +230,7 @@ UsableMesh usable_mesh(const Context& c, const JsonCursor& mesh, std::size_t mat
 // A visible node that shows a mesh.
 struct Placement {
   JsonCursor node;
+  int index;
   const Affine* world;
   int mesh, skin;
 };
@@ -247,20 +248,20 @@ std::vector<Placement> take_placements(const Context& c, const GltfNodes& nodes,
     if (known == meshes.end()) known = meshes.emplace(mesh, usable_mesh(c, c.document.object("meshes", mesh), materials)).first;
     if (known->second.primitives.empty()) continue;
     c.document.budget().take_memory(node.place(), "the vertices and triangles of its mesh", known->second.bytes);
-    result.push_back({node, &visible.world, mesh, skin});
+    result.push_back({node, visible.index, &visible.world, mesh, skin});
   }
   return result;
 }
 
 }  // namespace
 
-std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials,
-                              Warnings& warnings) {
+PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials,
+                         Warnings& warnings) {
   const Context c{document, warnings, document.count("accessors")};
   const std::size_t given_materials = materials.size();
   std::unordered_map<int, UsableMesh> meshes;
   std::unordered_map<int, Skin> skins;
-  std::vector<Mesh> result;
+  PlacedMeshes result;
   for (const Placement& placement : take_placements(c, nodes, given_materials, meshes)) {
     const JsonCursor mesh_json = document.object("meshes", placement.mesh);
     const std::vector<double> weights = morph_weights(placement.node, mesh_json);
@@ -286,7 +287,8 @@ std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nod
       const SurfaceMaterial& m = materials[static_cast<std::size_t>(material)];
       check_texture_sets(m, mesh, warnings);
       complete(mesh, m, warnings);
-      result.push_back(std::move(mesh));
+      result.meshes.push_back(std::move(mesh));
+      result.nodes.push_back(placement.index);
     }
   }
   return result;

@@ -9,9 +9,13 @@
 
 namespace steradian::scene {
 
+struct PlacedMeshes {
+  std::vector<Mesh> meshes;
+  std::vector<int> nodes;  // of each: whose node it is
+};
+
 // Every mesh of every visible node, one Mesh per primitive that makes triangles. Appends a default material
 // to `materials` where a primitive has none.
-std::vector<Mesh> read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials,
-                              Warnings& warnings);
+PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials, Warnings& warnings);
 
 }  // namespace steradian::scene

@@ -90,6 +90,12 @@ void check_reach(const JsonCursor& node, Vec3d p, const std::string& what) {
   throw Error(node.place() + (name.empty() ? "" : " \"" + name + "\""), what + text, "scale the scene down");
 }
 
+Camera camera_at(const Affine& world, double yfov, std::string name) {
+  const Vec3d z = normalized(world.z);
+  const Frame frame = Frame::from_normal_and_tangent(z, world.x);
+  return {std::move(name), world.t, frame.x, frame.y, z, yfov};
+}
+
 GltfNodes read_nodes(const GltfDocument& document) {
   const JsonElements nodes = document.root().elements("nodes");
   std::vector<std::vector<int>> children(nodes.size());

@@ -7,6 +7,7 @@
 
 #include "scene/affine.h"
 #include "scene/gltf_document.h"
+#include "steradian/scene.h"
 
 namespace steradian::scene {
 
@@ -29,6 +30,9 @@ inline bool within_reach(Vec3d p) { return std::fabs(p.x) <= kFarthest && std::f
 
 // Throws Error with the node's name for a point that is not within reach. what: "vertex 3".
 void check_reach(const JsonCursor& node, Vec3d point, const std::string& what);
+
+// The camera of a node: whatever its scales and shears, the view is not turned about its axis, and orthonormal.
+Camera camera_at(const Affine& world, double yfov, std::string name);
 
 // Throws Error for cycles, nodes with two parents, children that do not exist, broken transforms.
 GltfNodes read_nodes(const GltfDocument& document);

@@ -32,16 +32,9 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
     if (type != "perspective") json.at("type").fail("\"" + type + "\" is not a camera", "known are perspective and orthographic");
     const JsonCursor perspective = json.at("perspective");
     perspective.at("yfov");
-    Camera camera;
-    camera.name = json.text("name", node.text("name", "camera" + std::to_string(index)));
-    camera.yfov = perspective.number("yfov", 0, 1e-6, 3.14159);
-    camera.position = visible.world.t;
-    check_reach(node, camera.position, "the camera");
-    camera.z = normalized(visible.world.z);
-    const Frame frame = Frame::from_normal_and_tangent(camera.z, visible.world.x);
-    camera.x = frame.x;
-    camera.y = frame.y;
-    result.push_back(camera);
+    check_reach(node, visible.world.t, "the camera");
+    result.push_back(camera_at(visible.world, perspective.number("yfov", 0, 1e-6, 3.14159),
+                               json.text("name", node.text("name", "camera" + std::to_string(index)))));
   }
   return result;
 }
@@ -110,13 +103,14 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   Scene scene;
   GltfTextures textures(document, scene.images, warnings);
   scene.materials = read_materials(document, textures);
-  scene.meshes = read_meshes(document, nodes, scene.materials, warnings);
+  PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings);
+  scene.meshes = std::move(placed.meshes);
   for (Mesh& mesh : scene.meshes) mesh.casts_shadow = !lets_light_through(scene.materials[static_cast<std::size_t>(mesh.material)]);
   scene.cameras = read_cameras(document, nodes, warnings);
   scene.punctual_lights = read_punctual_lights(document, nodes);
   scale_to_emission(scene, facts.generator, options.light_units, warnings);
   scene.environment = read_image_based_light(document, textures);
-  add_area_lights(document, nodes, scene);
+  for (const int node : add_area_lights(document, nodes, scene)) placed.nodes.push_back(node);
   const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
   std::optional<std::size_t> most;
   if (options.max_lights) most = static_cast<std::size_t>(*options.max_lights);
@@ -145,7 +139,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
     scene.area_lights.push_back(default_light(scene));
   }
   facts.not_supported = warnings.features();
-  return {std::move(scene), std::move(facts), textures.decoding_ms(), warnings.sentences()};
+  return {std::move(scene), std::move(facts), textures.decoding_ms(), warnings.sentences(), std::move(placed.nodes)};
 }
 
 LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {
