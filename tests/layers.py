@@ -19,7 +19,7 @@ ROWS = [
     ["apps/steradian"],
     ["studies"],
     ["bench"],
-    ["apps/steradian/eval"],
+    ["apps/steradian/eval", "apps/viewer"],
     ["source/plane_vulkan"],
     ["source/render"],
     ["source/plane", "source/fit"],

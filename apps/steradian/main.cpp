@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   steradian::app::add_compare(app, exit);
   steradian::app::add_fit(app, exit);
   steradian::app::add_info(app, exit);
+  steradian::app::add_view(app, exit);
 
   // A limit on file sizes is then an error of the write, with the file's name, and not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);

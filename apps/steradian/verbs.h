@@ -22,5 +22,6 @@ void add_render(CLI::App& app, Exit& exit);
 void add_compare(CLI::App& app, Exit& exit);
 void add_fit(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
+void add_view(CLI::App& app, Exit& exit);
 
 }  // namespace steradian::app

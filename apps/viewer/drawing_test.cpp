@@ -1,0 +1,131 @@
+// A drawing under a hand: its bodies, its picture, its file.
+#include "drawing.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "paths.h"
+#include "scene/gltf_test_file.h"
+#include "steradian/error.h"
+
+namespace steradian::view {
+namespace {
+
+const std::string lamps() { return test::kSourceDir + "/scenes/plane/lamps.svg"; }
+
+Picture fresh(const PlaneScene& scene, int width, int height) {
+  PlaneFrameOptions options;
+  options.width = width;
+  options.height = height;
+  return render_plane(PlaneWorld(scene), options);
+}
+
+TEST(ViewPlaneBody, IsFoundByItsInside) {
+  PlaneScene s;
+  s.bodies.push_back(plane_polygon({{0, 0}, {10, 0}, {10, 10}, {0, 10}}));
+  s.bodies[0].contours.push_back({{4, 4}, {4, 6}, {6, 6}, {6, 4}});  // a hole
+  s.bodies.push_back(plane_circle({30, 5}, 4));
+  s.bodies.push_back(plane_circle({32, 5}, 4));
+  PlaneBody capsule;
+  capsule.shape = PlaneBody::Shape::capsule;
+  capsule.contours = {{{50, 0}, {60, 10}}};
+  capsule.radius = 2;
+  s.bodies.push_back(capsule);
+  PlaneBody line;
+  line.shape = PlaneBody::Shape::polyline;
+  line.contours = {{{80, 0}, {80, 10}}};
+  s.bodies.push_back(line);
+  EXPECT_EQ(body_at(s, {1, 1}, 0), 0u);
+  EXPECT_FALSE(body_at(s, {5, 5}, 0)) << "the hole";
+  EXPECT_EQ(body_at(s, {30, 5}, 0), 2u) << "the upper of two";
+  EXPECT_EQ(body_at(s, {27, 5}, 0), 1u);
+  EXPECT_EQ(body_at(s, {56, 5}, 0), 3u);
+  EXPECT_FALSE(body_at(s, {78, 5}, 1));
+  EXPECT_EQ(body_at(s, {78, 5}, 3), 4u) << "a line has no inside, but is near";
+}
+
+TEST(ViewPlaneBody, TurnsAndScalesAboutAPoint) {
+  PlaneBody b = plane_circle({10, 0}, 2);
+  b.light = PlaneEmission{};
+  b.light->spot_axis = {1, 0};
+  const PlaneBody t = turned(b, {0, 0}, std::acos(0.0));
+  EXPECT_NEAR(length(t.center - Vec2d{0, 10}), 0, 1e-12);
+  EXPECT_NEAR(length(t.light->spot_axis - Vec2d{0, 1}), 0, 1e-12);
+  const PlaneBody s = scaled(b, {0, 0}, 3);
+  EXPECT_NEAR(length(s.center - Vec2d{30, 0}), 0, 1e-12);
+  EXPECT_NEAR(length(s.x_axis), 6, 1e-12);
+  EXPECT_EQ(s.light->spot_axis, (Vec2d{1, 0}));
+  EXPECT_NEAR(bounds_of(s).high.x, 36, 1e-12);
+}
+
+TEST(ViewDrawing, ADraggedLampIsDrawnAsASceneFromScratchWouldBe) {
+  Drawing d(lamps(), 320, 200, 0);
+  d.wait_until_settled();
+  EXPECT_EQ(d.picture().pixels, fresh(d.scene(), 320, 200).pixels);
+  const Picture before = d.picture();
+  const Vec2d lamp = d.to_pixel({130, 120});
+  d.press(PointerButton::left, false, lamp);
+  ASSERT_TRUE(d.selection());
+  const Vec2d center = d.scene().bodies[*d.selection()].center;
+  for (int i = 1; i <= 10; ++i) {
+    d.drag(lamp + Vec2d{4.0 * i, 2.0 * i});
+    d.update();
+  }
+  d.release(lamp + Vec2d{40, 20});
+  d.wait_until_settled();
+  EXPECT_NEAR(length(d.scene().bodies[*d.selection()].center - center - Vec2d{80, 40}), 0, 1e-9);
+  EXPECT_EQ(d.picture().pixels, fresh(d.scene(), 320, 200).pixels);
+  EXPECT_NE(d.picture().pixels, before.pixels);
+  d.undo();
+  d.wait_until_settled();
+  EXPECT_EQ(d.picture().pixels, before.pixels) << "a drag is one step";
+  d.redo();
+  d.wait_until_settled();
+  EXPECT_NE(d.picture().pixels, before.pixels);
+}
+
+TEST(ViewDrawing, IsSavedAsAnSvgThatReadsBackAsIt) {
+  Drawing d(lamps(), 160, 100, 0);
+  d.add(true, {20, 20});
+  PlaneBody red = d.scene().bodies.back();
+  red.light->radiance = {2, 0.5, 0.25};
+  d.change(d.scene().bodies.size() - 1, red);
+  d.press(PointerButton::left, false, *d.resize_handle());
+  d.release(*d.resize_handle() + Vec2d{5, 5});
+  d.press(PointerButton::left, false, d.to_pixel({289, 85}));
+  d.release(d.to_pixel({289, 85}));
+  d.remove_selected();
+  d.wait_until_settled();
+  const std::string path = scene::test_path("saved.svg");
+  d.save_scene(path);
+  Drawing again(path, 160, 100, 0);
+  again.wait_until_settled();
+  EXPECT_EQ(again.scene().bodies.size(), d.scene().bodies.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < d.picture().pixels.size(); ++i) {
+    const Vec3f e = again.picture().pixels[i] - d.picture().pixels[i];
+    largest = std::max(largest, static_cast<double>(length(e)));
+  }
+  std::printf("largest difference of a saved drawing's picture: %.2g\n", largest);
+  EXPECT_LT(largest, 1e-5) << "what the frame itself may be off, plane.h";
+  EXPECT_THROW(d.save_scene(scene::test_path("saved.png")), Error);
+}
+
+TEST(ViewDrawing, WhatCannotBeDrawnIsSaidAndUndone) {
+  Drawing d(lamps(), 160, 100, 0);
+  d.wait_until_settled();
+  PlaneBody far = d.scene().bodies[0];
+  far.center = {1e300, 0};
+  d.change(0, far);
+  d.wait_until_settled();
+  EXPECT_NE(d.message(), "");
+  d.undo();
+  d.wait_until_settled();
+  EXPECT_EQ(d.message(), "");
+  EXPECT_EQ(d.picture().pixels, fresh(d.scene(), 160, 100).pixels);
+}
+
+}  // namespace
+}  // namespace steradian::view

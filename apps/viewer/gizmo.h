@@ -1,0 +1,39 @@
+// The handles around what is selected: arrows to move it along the axes of the world, rings to turn it, boxes to scale it.
+//
+// A drag is answered from where it began, not from where it was last: going back with the pointer goes back in the scene.
+#pragma once
+
+#include <optional>
+
+#include "node_pose.h"
+#include "view_camera.h"
+
+namespace steradian::view {
+
+enum class GizmoMode { move, turn, scale };
+// free: in the plane of the picture; of scale all axes alike.
+enum class Handle { none, x, y, z, free };
+
+struct Gizmo {
+  GizmoMode mode = GizmoMode::move;
+  Vec3d origin;
+  double size = 1;                                    // length of an arrow
+  Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // unit; of scale those of the node
+};
+
+// A gizmo that has the same size in every picture: a seventh of its height.
+Gizmo gizmo_at(GizmoMode mode, const Affine& world, const Camera& camera);
+
+// The handle under the pointer, within `reach` pixels.
+Handle handle_at(const Gizmo& gizmo, const Camera& camera, Vec2d pointer, double width, double height, double reach = 8);
+
+// What a drag of a handle from one ray to another means. Nothing where a ray does not meet the handle's line or plane.
+std::optional<Vec3d> drag_move(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to);
+struct Turn {
+  Vec3d axis;
+  double angle = 0;
+};
+std::optional<Turn> drag_turn(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to);
+std::optional<Vec3d> drag_scale(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to);
+
+}  // namespace steradian::view

@@ -1,0 +1,209 @@
+#include "lamps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace steradian::view {
+namespace {
+
+constexpr const char* kArea = "EXT_lights_area";
+constexpr const char* kPunctual = "KHR_lights_punctual";
+constexpr const char* kProfile = "EXT_lights_ies";
+constexpr const char* kStrength = "/extensions/KHR_materials_emissive_strength";
+constexpr double kPi = 3.14159265358979324;
+
+const char* extension_of(LampKind kind) {
+  switch (kind) {
+    case LampKind::area: return kArea;
+    case LampKind::punctual: return kPunctual;
+    case LampKind::profile: return kProfile;
+    case LampKind::mesh: break;
+  }
+  return "";
+}
+
+std::string node_pointer(int node) { return "/nodes/" + std::to_string(node); }
+std::string material_pointer(int material) { return "/materials/" + std::to_string(material); }
+
+// Where the values of a lamp stand.
+std::string values_pointer(const Lamp& lamp) {
+  if (lamp.kind == LampKind::mesh) return material_pointer(lamp.light);
+  if (lamp.kind == LampKind::profile) return node_pointer(lamp.node) + "/extensions/" + kProfile;  // colour and factor are the node's
+  return std::string("/extensions/") + extension_of(lamp.kind) + "/lights/" + std::to_string(lamp.light);
+}
+
+double number(const Document& document, const std::string& pointer, double otherwise) {
+  const Json* found = document.find(pointer);
+  return found != nullptr && found->is_number() ? found->get<double>() : otherwise;
+}
+std::string text(const Document& document, const std::string& pointer, const std::string& otherwise) {
+  const Json* found = document.find(pointer);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : otherwise;
+}
+Vec3d color(const Document& document, const std::string& pointer, Vec3d otherwise) {
+  const Json* found = document.find(pointer);
+  if (found == nullptr || !found->is_array() || found->size() < 3) return otherwise;
+  return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
+}
+
+// Written where it differs from what is there, or from what its absence means.
+template <class T>
+void put(Document& document, const std::string& pointer, const T& value, const T& now, const Json& json) {
+  if (value != now) document.set(pointer, json);
+}
+void put(Document& document, const std::string& pointer, double value, double now) { put(document, pointer, value, now, Json(value)); }
+void put(Document& document, const std::string& pointer, Vec3d value, Vec3d now) {
+  if (!(value == now)) document.set(pointer, Json::array({value.x, value.y, value.z}));
+}
+
+void use_extension(Document& document, const std::string& name) {
+  const Json* used = document.find("/extensionsUsed");
+  if (used != nullptr && std::find(used->begin(), used->end(), Json(name)) != used->end()) return;
+  document.set("/extensionsUsed/" + std::to_string(document.count("/extensionsUsed")), name);
+}
+
+bool shines(const Document& document, int material) {
+  const Vec3d e = color(document, material_pointer(material) + "/emissiveFactor", {});
+  return e.x > 0 || e.y > 0 || e.z > 0;
+}
+
+void add_mesh_lamps(const Document& document, int node, std::vector<Lamp>& lamps) {
+  const int mesh = static_cast<int>(number(document, node_pointer(node) + "/mesh", -1));
+  const Json* primitives = mesh < 0 ? nullptr : document.find("/meshes/" + std::to_string(mesh) + "/primitives");
+  if (primitives == nullptr) return;
+  std::vector<int> seen;
+  for (const Json& primitive : *primitives) {
+    if (!primitive.is_object() || !primitive.contains("material")) continue;
+    const int material = primitive["material"].get<int>();
+    if (std::find(seen.begin(), seen.end(), material) != seen.end() || !shines(document, material)) continue;
+    seen.push_back(material);
+    const std::string name = text(document, node_pointer(node) + "/name", text(document, material_pointer(material) + "/name", "mesh"));
+    lamps.push_back({LampKind::mesh, node, material, name, "mesh"});
+  }
+}
+
+}  // namespace
+
+std::vector<Lamp> lamps_of(const Document& document, const NodeTree& tree) {
+  std::vector<Lamp> lamps;
+  for (const scene::GltfNode& visible : tree.visible()) {
+    const std::string node = node_pointer(visible.index);
+    for (const LampKind kind : {LampKind::area, LampKind::punctual, LampKind::profile}) {
+      const Json* light = document.find(node + "/extensions/" + extension_of(kind) + "/light");
+      if (light == nullptr || !light->is_number_integer()) continue;
+      Lamp lamp{kind, visible.index, light->get<int>(), "", "profile"};
+      const std::string definition = std::string("/extensions/") + extension_of(kind) + "/lights/" + std::to_string(lamp.light);
+      lamp.name = text(document, definition + "/name", text(document, node + "/name", "light " + std::to_string(lamp.light)));
+      if (kind != LampKind::profile) lamp.type = text(document, definition + "/type", "");
+      lamps.push_back(std::move(lamp));
+    }
+    add_mesh_lamps(document, visible.index, lamps);
+  }
+  return lamps;
+}
+
+LampValues values_of(const Document& document, const Lamp& lamp) {
+  const std::string at = values_pointer(lamp);
+  LampValues v;
+  if (lamp.kind == LampKind::mesh) {
+    v.color = color(document, at + "/emissiveFactor", {});
+    v.intensity = number(document, at + kStrength + "/emissiveStrength", 1);
+    const Json* both = document.find(at + "/doubleSided");
+    v.two_sided = both != nullptr && both->is_boolean() && both->get<bool>();
+    return v;
+  }
+  v.color = color(document, at + "/color", {1, 1, 1});
+  v.intensity = number(document, at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"), 1);
+  if (lamp.kind == LampKind::punctual && lamp.type == "spot") {
+    v.inner_angle = number(document, at + "/spot/innerConeAngle", 0);
+    v.outer_angle = number(document, at + "/spot/outerConeAngle", kPi / 4);
+  }
+  if (lamp.kind != LampKind::area) return v;
+  v.type = lamp.type;
+  v.size = number(document, at + "/size", 1);
+  if (lamp.type == "rect") v.aspect = number(document, at + "/rect/aspect", 1);
+  if (lamp.type == "capsule") v.length = number(document, at + "/capsule/length", 1);
+  if (lamp.type == "rect" || lamp.type == "disk") {
+    const Json* both = document.find(at + "/extras/steradian/two_sided");
+    v.two_sided = both != nullptr && both->is_boolean() && both->get<bool>();
+  }
+  return v;
+}
+
+void set_values(Document& document, const Lamp& lamp, const LampValues& values) {
+  const std::string at = values_pointer(lamp);
+  const LampValues now = values_of(document, lamp);
+  if (lamp.kind == LampKind::mesh) {
+    put(document, at + "/emissiveFactor", values.color, now.color);
+    if (values.intensity != now.intensity) {
+      use_extension(document, "KHR_materials_emissive_strength");
+      document.set(at + kStrength + "/emissiveStrength", values.intensity);
+    }
+    if (values.two_sided) put(document, at + "/doubleSided", *values.two_sided, *now.two_sided, Json(*values.two_sided));
+    return;
+  }
+  put(document, at + "/color", values.color, now.color);
+  put(document, at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"), values.intensity, now.intensity);
+  if (values.type && now.type) put(document, at + "/type", *values.type, *now.type, Json(*values.type));
+  if (values.size && now.size) put(document, at + "/size", *values.size, *now.size);
+  if (values.aspect && now.aspect) put(document, at + "/rect/aspect", *values.aspect, *now.aspect);
+  if (values.length && now.length) put(document, at + "/capsule/length", *values.length, *now.length);
+  if (values.two_sided && now.two_sided)
+    put(document, at + "/extras/steradian/two_sided", *values.two_sided, *now.two_sided, Json(*values.two_sided));
+  if (values.inner_angle && now.inner_angle) put(document, at + "/spot/innerConeAngle", *values.inner_angle, *now.inner_angle);
+  if (values.outer_angle && now.outer_angle) put(document, at + "/spot/outerConeAngle", *values.outer_angle, *now.outer_angle);
+}
+
+int add_area_light(Document& document, const std::string& type, Vec3d position, Vec3d direction, double size) {
+  const std::size_t light = document.count(std::string("/extensions/") + kArea + "/lights"), node = document.count("/nodes");
+  use_extension(document, kArea);
+  document.set(std::string("/extensions/") + kArea + "/lights/" + std::to_string(light),
+               {{"type", type}, {"name", "light " + std::to_string(light + 1)}, {"size", size}, {"color", {1, 1, 1}}, {"intensity", 5}});
+  // The light shines along the node's -z.
+  const Frame frame = Frame::from_normal(-normalized(direction));
+  Json json = {{"name", "light " + std::to_string(light + 1)}, {"extensions", {{kArea, {{"light", light}}}}}};
+  document.set("/nodes/" + std::to_string(node), std::move(json));
+  // The rotation of the frame, as a quaternion: turned from z to the frame's z about the axis across both.
+  NodePose pose;
+  pose.translation = position;
+  const Vec3d axis = cross(Vec3d{0, 0, 1}, frame.z);
+  const double angle = std::atan2(length(axis), frame.z.z);
+  if (angle > 1e-9) pose = turned(pose, {}, length(axis) > 1e-9 ? normalized(axis) : Vec3d{1, 0, 0}, angle);
+  set_pose(document, static_cast<int>(node), pose);
+  // A file with scenes lists its nodes; one without shows all.
+  if (document.count("/scenes") > 0) {
+    const std::string list = "/scenes/" + std::to_string(static_cast<int>(number(document, "/scene", 0))) + "/nodes";
+    document.set(list + "/" + std::to_string(document.count(list)), node);
+  }
+  return static_cast<int>(node);
+}
+
+void remove_lamp(Document& document, const Lamp& lamp) {
+  const std::string node = node_pointer(lamp.node);
+  if (lamp.kind == LampKind::mesh) {
+    for (const char* key : {"/mesh", "/skin", "/weights"}) document.erase(node + key);
+    return;
+  }
+  const Json* extensions = document.find(node + "/extensions");
+  document.erase(extensions != nullptr && extensions->size() == 1 ? node + "/extensions" : node + "/extensions/" + extension_of(lamp.kind));
+}
+
+MaterialValues material_values(const Document& document, int material) {
+  const std::string at = material_pointer(material), pbr = at + "/pbrMetallicRoughness";
+  return {text(document, at + "/name", "material " + std::to_string(material)), color(document, pbr + "/baseColorFactor", {1, 1, 1}),
+          number(document, pbr + "/metallicFactor", 1), number(document, pbr + "/roughnessFactor", 1)};
+}
+
+void set_material_values(Document& document, int material, const MaterialValues& values) {
+  const std::string pbr = material_pointer(material) + "/pbrMetallicRoughness";
+  const MaterialValues now = material_values(document, material);
+  if (!(values.base_color == now.base_color)) {
+    const Json* old = document.find(pbr + "/baseColorFactor");
+    const Vec3d c = values.base_color;
+    document.set(pbr + "/baseColorFactor", Json::array({c.x, c.y, c.z, old != nullptr && old->size() == 4 ? old->at(3) : Json(1)}));
+  }
+  put(document, pbr + "/metallicFactor", values.metallic, now.metallic);
+  put(document, pbr + "/roughnessFactor", values.roughness, now.roughness);
+}
+
+}  // namespace steradian::view

@@ -1,0 +1,131 @@
+#include "node_pose.h"
+
+#include <cmath>
+
+#include "core/budget.h"
+
+namespace steradian::view {
+namespace {
+
+std::string node_pointer(int node, const char* key) { return "/nodes/" + std::to_string(node) + "/" + key; }
+
+Json list(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
+
+std::array<double, 4> product(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
+          a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
+}
+
+// Rodrigues' rotation of a vector about a unit axis.
+Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
+}
+
+// What differs from what the file says is written; a value that is glTF's default and not there stays away.
+void put(Document& document, int node, const char* key, const Json& value, const Json& otherwise) {
+  const std::string pointer = node_pointer(node, key);
+  const Json* now = document.find(pointer);
+  if (now != nullptr ? *now == value : value == otherwise) return;
+  document.set(pointer, value);
+}
+
+}  // namespace
+
+NodeTree::NodeTree(const Document& document) {
+  // The nodes alone, judged and multiplied out by the reader of files.
+  Budget budget;
+  scene::GltfDocument nodes;
+  nodes.path = document.file().path;
+  nodes.sources = std::make_unique<scene::GltfSources>(scene::GltfSources{budget});
+  nodes.json = nlohmann::json::object();
+  for (const char* key : {"nodes", "scenes", "scene"})
+    if (const Json* found = document.find(std::string("/") + key)) nodes.json[key] = *found;
+  nodes_ = scene::read_nodes(nodes);
+  parents_.assign(nodes_.world.size(), -1);
+  int index = 0;
+  for (const scene::JsonCursor& node : nodes.root().elements("nodes")) {
+    for (const scene::JsonCursor& child : node.elements("children"))
+      parents_[static_cast<std::size_t>(child.as_index(parents_.size(), "node"))] = index;
+    ++index;
+  }
+}
+
+Affine NodeTree::parent_world(int node) const {
+  const int parent = parents_[static_cast<std::size_t>(node)];
+  return parent < 0 ? Affine{} : world(parent);
+}
+
+Affine inverse(const Affine& a) {
+  const double d = a.determinant();
+  const Vec3d r0 = cross(a.y, a.z) / d, r1 = cross(a.z, a.x) / d, r2 = cross(a.x, a.y) / d;  // rows
+  Affine i{{r0.x, r1.x, r2.x}, {r0.y, r1.y, r2.y}, {r0.z, r1.z, r2.z}, {}};
+  i.t = -i.vector(a.t);
+  return i;
+}
+
+NodePose pose_of(const Document& document, int node) {
+  NodePose pose;
+  const auto numbers = [&](const char* key, std::size_t count) {
+    const Json* found = document.find(node_pointer(node, key));
+    return found != nullptr && found->is_array() && found->size() == count ? found : nullptr;
+  };
+  if (const Json* m = numbers("matrix", 16)) {
+    const auto column = [&](std::size_t c) { return Vec3d{m->at(4 * c), m->at(4 * c + 1), m->at(4 * c + 2)}; };
+    pose.is_matrix = true;
+    pose.matrix = {column(0), column(1), column(2), column(3)};
+    return pose;
+  }
+  if (const Json* t = numbers("translation", 3)) pose.translation = {t->at(0), t->at(1), t->at(2)};
+  if (const Json* s = numbers("scale", 3)) pose.scale = {s->at(0), s->at(1), s->at(2)};
+  if (const Json* r = numbers("rotation", 4))
+    for (std::size_t i = 0; i < 4; ++i) pose.rotation[i] = r->at(i);
+  return pose;
+}
+
+void set_pose(Document& document, int node, const NodePose& pose) {
+  if (pose.is_matrix) {
+    const Affine& m = pose.matrix;
+    document.set(node_pointer(node, "matrix"),
+                 Json::array({m.x.x, m.x.y, m.x.z, 0, m.y.x, m.y.y, m.y.z, 0, m.z.x, m.z.y, m.z.z, 0, m.t.x, m.t.y, m.t.z, 1}));
+    return;
+  }
+  const auto& r = pose.rotation;
+  put(document, node, "translation", list(pose.translation), list({}));
+  put(document, node, "rotation", Json::array({r[0], r[1], r[2], r[3]}), Json::array({0, 0, 0, 1}));
+  put(document, node, "scale", list(pose.scale), list({1, 1, 1}));
+}
+
+NodePose moved(NodePose pose, const Affine& parent, Vec3d by) {
+  const Vec3d local = inverse(parent).vector(by);
+  (pose.is_matrix ? pose.matrix.t : pose.translation) += local;
+  return pose;
+}
+
+NodePose turned(NodePose pose, const Affine& parent, Vec3d axis, double angle) {
+  Vec3d local = normalized(inverse(parent).vector(axis));
+  if (parent.determinant() < 0) angle = -angle;  // a mirror turns the other way
+  if (pose.is_matrix) {
+    for (Vec3d* column : {&pose.matrix.x, &pose.matrix.y, &pose.matrix.z}) *column = rotated(*column, local, angle);
+    return pose;
+  }
+  const double s = std::sin(angle / 2);
+  pose.rotation = product({local.x * s, local.y * s, local.z * s, std::cos(angle / 2)}, pose.rotation);
+  double norm = 0;
+  for (const double q : pose.rotation) norm += q * q;
+  for (double& q : pose.rotation) q /= std::sqrt(norm);
+  return pose;
+}
+
+NodePose scaled(NodePose pose, Vec3d factors) {
+  if (pose.is_matrix) {
+    pose.matrix.x *= factors.x;
+    pose.matrix.y *= factors.y;
+    pose.matrix.z *= factors.z;
+  } else {
+    pose.scale = pose.scale * factors;
+  }
+  return pose;
+}
+
+}  // namespace steradian::view

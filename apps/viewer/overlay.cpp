@@ -1,0 +1,119 @@
+// Over the picture: the handles of what is selected, and marks where lamps without an extent are.
+#include <imgui.h>
+
+#include <cmath>
+
+#include "view_state.h"
+
+namespace steradian::view {
+namespace {
+
+constexpr ImU32 kAxisColors[] = {IM_COL32(235, 80, 70, 255), IM_COL32(110, 200, 70, 255), IM_COL32(80, 140, 250, 255)};
+constexpr ImU32 kBright = IM_COL32(255, 220, 90, 255), kMark = IM_COL32(255, 240, 180, 220), kEdge = IM_COL32(0, 0, 0, 160);
+constexpr double kPi = 3.14159265358979324;
+
+class Overlay {
+ public:
+  Overlay(const Session& session, const Camera& camera, double scale)
+      : session_(session), camera_(camera), scale_(scale), list_(ImGui::GetBackgroundDrawList()) {}
+
+  void mark(Vec3d point, bool selected) const {
+    const auto p = at(point);
+    if (!p) return;
+    list_->AddCircle(*p, 7, kEdge, 0, 4);
+    list_->AddCircle(*p, 7, selected ? kBright : kMark, 0, 2);
+    list_->AddCircleFilled(*p, 2, selected ? kBright : kMark);
+  }
+
+  void handles(const Gizmo& gizmo, Handle hot) const {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3d axis = gizmo.axes[i];
+      const ImU32 color = static_cast<int>(hot) == i + 1 ? kBright : kAxisColors[i];
+      if (gizmo.mode == GizmoMode::turn)
+        ring(gizmo, axis, color);
+      else
+        arrow(gizmo, axis, color);
+    }
+    if (const auto center = at(gizmo.origin); center && gizmo.mode != GizmoMode::turn)
+      list_->AddCircleFilled(*center, 5, hot == Handle::free ? kBright : IM_COL32(230, 230, 230, 255));
+  }
+
+ private:
+  std::optional<ImVec2> at(Vec3d point) const {
+    const auto p = project(camera_, point, session_.size().x, session_.size().y);
+    if (!p || std::fabs(p->x) > 1e5 || std::fabs(p->y) > 1e5) return {};
+    return ImVec2(static_cast<float>(p->x / scale_), static_cast<float>(p->y / scale_));
+  }
+
+  void line(Vec3d a, Vec3d b, ImU32 color) const {
+    const auto p = at(a), q = at(b);
+    if (!p || !q) return;
+    list_->AddLine(*p, *q, kEdge, 5);
+    list_->AddLine(*p, *q, color, 3);
+  }
+
+  void arrow(const Gizmo& gizmo, Vec3d axis, ImU32 color) const {
+    line(gizmo.origin + axis * (0.2 * gizmo.size), gizmo.origin + axis * gizmo.size, color);
+    const auto tip = at(gizmo.origin + axis * gizmo.size);
+    if (!tip) return;
+    if (gizmo.mode == GizmoMode::scale)
+      list_->AddRectFilled({tip->x - 5, tip->y - 5}, {tip->x + 5, tip->y + 5}, color);
+    else
+      list_->AddCircleFilled(*tip, 6, color);
+  }
+
+  void ring(const Gizmo& gizmo, Vec3d axis, ImU32 color) const {
+    constexpr int kSegments = 64;
+    const Frame frame = Frame::from_normal(axis);
+    const auto point = [&](int i) {
+      const double angle = 2 * kPi * i / kSegments;
+      return gizmo.origin + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * gizmo.size;
+    };
+    for (int i = 0; i < kSegments; ++i) line(point(i), point(i + 1), color);
+  }
+
+  const Session& session_;
+  const Camera& camera_;
+  double scale_;
+  ImDrawList* list_;
+};
+
+}  // namespace
+
+namespace {
+
+void draw_plane_handles(const Drawing& drawing, double scale) {
+  if (!drawing.selection()) return;
+  const PlaneBox box = bounds_of(drawing.scene().bodies[*drawing.selection()]);
+  const auto at = [&](Vec2d p) {
+    const Vec2d pixel = drawing.to_pixel(p) / scale;
+    return ImVec2(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
+  };
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  list->AddRect(at(box.low), at(box.high), kEdge, 0, 0, 3);
+  list->AddRect(at(box.low), at(box.high), kBright, 0, 0, 1.5f);
+  const ImVec2 corner = at(box.high);
+  list->AddRectFilled({corner.x - 5, corner.y - 5}, {corner.x + 5, corner.y + 5}, kBright);
+}
+
+}  // namespace
+
+void draw_overlay(ViewState& state, double scale) {
+  if (state.drawing != nullptr) draw_plane_handles(*state.drawing, scale);
+  if (state.session == nullptr || !state.session->has_camera()) return;
+  Session& s = *state.session;
+  const Camera camera = s.camera().camera();
+  const Overlay overlay(s, camera, scale);
+  for (const Lamp& lamp : s.lamps())
+    if (lamp.kind == LampKind::punctual || lamp.kind == LampKind::profile)
+      overlay.mark(s.tree().world(lamp.node).t, lamp.node == s.selection().node);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const Vec2d pointer{static_cast<double>(mouse.x) * scale, static_cast<double>(mouse.y) * scale};
+  if (const auto gizmo = s.gizmo()) overlay.handles(*gizmo, s.dragging() ? s.dragged_handle() : s.handle_under(pointer));
+  if (state.split && !state.error_map) {
+    const float x = state.split_at * ImGui::GetIO().DisplaySize.x;
+    ImGui::GetBackgroundDrawList()->AddLine({x, 0}, {x, ImGui::GetIO().DisplaySize.y}, IM_COL32(255, 255, 255, 180));
+  }
+}
+
+}  // namespace steradian::view

@@ -1,0 +1,331 @@
+// The panel: lights, what is selected, how it is rendered, files, times.
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrals/methods.h"
+#include "keys.h"
+#include "view_state.h"
+
+namespace steradian::view {
+namespace {
+
+// ImGui works in float; what nobody touched keeps its double.
+bool drag_double(const char* label, double& value, float speed, double low, double high, const char* format = "%.3g") {
+  auto v = static_cast<float>(value);
+  if (!ImGui::DragFloat(label, &v, speed, static_cast<float>(low), static_cast<float>(high), format, ImGuiSliderFlags_AlwaysClamp))
+    return false;
+  value = static_cast<double>(v);
+  return true;
+}
+
+bool edit_color(const char* label, Vec3d& color) {
+  float c[3] = {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
+  if (!ImGui::ColorEdit3(label, c, ImGuiColorEditFlags_Float)) return false;
+  color = {std::max(0.0, static_cast<double>(c[0])), std::max(0.0, static_cast<double>(c[1])), std::max(0.0, static_cast<double>(c[2]))};
+  return true;
+}
+
+template <std::size_t N>
+bool choose(const char* label, const char* (&names)[N], int& chosen) {
+  return ImGui::Combo(label, &chosen, names, static_cast<int>(N));
+}
+
+bool edit_area_shape(LampValues& v) {
+  const char* types[] = {"rect", "disk", "sphere", "capsule"};
+  int type = 0;
+  for (int i = 0; i < 4; ++i)
+    if (v.type == types[i]) type = i;
+  bool changed = false;
+  if (v.type && choose("shape", types, type)) {
+    v.type = types[type];
+    changed = true;
+  }
+  if (v.size) changed |= drag_double("size", *v.size, 0.01f, 1e-4, 1e6);
+  if (v.aspect) changed |= drag_double("aspect", *v.aspect, 0.01f, 1e-3, 1e3);
+  if (v.length) changed |= drag_double("length", *v.length, 0.01f, 0, 1e6);
+  return changed;
+}
+
+void lamp_controls(Session& s, const Lamp& lamp) {
+  LampValues v = values_of(s.document(), lamp);
+  bool changed = edit_color("colour", v.color);
+  changed |= drag_double(lamp.kind == LampKind::punctual ? "intensity" : "radiance", v.intensity,
+                         std::max(0.01f, static_cast<float>(v.intensity) * 0.01f), 0, 1e9);
+  changed |= edit_area_shape(v);
+  if (v.two_sided) changed |= ImGui::Checkbox("shines both ways", &*v.two_sided);
+  if (v.outer_angle) changed |= drag_double("outer angle", *v.outer_angle, 0.005f, v.inner_angle.value_or(0) + 0.01, 1.57);
+  if (v.inner_angle) changed |= drag_double("inner angle", *v.inner_angle, 0.005f, 0, v.outer_angle.value_or(1.5) - 0.01);
+  if (!changed) return;
+  set_values(s.document(), lamp, v);
+  s.changed();
+}
+
+void material_controls(Session& s, int material) {
+  MaterialValues v = material_values(s.document(), material);
+  ImGui::TextUnformatted(("material: " + v.name).c_str());
+  bool changed = edit_color("base colour", v.base_color);
+  v.base_color = {std::min(v.base_color.x, 1.0), std::min(v.base_color.y, 1.0), std::min(v.base_color.z, 1.0)};
+  changed |= drag_double("roughness", v.roughness, 0.005f, 0, 1);
+  changed |= drag_double("metalness", v.metallic, 0.005f, 0, 1);
+  if (!changed) return;
+  set_material_values(s.document(), material, v);
+  s.changed();
+}
+
+void selected_controls(Session& s) {
+  const Selection selected = s.selection();
+  if (selected.node < 0) {
+    ImGui::TextDisabled("click on a light or a thing");
+    return;
+  }
+  const char* modes[] = {"move", "turn", "scale"};
+  int mode = static_cast<int>(s.gizmo_mode);
+  if (choose("handles", modes, mode)) s.gizmo_mode = static_cast<GizmoMode>(mode);
+  NodePose pose = pose_of(s.document(), selected.node);
+  if (!pose.is_matrix) {
+    bool changed = drag_double("x", pose.translation.x, 0.01f, -1e6, 1e6, "%.3f");
+    changed |= drag_double("y", pose.translation.y, 0.01f, -1e6, 1e6, "%.3f");
+    changed |= drag_double("z", pose.translation.z, 0.01f, -1e6, 1e6, "%.3f");
+    if (changed) {
+      set_pose(s.document(), selected.node, pose);
+      s.changed();
+    }
+  }
+  for (const Lamp& lamp : s.lamps())
+    if (lamp.node == selected.node) {
+      ImGui::PushID(lamp.light);
+      lamp_controls(s, lamp);
+      ImGui::PopID();
+    }
+  if (selected.material >= 0) material_controls(s, selected.material);
+}
+
+void light_list(Session& s) {
+  const std::vector<Lamp> lamps = s.lamps();
+  if (ImGui::BeginListBox("##lights",
+                          {-1, std::min(8.0f, static_cast<float>(lamps.size()) + 0.5f) * ImGui::GetTextLineHeightWithSpacing()})) {
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::Selectable((lamps[i].name + "  (" + lamps[i].type + ")").c_str(), lamps[i].node == s.selection().node))
+        s.select({lamps[i].node, -1});
+      ImGui::PopID();
+    }
+    ImGui::EndListBox();
+  }
+  for (const char* type : {"rect", "disk", "sphere", "capsule"}) {
+    if (type != std::string("rect")) ImGui::SameLine();
+    if (ImGui::SmallButton((std::string("+ ") + type).c_str())) s.add_light(type);
+  }
+  if (ImGui::SmallButton("delete")) s.remove_selected();
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names = {"auto"};
+  for (const methods::Row& row : methods::all())
+    if (std::find(names.begin(), names.end(), row.name) == names.end()) names.emplace_back(row.name);
+  return names;
+}
+
+bool choose_method(const char* label, std::string& method) {
+  bool changed = false;
+  if (ImGui::BeginCombo(label, method.c_str())) {
+    for (const std::string& name : method_names())
+      if (ImGui::Selectable(name.c_str(), name == method)) {
+        method = name;
+        changed = true;
+      }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+void render_controls(ViewState& state, Session& s) {
+  RenderOptions& o = s.options();
+  bool changed = choose_method("method", o.method);
+  const char* qualities[] = {"draft", "normal", "high"};
+  int quality = static_cast<int>(o.quality);
+  if (choose("quality", qualities, quality)) {
+    o.quality = static_cast<Quality>(quality);
+    changed = true;
+  }
+  const char* shadows[] = {"off", "on", "exact"};
+  int shadow = static_cast<int>(o.shadows);
+  if (choose("shadows", shadows, shadow)) {
+    o.shadows = static_cast<Shadows>(shadow);
+    changed = true;
+  }
+  bool bounce = o.indirect.mode == IndirectMode::ltc;
+  if (ImGui::Checkbox("one bounce", &bounce)) {
+    o.indirect.mode = bounce ? IndirectMode::ltc : IndirectMode::off;
+    changed = true;
+  }
+  if (bounce && ImGui::SliderInt("virtual lights", &o.indirect.virtual_lights, 64, 1 << 20, "%d", ImGuiSliderFlags_Logarithmic))
+    changed = true;
+  if (ImGui::SliderInt("samples a pixel", &o.aa, 1, 16)) changed = true;
+
+  bool other = ImGui::Checkbox("split screen", &state.split);
+  ImGui::SameLine();
+  other |= ImGui::Checkbox("error map", &state.error_map);
+  if (state.split || state.error_map) {
+    std::string& method = state.other_method;
+    other |= choose_method("beside", method);
+    if (state.split && !state.error_map && ImGui::SliderFloat("split at", &state.split_at, 0, 1)) state.display_wanted = true;
+    if (state.error_map && ImGui::SliderFloat("white at", &state.error_most, 1e-4f, 10, "%.4f of the mean", ImGuiSliderFlags_Logarithmic))
+      state.display_wanted = true;
+  }
+  if (other) choose_other(state);
+  if (changed) {
+    choose_other(state);
+    s.changed();
+  }
+}
+
+void times(ViewState& state, Session& s) {
+  const RenderedFrame& frame = s.frame();
+  ImGui::Text("%d x %d%s, %.0f ms", frame.picture.width, frame.picture.height, s.settled() ? "" : " ...", frame.stats.total_ms);
+  const std::vector<float> ms(state.frame_ms.begin(), state.frame_ms.end());
+  if (!ms.empty())
+    ImGui::PlotLines("##ms", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, *std::max_element(ms.begin(), ms.end()), {-1, 40});
+  for (const PassTime& pass : frame.stats.passes) {
+    const double share = frame.stats.total_ms > 0 ? pass.ms / frame.stats.total_ms : 0;
+    ImGui::ProgressBar(static_cast<float>(std::min(share, 1.0)), {-1, ImGui::GetTextLineHeight()}, "");
+    ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + 6);
+    ImGui::Text("%s %.1f ms", pass.name.c_str(), pass.ms);
+  }
+  if (!frame.other_stats.method.empty() && (state.split || state.error_map))
+    ImGui::Text("beside: %s, %.0f ms", frame.other_stats.method.c_str(), frame.other_stats.total_ms);
+}
+
+const char* name_of(const PlaneBody& body) {
+  switch (body.shape) {
+    case PlaneBody::Shape::polygon: return "polygon";
+    case PlaneBody::Shape::polyline: return "line";
+    case PlaneBody::Shape::ellipse: return "ellipse";
+    case PlaneBody::Shape::capsule: return "stroke";
+  }
+  return "";
+}
+
+void body_list(Drawing& d) {
+  const auto& bodies = d.scene().bodies;
+  if (ImGui::BeginListBox("##bodies", {-1, 8 * ImGui::GetTextLineHeightWithSpacing()})) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const std::string name = bodies[i].name.empty() ? name_of(bodies[i]) : bodies[i].name;
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::Selectable(((bodies[i].light ? "lamp: " : "blocker: ") + name).c_str(), d.selection() == i)) d.select(i);
+      ImGui::PopID();
+    }
+    ImGui::EndListBox();
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const Vec2d middle{static_cast<double>(size.x) / 2, static_cast<double>(size.y) / 2};
+  if (ImGui::SmallButton("+ lamp")) d.add(true, middle);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("+ blocker")) d.add(false, middle);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("delete")) d.remove_selected();
+}
+
+void body_controls(Drawing& d) {
+  if (!d.selection()) {
+    ImGui::TextDisabled("click on a lamp or a blocker");
+    return;
+  }
+  PlaneBody body = d.scene().bodies[*d.selection()];
+  const PlaneBox box = bounds_of(body);
+  bool changed = false;
+  Vec2d middle = box.middle();
+  if (drag_double("x", middle.x, 0.5f, -1e6, 1e6, "%.1f") | drag_double("y", middle.y, 0.5f, -1e6, 1e6, "%.1f")) {
+    body = moved(std::move(body), middle - box.middle());
+    changed = true;
+  }
+  double width = box.high.x - box.low.x;
+  if (const double before = width; before > 0 && drag_double("width", width, 0.5f, 0.1, 1e6, "%.1f")) {
+    body = scaled(std::move(body), box.middle(), width / before);
+    changed = true;
+  }
+  double turn = 0;
+  if (drag_double("turn", turn, 0.5f, -180, 180, "%.0f degrees")) {
+    body = turned(std::move(body), box.middle(), turn * 3.14159265358979324 / 180);
+    changed = true;
+  }
+  if (body.light && !body.light->gradient) changed |= edit_color("radiance", body.light->radiance);
+  if (!body.light) changed |= edit_color("colour", body.color);
+  if (changed) d.change(*d.selection(), std::move(body));
+}
+
+void drawing_times(ViewState& state, const Drawing& d) {
+  ImGui::Text("%.1f ms, %zu of %zu tiles drawn", d.stats().ms, d.stats().drawn, d.stats().tiles);
+  const std::vector<float> ms(state.frame_ms.begin(), state.frame_ms.end());
+  if (!ms.empty())
+    ImGui::PlotLines("##ms", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, *std::max_element(ms.begin(), ms.end()), {-1, 40});
+}
+
+}  // namespace
+
+void draw_panel(ViewState& state) {
+  ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({290, std::max(200.0f, ImGui::GetIO().DisplaySize.y - 16)}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowBgAlpha(0.8f);
+  ImGui::Begin("steradian", &state.panel, ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PushItemWidth(150);
+  if (state.session != nullptr) {
+    Session& s = *state.session;
+    if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) light_list(s);
+    if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) selected_controls(s);
+    if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) render_controls(state, s);
+  }
+  if (state.drawing != nullptr) {
+    if (ImGui::CollapsingHeader("Bodies", ImGuiTreeNodeFlags_DefaultOpen)) body_list(*state.drawing);
+    if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) body_controls(*state.drawing);
+  }
+  if (ImGui::SliderFloat("exposure", &state.exposure, -8, 8, "%.2f stops")) state.display_wanted = true;
+  ImGui::SameLine();
+  if (ImGui::SmallButton("auto")) state.exposure_known = false;
+  if (ImGui::CollapsingHeader("Files", ImGuiTreeNodeFlags_DefaultOpen)) {
+    ImGui::InputText("##scene", &state.scene_name);
+    ImGui::SameLine();
+    if (ImGui::Button("save scene")) attempt(state, [&] { state.stage->save_scene(state.scene_name); });
+    ImGui::InputText("##picture", &state.picture_name);
+    ImGui::SameLine();
+    if (ImGui::Button("save picture")) attempt(state, [&] { state.stage->save_picture(state.picture_name, state.exposure); });
+  }
+  if (state.session != nullptr && ImGui::CollapsingHeader("Times")) times(state, *state.session);
+  if (state.drawing != nullptr && ImGui::CollapsingHeader("Times")) drawing_times(state, *state.drawing);
+  ImGui::TextDisabled("F1: keys");
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+void draw_message(const ViewState& state) {
+  if (state.stage->message().empty()) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x - 8, size.y - 8}, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowSize({std::min(420.0f, size.x - 16), 0});
+  ImGui::Begin(
+      "##message", nullptr,
+      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 150, 120, 255));
+  ImGui::TextWrapped("%s", state.stage->message().c_str());
+  ImGui::PopStyleColor();
+  ImGui::End();
+}
+
+void draw_help(ViewState& state) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::Begin("Keys", &state.help, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+  for (const KeyBinding& binding : key_bindings()) {
+    ImGui::TextUnformatted(std::string(binding.key).c_str());
+    ImGui::SameLine(110);
+    ImGui::TextUnformatted(std::string(binding.help).c_str());
+  }
+  ImGui::Separator();
+  ImGui::TextUnformatted("left: select, drag a handle, orbit    middle, Shift+left: pan\nright: look around    wheel: nearer and farther");
+  ImGui::End();
+}
+
+}  // namespace steradian::view

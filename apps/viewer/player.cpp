@@ -1,0 +1,208 @@
+#include "player.h"
+
+#include <filesystem>
+
+#include "steradian/error.h"
+
+namespace steradian::view {
+namespace {
+
+double number_of(const std::string& what, const nlohmann::json& value) {
+  if (!value.is_number()) throw Error("set " + what, "needs a number");
+  return value.get<double>();
+}
+
+Vec3d color_of(const std::string& what, const nlohmann::json& value) {
+  if (!value.is_array() || value.size() != 3) throw Error("set " + what, "needs three numbers");
+  return {number_of(what, value[0]), number_of(what, value[1]), number_of(what, value[2])};
+}
+
+std::string text_of(const std::string& what, const nlohmann::json& value) {
+  if (!value.is_string()) throw Error("set " + what, "needs a text");
+  return value.get<std::string>();
+}
+
+// True where it was a value of a lamp.
+bool set_of_lamp(LampValues& v, const std::string& what, const nlohmann::json& value) {
+  if (what == "intensity")
+    v.intensity = number_of(what, value);
+  else if (what == "color")
+    v.color = color_of(what, value);
+  else if (what == "type" && v.type)
+    v.type = text_of(what, value);
+  else if (what == "size" && v.size)
+    v.size = number_of(what, value);
+  else if (what == "aspect" && v.aspect)
+    v.aspect = number_of(what, value);
+  else if (what == "length" && v.length)
+    v.length = number_of(what, value);
+  else if (what == "two_sided" && v.two_sided && value.is_boolean())
+    v.two_sided = value.get<bool>();
+  else
+    return false;
+  return true;
+}
+
+bool set_of_material(MaterialValues& v, const std::string& what, const nlohmann::json& value) {
+  if (what == "roughness")
+    v.roughness = number_of(what, value);
+  else if (what == "metallic")
+    v.metallic = number_of(what, value);
+  else if (what == "base_color")
+    v.base_color = color_of(what, value);
+  else
+    return false;
+  return true;
+}
+
+bool set_of_picture(ViewState& state, const std::string& what, const nlohmann::json& value) {
+  if (what == "exposure") {
+    state.exposure = static_cast<float>(number_of(what, value));
+    state.exposure_known = state.display_wanted = true;
+  } else if (what == "beside") {
+    state.other_method = text_of(what, value);
+    choose_other(state);
+  } else if (what == "split_at") {
+    state.split_at = static_cast<float>(number_of(what, value));
+    state.display_wanted = true;
+  } else if (what == "white_at") {
+    state.error_most = static_cast<float>(number_of(what, value));
+    state.display_wanted = true;
+  } else if (what == "scene_name") {
+    state.scene_name = text_of(what, value);
+  } else if (what == "picture_name") {
+    state.picture_name = text_of(what, value);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool set_of_session(Session& s, const std::string& what, const nlohmann::json& value) {
+  if (what == "method") {
+    s.options().method = text_of(what, value);
+    return true;
+  }
+  for (const Lamp& lamp : s.lamps())
+    if (lamp.node == s.selection().node) {
+      LampValues values = values_of(s.document(), lamp);
+      if (!set_of_lamp(values, what, value)) continue;
+      set_values(s.document(), lamp, values);
+      return true;
+    }
+  if (s.selection().material < 0) return false;
+  MaterialValues values = material_values(s.document(), s.selection().material);
+  if (!set_of_material(values, what, value)) return false;
+  set_material_values(s.document(), s.selection().material, values);
+  return true;
+}
+
+bool set_of_drawing(Drawing& d, const std::string& what, const nlohmann::json& value) {
+  if (!d.selection()) return false;
+  PlaneBody body = d.scene().bodies[*d.selection()];
+  if (what == "color" && body.light)
+    body.light->radiance = color_of(what, value);
+  else if (what == "color")
+    body.color = color_of(what, value);
+  else if (what == "scale")
+    body = scaled(body, bounds_of(body).middle(), number_of(what, value));
+  else if (what == "turn")
+    body = turned(body, bounds_of(body).middle(), number_of(what, value) * 3.14159265358979324 / 180);
+  else
+    return false;
+  d.change(*d.selection(), std::move(body));
+  return true;
+}
+
+std::string beside(const std::string& path, const std::string& ending) {
+  std::filesystem::path p(path);
+  return p.stem().string() + "-view" + (ending.empty() ? p.extension().string() : ending);
+}
+
+}  // namespace
+
+void open_stage(ViewState& state, const std::string& path, const RenderOptions& options) {
+  if (path.ends_with(".svg")) {
+    auto drawing = std::make_unique<Drawing>(path, options.width, options.height, options.threads);
+    state.session = nullptr;
+    state.drawing = drawing.get();
+    state.stage = std::move(drawing);
+  } else {
+    auto session = std::make_unique<Session>(path, options);
+    state.drawing = nullptr;
+    state.session = session.get();
+    state.stage = std::move(session);
+  }
+  state.scene_name = beside(path, "");
+  state.picture_name = beside(path, ".png");
+  state.frame_ms.clear();
+  if (state.split || state.error_map) choose_other(state);
+}
+
+void choose_other(ViewState& state) {
+  if (state.session == nullptr) return;
+  Session& s = *state.session;
+  if (state.split || state.error_map) {
+    RenderOptions other = s.options();
+    other.method = state.other_method;
+    s.other() = other;
+  } else {
+    s.other().reset();
+  }
+  s.changed();
+  state.display_wanted = true;
+}
+
+void set_value(ViewState& state, const std::string& what, const nlohmann::json& value) {
+  if (set_of_picture(state, what, value)) return;
+  if (state.drawing != nullptr && set_of_drawing(*state.drawing, what, value)) return;
+  if (state.session == nullptr || !set_of_session(*state.session, what, value))
+    throw Error("set " + what, "is no value of what is selected", "docs/view.md lists them");
+  state.session->document().close_step();
+  state.session->changed();
+}
+
+void act(ViewState& state, Action action) {
+  Stage& stage = *state.stage;
+  Session* s = state.session;
+  switch (action) {
+    case Action::help: state.help = !state.help; break;
+    case Action::panel: state.panel = !state.panel; break;
+    case Action::gizmo_move:
+      if (s != nullptr) s->gizmo_mode = GizmoMode::move;
+      break;
+    case Action::gizmo_turn:
+      if (s != nullptr) s->gizmo_mode = GizmoMode::turn;
+      break;
+    case Action::gizmo_scale:
+      if (s != nullptr) s->gizmo_mode = GizmoMode::scale;
+      break;
+    case Action::frame_selected: stage.frame_selected(); break;
+    case Action::reset_camera: stage.reset_camera(); break;
+    case Action::add_light:
+      if (s != nullptr) s->add_light("rect");
+      if (state.drawing != nullptr)
+        state.drawing->add(true, state.drawing->to_pixel(state.drawing->scene().origin +
+                                                         Vec2d{state.drawing->scene().width, state.drawing->scene().height} / 2));
+      break;
+    case Action::remove: stage.remove_selected(); break;
+    case Action::deselect: stage.deselect(); break;
+    case Action::undo: attempt(state, [&] { stage.undo(); }); break;
+    case Action::redo: attempt(state, [&] { stage.redo(); }); break;
+    case Action::save_scene: attempt(state, [&] { stage.save_scene(state.scene_name); }); break;
+    case Action::save_picture: attempt(state, [&] { stage.save_picture(state.picture_name, state.exposure); }); break;
+    case Action::reload: attempt(state, [&] { stage.reload(); }); break;
+    case Action::split:
+      state.split = !state.split;
+      choose_other(state);
+      break;
+    case Action::error_map:
+      state.error_map = !state.error_map;
+      choose_other(state);
+      break;
+    case Action::fly: break;  // while it is held, by the window
+    case Action::quit: state.quit = true; break;
+  }
+}
+
+}  // namespace steradian::view

@@ -1,0 +1,306 @@
+#include "session.h"
+
+#include <cmath>
+
+#include "steradian/error.h"
+
+namespace steradian::view {
+namespace {
+
+std::filesystem::file_time_type time_of(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::last_write_time(path, ignored);
+}
+
+Vec3d middle_of(const Scene& scene) { return (scene.bounds_min + scene.bounds_max) * 0.5; }
+
+// What a camera looks at first: what stands in the middle of its picture, or the middle of the scene.
+double distance_of_view(const Scene& scene, const Camera& camera) {
+  if (const auto hit = pick(scene, {camera.position, -camera.z})) return hit->distance;
+  const double d = dot(camera.position - middle_of(scene), camera.z);
+  return d > 0 ? d : std::max(length(scene.bounds_max - scene.bounds_min), 1.0);
+}
+
+}  // namespace
+
+Session::Session(const std::string& path, RenderOptions options)
+    : document_(std::make_unique<Document>(scene::read_gltf_file(path))), options_(std::move(options)), file_time_(time_of(path)) {}
+
+// ---- pictures
+
+void Session::submit() {
+  RenderRequest request{document_->file(), base_revision_ + document_->revision(), {}, options_, other_, moving_};
+  if (camera_) {
+    request.camera = as_read(camera_->camera());
+    request.file = with_camera(std::move(request.file), camera_->camera());
+    request.options.camera.clear();
+    if (request.other) request.other->camera.clear();
+  }
+  request_ = worker_.submit(std::move(request));
+  submitted_ = wanted_;
+  submitted_moving_ = moving_;
+  settled_ = false;
+}
+
+bool Session::update() {
+  bool fresh = false;
+  if (auto frame = worker_.take()) {
+    if (!frame->error.empty()) {
+      say(frame->error);
+      if (frame->request == request_) settled_ = true;
+    } else {
+      if (frame->request == request_ && frame->load_ms > 0) say({});
+      settled_ = frame->request == request_ && frame->last && submitted_ == wanted_ && !moving_;
+      frame_ = std::move(*frame);
+      fresh = true;
+      if (!camera_) {
+        first_camera_ = frame_.camera;
+        camera_.emplace(frame_.camera, distance_of_view(frame_.scene->scene, frame_.camera));
+      }
+    }
+  }
+  if (submitted_ != wanted_ || (submitted_moving_ && !moving_)) submit();
+  return fresh;
+}
+
+void Session::wait_until_settled() {
+  do {
+    update();
+    if (!settled_) worker_.wait();
+  } while (!settled_);
+}
+
+void Session::resize(int width, int height) {
+  if (width < 1 || height < 1 || (width == options_.width && height == options_.height)) return;
+  options_.width = width;
+  options_.height = height;
+  if (other_) {
+    other_->width = width;
+    other_->height = height;
+  }
+  changed();
+}
+
+void Session::set_moving(bool moving) {
+  if (moving_ && !moving) document_->close_step();
+  moving_ = moving;
+}
+
+const NodeTree& Session::tree() const {
+  const std::uint64_t now = base_revision_ + document_->revision();
+  if (!tree_ || tree_revision_ != now) tree_.emplace(*document_);
+  tree_revision_ = now;
+  return *tree_;
+}
+
+// ---- the pointer
+
+std::optional<Gizmo> Session::gizmo() const {
+  if (!camera_ || selection_.node < 0) return {};
+  try {
+    const NodeTree& nodes = tree();
+    if (!nodes.contains(selection_.node)) return {};
+    return gizmo_at(gizmo_mode, nodes.world(selection_.node), camera_->camera());
+  } catch (const Error&) {
+    return {};  // the scene is broken by an edit, which message() says
+  }
+}
+
+Handle Session::handle_under(Vec2d at) const {
+  const auto handles = gizmo();
+  return handles ? handle_at(*handles, camera_->camera(), at, size().x, size().y) : Handle::none;
+}
+
+void Session::press(PointerButton button, bool shift, Vec2d at) {
+  if (!camera_ || button_) return;
+  button_ = button;
+  shift_ = shift;
+  moved_ = false;
+  pressed_ = last_ = at;
+  handle_ = button == PointerButton::left && !shift ? handle_under(at) : Handle::none;
+  if (handle_ == Handle::none) return;
+  drag_gizmo_ = *gizmo();
+  drag_pose_ = pose_of(*document_, selection_.node);
+  drag_parent_ = tree().parent_world(selection_.node);
+}
+
+void Session::drag_handle(Vec2d to) {
+  const Camera& camera = camera_->camera();
+  const Ray from = ray(pressed_), towards = ray(to);
+  NodePose pose = drag_pose_;
+  switch (drag_gizmo_.mode) {
+    case GizmoMode::move: {
+      const auto by = drag_move(drag_gizmo_, handle_, camera, from, towards);
+      if (!by) return;
+      pose = moved(pose, drag_parent_, *by);
+      break;
+    }
+    case GizmoMode::turn: {
+      const auto turn = drag_turn(drag_gizmo_, handle_, camera, from, towards);
+      if (!turn) return;
+      pose = turned(pose, drag_parent_, turn->axis, turn->angle);
+      break;
+    }
+    case GizmoMode::scale: {
+      const auto factors = drag_scale(drag_gizmo_, handle_, camera, from, towards);
+      if (!factors) return;
+      pose = scaled(pose, *factors);
+      break;
+    }
+  }
+  set_pose(*document_, selection_.node, pose);
+}
+
+void Session::drag(Vec2d to) {
+  if (!button_) return;
+  constexpr double kClick = 3;  // pixels that a hand may tremble
+  if (!moved_ && length(to - pressed_) <= kClick) return;
+  moved_ = true;
+  set_moving(true);
+  const Vec2d by = (to - last_) / size().y;
+  last_ = to;
+  if (handle_ != Handle::none)
+    drag_handle(to);
+  else if (*button_ == PointerButton::right)
+    camera_->look(by.x, by.y);
+  else if (*button_ == PointerButton::middle || shift_)
+    camera_->pan(by.x, by.y);
+  else
+    camera_->orbit(by.x, by.y);
+  changed();
+}
+
+void Session::release(Vec2d at) {
+  if (!button_) return;
+  drag(at);
+  if (!moved_ && *button_ == PointerButton::left && handle_ == Handle::none) click(at);
+  button_.reset();
+  handle_ = Handle::none;
+  set_moving(false);
+}
+
+void Session::click(Vec2d at) {
+  if (!frame_.scene) return;
+  // Lamps without an extent are marks in the picture.
+  constexpr double kMark = 10;
+  const NodeTree& nodes = tree();
+  for (const Lamp& lamp : lamps_of(*document_, nodes)) {
+    if (lamp.kind != LampKind::punctual && lamp.kind != LampKind::profile) continue;
+    const auto mark = project(camera_->camera(), nodes.world(lamp.node).t, size().x, size().y);
+    if (mark && length(*mark - at) <= kMark) {
+      selection_ = {lamp.node, -1};
+      return;
+    }
+  }
+  const LoadedScene& loaded = *frame_.scene;
+  const auto hit = pick(loaded.scene, ray(at));
+  selection_ = {};
+  if (!hit || hit->mesh >= loaded.mesh_nodes.size()) return;
+  selection_.node = loaded.mesh_nodes[hit->mesh];
+  const Mesh& mesh = loaded.scene.meshes[hit->mesh];
+  if (!mesh.is_light_shape && static_cast<std::size_t>(mesh.material) < document_->count("/materials")) selection_.material = mesh.material;
+}
+
+void Session::wheel(double steps, Vec2d) {
+  if (!camera_) return;
+  camera_->dolly(steps);
+  changed();
+}
+
+// ---- the camera
+
+void Session::fly(double right, double up, double forward) {
+  if (!camera_) return;
+  camera_->fly(right, up, forward);
+  changed();
+}
+
+void Session::frame_selected() {
+  if (!camera_ || !frame_.scene) return;
+  camera_->look_at(selection_.node >= 0 ? tree().world(selection_.node).t : middle_of(frame_.scene->scene));
+  changed();
+}
+
+void Session::reset_camera() {
+  if (!camera_ || !frame_.scene) return;
+  camera_.emplace(*first_camera_, distance_of_view(frame_.scene->scene, *first_camera_));
+  changed();
+}
+
+// ---- edits
+
+void Session::select_named(const std::string& name) {
+  selection_ = {};
+  for (const Lamp& lamp : lamps())
+    if (lamp.name == name) {
+      selection_ = {lamp.node, -1};
+      return;
+    }
+  for (const scene::GltfNode& node : tree().visible())
+    if (const Json* found = document_->find("/nodes/" + std::to_string(node.index) + "/name"); found != nullptr && *found == name) {
+      selection_ = {node.index, -1};
+      return;
+    }
+}
+
+void Session::add_light(const std::string& type) {
+  if (!camera_) return;
+  const double size = camera_->distance() / 5;
+  const Vec3d position = camera_->target() + Vec3d{0, 1, 0} * (camera_->distance() / 3);
+  selection_ = {add_area_light(*document_, type, position, {0, -1, 0}, size), -1};
+  document_->close_step();
+  changed();
+}
+
+void Session::remove_selected() {
+  for (const Lamp& lamp : lamps())
+    if (lamp.node == selection_.node) {
+      remove_lamp(*document_, lamp);
+      document_->close_step();
+      selection_ = {};
+      changed();
+      return;
+    }
+}
+
+void Session::undo() {
+  document_->undo();
+  if (!tree().contains(selection_.node)) selection_ = {};
+  changed();
+}
+
+void Session::redo() {
+  document_->redo();
+  changed();
+}
+
+// ---- files
+
+void Session::reload() {
+  auto opened = std::make_unique<Document>(scene::read_gltf_file(path()));
+  base_revision_ += document_->revision() + 1;
+  document_ = std::move(opened);
+  file_time_ = time_of(path());
+  if (!tree().contains(selection_.node)) selection_ = {};
+  changed();
+}
+
+bool Session::file_changed() const {
+  const auto now = time_of(document_->file().path);
+  return now != std::filesystem::file_time_type{} && now != file_time_;
+}
+
+void Session::save_scene(const std::string& path) {
+  document_->close_step();
+  write_gltf_file(with_camera(document_->file(), camera_ ? camera_->camera() : Camera{}), path);
+  document_->mark_saved();
+  if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(document_->file().path)) file_time_ = time_of(path);
+}
+
+void Session::save_picture(const std::string& path, float exposure_stops) {
+  wait_until_settled();
+  if (!frame_.last) throw Error(path, "there is no picture to save", message());
+  write_picture(frame_.picture, path, exposure_stops);
+}
+
+}  // namespace steradian::view

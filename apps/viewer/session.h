@@ -1,0 +1,114 @@
+// Session: a scene in the hand: its document, the camera that looks at it, what is selected, and the picture of all that. A window, a
+// script and a test drive it by the same calls.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gizmo.h"
+#include "lamps.h"
+#include "pick.h"
+#include "stage.h"
+#include "worker.h"
+
+namespace steradian::view {
+
+struct Selection {
+  int node = -1;      // of the document; -1: nothing
+  int material = -1;  // of the mesh that was picked; -1: a lamp without one
+};
+
+class Session : public Stage {
+ public:
+  // Throws Error where the file cannot be read; what is wrong with its scene is said in message() once the first picture was tried.
+  Session(const std::string& path, RenderOptions options);
+
+  bool update() override;
+  void wait_until_settled() override;
+  bool settled() const override { return settled_; }
+  const Picture& picture() const override { return frame_.picture; }
+  const RenderedFrame& frame() const { return frame_; }
+
+  // The picture asked for: method, shadows, size and so on. changed() after a change.
+  RenderOptions& options() { return options_; }
+  std::optional<RenderOptions>& other() { return other_; }
+  void resize(int width, int height) override;
+  Vec2d size() const { return {static_cast<double>(options_.width), static_cast<double>(options_.height)}; }
+  void changed() { ++wanted_; }
+  void set_moving(bool moving) override;
+
+  // The pointer: on a handle it drags what is selected; else left orbits, or selects where it was not moved; middle, and left with shift,
+  // pans; right looks around.
+  void press(PointerButton button, bool shift, Vec2d at) override;
+  void drag(Vec2d to) override;
+  void release(Vec2d at) override;
+  void wheel(double steps, Vec2d at) override;
+  void fly(double right, double up, double forward) override;
+  Handle handle_under(Vec2d at) const;
+  bool dragging() const override { return button_.has_value(); }
+  Handle dragged_handle() const { return handle_; }
+
+  bool has_camera() const { return camera_.has_value(); }
+  ViewCamera& camera() { return *camera_; }  // once has_camera; changed() after a change
+  Camera shown_camera() const { return camera_->camera(); }
+  void frame_selected() override;  // orbits about what is selected, or the whole scene
+  void reset_camera() override;
+
+  Document& document() { return *document_; }
+  const NodeTree& tree() const;  // of the document as it is
+  std::vector<Lamp> lamps() const { return lamps_of(*document_, tree()); }
+  const Selection& selection() const { return selection_; }
+  void select(Selection selection) { selection_ = selection; }
+  void select_named(const std::string& name) override;
+  void deselect() override { selection_ = {}; }
+  GizmoMode gizmo_mode = GizmoMode::move;
+  std::optional<Gizmo> gizmo() const;  // of what is selected
+
+  void add_light(const std::string& type);  // above what is looked at, and selected
+  void remove_selected() override;
+  void undo() override;
+  void redo() override;
+
+  const std::string& path() const override { return document_->file().path; }
+  void reload() override;  // the camera kept; throws Error, and stays as it was
+  bool file_changed() const override;
+  void save_scene(const std::string& path) override;
+  void save_picture(const std::string& path, float exposure_stops) override;
+
+ private:
+  Ray ray(Vec2d at) const { return ray_through(camera_->camera(), at, size().x, size().y); }
+  void submit();
+  void click(Vec2d at);
+  void drag_handle(Vec2d to);
+
+  std::unique_ptr<Document> document_;
+  RenderOptions options_;
+  std::optional<RenderOptions> other_;
+  std::optional<ViewCamera> camera_;
+  std::optional<Camera> first_camera_;
+  Selection selection_;
+  std::filesystem::file_time_type file_time_{};
+
+  std::uint64_t wanted_ = 1, submitted_ = 0, request_ = 0;
+  std::uint64_t base_revision_ = 0;  // so that another document's revisions are other numbers
+  mutable std::optional<NodeTree> tree_;
+  mutable std::uint64_t tree_revision_ = 0;
+  bool moving_ = false, submitted_moving_ = false, settled_ = false;
+  RenderedFrame frame_;
+
+  // A drag, from its beginning.
+  std::optional<PointerButton> button_;
+  bool shift_ = false, moved_ = false;
+  Vec2d pressed_, last_;
+  Handle handle_ = Handle::none;
+  Gizmo drag_gizmo_;
+  NodePose drag_pose_;
+  Affine drag_parent_;
+
+  Worker worker_;
+};
+
+}  // namespace steradian::view

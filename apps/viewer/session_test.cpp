@@ -1,0 +1,228 @@
+// A session driven by its pointer and keys, without a window: by its effect on the scene and on the picture.
+#include "session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "paths.h"
+#include "scene/gltf_test_file.h"
+#include "steradian/error.h"
+
+namespace steradian::view {
+namespace {
+
+RenderOptions small() {
+  RenderOptions options;
+  options.width = 160;
+  options.height = 90;
+  options.shadows = Shadows::on;
+  return options;
+}
+
+std::string room() { return test::kSourceDir + "/scenes/diffuse_floor.glb"; }
+
+Vec2d pixel_of(Session& s, Vec3d point) { return *project(s.camera().camera(), point, s.options().width, s.options().height); }
+
+void drag(Session& s, Vec2d from, Vec2d to) {
+  s.press(PointerButton::left, false, from);
+  for (int i = 1; i <= 4; ++i) {
+    s.drag(from + (to - from) * (i / 4.0));
+    s.update();
+  }
+  s.release(to);
+}
+
+TEST(ViewCamera, RaysGoThroughThePixelsThatPointsProjectTo) {
+  Session s(room(), small());
+  s.wait_until_settled();
+  s.camera().orbit(0.1, 0.2);
+  s.camera().pan(0.1, -0.3);
+  s.camera().look(-0.2, 0.1);
+  const Camera c = s.camera().camera();
+  EXPECT_NEAR(dot(c.x, c.y), 0, 1e-15);
+  EXPECT_NEAR(length(cross(c.x, c.y) - c.z), 0, 1e-14);
+  for (const Vec2d p : {Vec2d{0.5, 0.5}, Vec2d{80, 45}, Vec2d{159.5, 3}}) {
+    const Ray r = ray_through(c, p, 160, 90);
+    const auto back = project(c, r.origin + r.direction * 3, 160, 90);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(length(*back - p), 0, 1e-10);
+  }
+  EXPECT_FALSE(project(c, c.position + c.z, 160, 90)) << "behind";
+}
+
+TEST(ViewCamera, OrbitsAboutItsTargetAndDoesNotTurnOver) {
+  Camera c;
+  c.position = {0, 0, 5};
+  ViewCamera v(c, 5);
+  v.orbit(0.25, 0.1);
+  EXPECT_NEAR(length(v.target()), 0, 1e-14);
+  EXPECT_NEAR(length(v.camera().position), 5, 1e-14);
+  for (int i = 0; i < 50; ++i) v.orbit(0, 0.3);
+  EXPECT_GT(v.camera().y.y, 0) << "up stays up";
+  EXPECT_GT(v.camera().position.y, 4.9);
+}
+
+TEST(ViewWorker, ChoosesTheLargestPictureThatTheTimeAllows) {
+  EXPECT_EQ(divisor_within(33, {0, 20, 1}), 1);
+  EXPECT_EQ(divisor_within(33, {0, 100, 1}), 2);
+  EXPECT_EQ(divisor_within(33, {0, 30, 4}), 4);
+  EXPECT_EQ(divisor_within(33, {0, 1, 4}), 1);
+  EXPECT_EQ(divisor_within(33, {0, 1e9, 1}), 8);
+  EXPECT_EQ(divisor_within(33, {20, 20, 1}), 2) << "the scene's own time leaves less";
+  EXPECT_EQ(divisor_within(33, {1e6, 20, 1}), 2) << "but half of it";
+}
+
+// The promise of the window: at rest it shows what `render` makes of what it saves.
+TEST(ViewSession, SavesASceneThatRendersToTheSameBits) {
+  for (const char* name : {"diffuse_floor.glb", "gallery.glb"}) {
+    Session s(test::kSourceDir + "/scenes/" + name, small());
+    s.wait_until_settled();
+    s.camera().orbit(0.05, -0.02);
+    s.camera().dolly(1);
+    s.select({s.lamps().at(0).node, -1});
+    s.add_light("sphere");
+    s.changed();
+    s.wait_until_settled();
+    ASSERT_TRUE(s.message().empty()) << s.message();
+    const std::string path = scene::test_path(std::string("saved_") + name);
+    s.save_scene(path);
+    const Picture again = render(load_scene(path).scene, small());
+    ASSERT_EQ(again.width, s.frame().picture.width);
+    EXPECT_EQ(again.pixels, s.frame().picture.pixels) << name;
+    // And it opens as it was left.
+    Session opened(path, small());
+    opened.wait_until_settled();
+    EXPECT_EQ(opened.frame().picture.pixels, again.pixels);
+  }
+}
+
+TEST(ViewSession, PicksALampInThePictureAndDragsItByItsArrow) {
+  Session s(room(), small());
+  s.wait_until_settled();
+  const Lamp lamp = s.lamps().at(0);
+  const Vec3d at = s.tree().world(lamp.node).t;
+  // A click on the middle of the light, seen from below it.
+  s.camera().look_at(at);
+  s.changed();
+  s.wait_until_settled();
+  const Vec2d pixel = pixel_of(s, at);
+  s.press(PointerButton::left, false, pixel);
+  s.release(pixel);
+  ASSERT_EQ(s.selection().node, lamp.node);
+
+  const Picture before = s.frame().picture;
+  const Gizmo gizmo = *s.gizmo();
+  for (const int axis : {0, 1, 2}) {
+    const Vec2d from = pixel_of(s, gizmo.origin + gizmo.axes[axis] * (0.8 * gizmo.size));
+    const Vec2d to = pixel_of(s, gizmo.origin + gizmo.axes[axis] * (1.3 * gizmo.size));
+    if (length(to - from) < 5) continue;  // seen from its end
+    drag(s, from, to);
+    const Vec3d by = s.tree().world(lamp.node).t - at;
+    EXPECT_NEAR(length(by - gizmo.axes[axis] * (0.5 * gizmo.size)), 0, 1e-9) << axis;
+    s.undo();
+    EXPECT_NEAR(length(s.tree().world(lamp.node).t - at), 0, 1e-12) << "a drag is one step";
+  }
+  s.wait_until_settled();
+  EXPECT_EQ(s.frame().picture.pixels, before.pixels) << "after undo the picture is as it was";
+}
+
+TEST(ViewSession, TurnsAndScalesByItsHandles) {
+  RenderOptions large = small();  // handles must be further apart than a hand reaches
+  large.width = 640;
+  large.height = 360;
+  Session s(room(), large);
+  s.wait_until_settled();
+  const int node = s.lamps().at(0).node;
+  s.select({node, -1});
+  s.camera().look_at(s.tree().world(node).t);
+  s.camera().orbit(0.1, 0);  // no handle behind another
+  const Affine before = s.tree().world(node);
+
+  s.gizmo_mode = GizmoMode::turn;
+  const Gizmo ring = *s.gizmo();
+  // A ring that is seen well: about the axis nearest to the view.
+  int axis = 0;
+  for (const int i : {1, 2})
+    if (std::fabs(dot(ring.axes[i], s.camera().camera().z)) > std::fabs(dot(ring.axes[axis], s.camera().camera().z))) axis = i;
+  const Frame frame = Frame::from_normal(ring.axes[axis]);
+  const auto on_ring = [&](double angle) {
+    return pixel_of(s, ring.origin + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * ring.size);
+  };
+  drag(s, on_ring(0.3), on_ring(0.8));
+  const Affine turned_world = s.tree().world(node);
+  const Vec3d a = before.x - ring.axes[axis] * dot(before.x, ring.axes[axis]);
+  const Vec3d b = turned_world.x - ring.axes[axis] * dot(turned_world.x, ring.axes[axis]);
+  if (length(a) > 1e-6) {
+    EXPECT_NEAR(std::acos(dot(normalized(a), normalized(b))), 0.5, 1e-6);
+  }
+  s.undo();
+
+  s.gizmo_mode = GizmoMode::scale;
+  const Gizmo boxes = *s.gizmo();
+  for (const int i : {0, 1}) {
+    const Vec2d from = pixel_of(s, boxes.origin + boxes.axes[i] * (0.5 * boxes.size));
+    const Vec2d to = pixel_of(s, boxes.origin + boxes.axes[i] * boxes.size);
+    if (length(to - from) < 5) continue;
+    EXPECT_EQ(static_cast<int>(s.handle_under(from)), i + 1) << from.x << " " << from.y << " to " << to.x << " " << to.y;
+    drag(s, from, to);
+    EXPECT_NEAR(length((i == 0 ? s.tree().world(node).x : s.tree().world(node).y)) / length(i == 0 ? before.x : before.y), 2, 1e-6);
+    s.undo();
+  }
+}
+
+TEST(ViewSession, SaysWhatIsWrongAndGoesOn) {
+  EXPECT_THROW(Session("/nowhere.glb", small()), Error);
+  Session s(room(), small());
+  s.wait_until_settled();
+  s.document().set("/materials/0/pbrMetallicRoughness/roughnessFactor", 7);
+  s.changed();
+  s.wait_until_settled();
+  EXPECT_NE(s.message().find("roughnessFactor"), std::string::npos) << s.message();
+  s.undo();
+  s.wait_until_settled();
+  EXPECT_EQ(s.message(), "");
+}
+
+TEST(ViewSession, ReadsAFileAgainAndKeepsTheCamera) {
+  const std::string path = scene::test_path("hot.glb");
+  std::filesystem::copy_file(room(), path, std::filesystem::copy_options::overwrite_existing);
+  Session s(path, small());
+  s.wait_until_settled();
+  EXPECT_FALSE(s.file_changed());
+  s.camera().orbit(0.1, 0);
+  const Vec3d eye = s.camera().camera().position;
+  scene::GltfFile file = scene::read_gltf_file(path);
+  file.json["extensions"]["EXT_lights_area"]["lights"][0]["intensity"] = 77;
+  write_gltf_file(file, path);
+  std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
+  EXPECT_TRUE(s.file_changed());
+  s.reload();
+  s.wait_until_settled();
+  EXPECT_EQ(values_of(s.document(), s.lamps().at(0)).intensity, 77);
+  EXPECT_EQ(s.camera().camera().position, eye);
+  EXPECT_FALSE(s.file_changed());
+}
+
+TEST(ViewSession, ADragIsAnsweredBySmallPicturesAndEndsInTheWholeOne) {
+  Session s(test::kSourceDir + "/scenes/gallery.glb", small());
+  s.options().width = 640;
+  s.options().height = 360;
+  s.changed();
+  while (!s.update()) std::this_thread::yield();
+  EXPECT_EQ(s.frame().divisor, 4) << "nothing is known of the machine: a quarter comes first";
+  s.press(PointerButton::left, false, {10, 10});
+  for (int i = 0; i < 20; ++i) {
+    s.drag({10.0 + 4 * i, 10});
+    s.update();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_FALSE(s.settled());
+  s.release({90, 10});
+  s.wait_until_settled();
+  EXPECT_EQ(s.frame().divisor, 1);
+  EXPECT_EQ(s.frame().picture.width, 640);
+}
+
+}  // namespace
+}  // namespace steradian::view

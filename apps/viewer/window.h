@@ -1,0 +1,23 @@
+// The window of `steradian view`: GLFW's, with Dear ImGui over a texture that holds the picture.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "steradian/render.h"
+
+namespace steradian::view {
+
+struct WindowOptions {
+  std::string scene;
+  RenderOptions render;
+  std::optional<float> exposure;  // none: automatic
+  std::string script;             // a file of script.h to play; empty: none
+  std::string record;             // a file to write what is done to; empty: none
+  bool panel = true;
+};
+
+// Until it is closed. Throws Error where there is no display, or the scene cannot be read.
+void run_window(const WindowOptions& options);
+
+}  // namespace steradian::view

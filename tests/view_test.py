@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Drives the window of `steradian view` by scripts, under Xvfb, and looks at what it shows and saves.
+
+usage: view_test.py PROGRAM SCENES OUT      OUT/*.png are the screenshots; exit 77 where there is no window or no Xvfb
+"""
+import json
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+PROGRAM, SCENES, OUT = (Path(a).resolve() for a in sys.argv[1:4])
+
+
+def pixels(path):
+    """Width, height and the rows of an 8-bit RGB PNG whose rows have no or any filter."""
+    data, at, body = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", data[at + 8:at + 16])
+        if kind == b"IDAT":
+            body += data[at + 8:at + 8 + size]
+        at += 12 + size
+    raw, rows, last, stride = zlib.decompress(body), [], bytearray(3 * width), 3 * width
+    for y in range(height):
+        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride):
+            a, b, c = row[x - 3] if x >= 3 else 0, last[x], last[x - 3] if x >= 3 else 0
+            if kind == 4:
+                p = a + b - c
+                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            row[x] = (row[x] + [0, a, b, (a + b) // 2, near if kind == 4 else 0][kind]) & 255
+        rows.append(bytes(row))
+        last = row
+    return width, height, rows
+
+
+def play(scene, events, *options):
+    script = OUT / "script.jsonl"
+    script.write_text("".join(json.dumps(e) + "\n" for e in events + [{"quit": True}]))
+    done = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 800x600x24", PROGRAM, "view", scene, "--script", script, *options],
+                          cwd=OUT, capture_output=True, text=True, timeout=240)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def render(scene, to, *options):
+    subprocess.run([PROGRAM, "render", scene, "-o", to, *options], check=True, capture_output=True, cwd=OUT)
+
+
+def space():
+    """A light is picked and dragged, changed and undone; what is shown, saved and rendered again is one picture."""
+    said = play(SCENES / "diffuse_floor.glb", [
+        {"wait": "picture"}, {"time": "first picture"}, {"wait": "settled"}, {"shot": "space-first.png"},
+        {"select": "panel"}, {"drag": "right", "from": [250, 150], "to": [260, 140]}, {"wheel": 1, "at": [200, 100]},
+        {"key": "L"}, {"set": "intensity", "value": 2}, {"set": "color", "value": [1, 0.3, 0.1]}, {"wait": "settled"},
+        {"shot": "space-light.png"}, {"key": "2"}, {"shot": "space-rings.png"}, {"key": "1"}, {"key": "Escape"}, {"wait": "settled"},
+        {"shot": "space-rest.png"}, {"picture": "space.exr"}, {"picture": "space.png"}, {"save": "space.glb"},
+        {"key": "Ctrl+Z"}, {"key": "Ctrl+Z"}, {"key": "Ctrl+Z"}, {"key": "Home"}, {"wait": "settled"}, {"shot": "space-undone.png"},
+    ], "--size", "400x225", "--exposure", "0", "--panel", "off")
+    print(said.strip())
+    assert pixels(OUT / "space-rest.png") == pixels(OUT / "space.png"), "the window shows what the picture's file holds"
+    assert pixels(OUT / "space-light.png") != pixels(OUT / "space-rest.png"), "handles are drawn"
+    assert pixels(OUT / "space-undone.png") == pixels(OUT / "space-first.png"), "undone, it is as it was"
+    render("space.glb", "again.exr", "--size", "400x225")
+    said = subprocess.run([PROGRAM, "diff", "space.exr", "again.exr"], cwd=OUT, capture_output=True, text=True)
+    print("saved scene, rendered:", said.stdout.strip())
+    render("space.glb", "again.png", "--size", "400x225", "--exposure", "0")
+    assert pixels(OUT / "again.png") == pixels(OUT / "space.png"), "the saved scene renders to what was seen"
+
+
+def plane():
+    """A lamp of a drawing is dragged and resized, and saved."""
+    play(SCENES / "plane" / "lamps.svg", [
+        {"wait": "settled"}, {"shot": "plane-first.png"}, {"drag": "left", "from": [81, 75], "to": [200, 60], "steps": 20},
+        {"wheel": 3, "at": [200, 60]}, {"set": "color", "value": [0.2, 1.5, 0.4]}, {"wait": "settled"}, {"shot": "plane-lamp.png"},
+        {"key": "Escape"}, {"wait": "settled"}, {"shot": "plane-rest.png"}, {"save": "plane.svg"}, {"picture": "plane.png"},
+    ], "--size", "400x250", "--panel", "off")
+    assert pixels(OUT / "plane-rest.png") == pixels(OUT / "plane.png")
+    assert pixels(OUT / "plane-rest.png") != pixels(OUT / "plane-first.png")
+    render("plane.svg", "plane-again.png", "--size", "400x250")
+    a, b = pixels(OUT / "plane-again.png")[2], pixels(OUT / "plane.png")[2]
+    worst = max(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q))
+    print("saved drawing, rendered: off by", worst, "of 255 at most")
+    assert worst <= 1
+
+
+def life():
+    """Resized, minimised, restored, another scene opened, help and panel, split screen, error map; what is wrong is said."""
+    play(SCENES / "glossy_floor.glb", [
+        {"wait": "settled"}, {"resize": [500, 300]}, {"wait": "settled"}, {"shot": "life-larger.png"}, {"minimise": True}, {"wait": 0.2},
+        {"restore": True}, {"wait": 0.2}, {"key": "F1"}, {"shot": "life-help.png"}, {"key": "F1"},
+        {"set": "beside", "value": "ltc"}, {"key": "C"}, {"wait": "settled"}, {"shot": "life-split.png"},
+        {"key": "M"}, {"set": "white_at", "value": 0.02}, {"wait": "settled"}, {"shot": "life-map.png"}, {"key": "M"}, {"key": "C"},
+        {"open": str(SCENES / "diffuse_floor.glb")}, {"wait": "settled"}, {"shot": "life-other.png"},
+        {"open": "/nowhere.glb"}, {"wait": 0.1}, {"shot": "life-wrong.png"}, {"key": "Tab"}, {"shot": "life-panel.png"},
+    ], "--size", "400x225", "--panel", "off", "--record", "recorded.jsonl")
+    assert pixels(OUT / "life-larger.png")[:2] == (500, 300)
+    assert pixels(OUT / "life-other.png") != pixels(OUT / "life-larger.png")
+    assert pixels(OUT / "life-wrong.png") != pixels(OUT / "life-other.png"), "the window says what is wrong"
+    recorded = [json.loads(line) for line in (OUT / "recorded.jsonl").read_text().splitlines()]
+    assert {"key": "F1"} in recorded
+
+
+def main():
+    help_text = subprocess.run([PROGRAM, "view", str(SCENES / "plane.glb")], capture_output=True, text=True,
+                               env={k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")})
+    assert help_text.returncode == 1
+    if "built without a window" in help_text.stderr or not shutil.which("xvfb-run"):
+        print("no window, or no Xvfb")
+        sys.exit(77)
+    assert "no window can be opened" in help_text.stderr and "render" in help_text.stderr, help_text.stderr
+    OUT.mkdir(parents=True, exist_ok=True)
+    space()
+    plane()
+    life()
+
+
+main()
