@@ -23,6 +23,7 @@ void add_plane_on_device(BenchList& list, const std::string& device);
 void add_frame(BenchList& list, const Where& where);
 void add_scaling(BenchList& list);
 void add_indirect(BenchList& list);
+void add_indirect_frames(BenchList& list, const Where& where);
 void add_shadow(BenchList& list);
 
 // Of a Vulkan device: frames, under the names of the CPU's with the prefix vulkan/.
@@ -30,6 +31,7 @@ inline BenchList all_benches(const Where& where = {}) {
   BenchList list;
   if (where.backend == Backend::vulkan) {
     add_frame(list, where);
+    add_indirect_frames(list, where);
     add_plane_on_device(list, where.device);
     return list;
   }
@@ -43,6 +45,7 @@ inline BenchList all_benches(const Where& where = {}) {
   add_frame(list, where);
   add_scaling(list);
   add_indirect(list);
+  add_indirect_frames(list, where);
   add_shadow(list);
   return list;
 }

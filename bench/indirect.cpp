@@ -1,7 +1,8 @@
 // indirect/pair/{ltc,ltc-schlick,ggx}: one pair of a receiver and a virtual light, a diffuse and a glossy lobe at each end,
 // nothing culled; 1024 receivers times 512 lights, GGX by kernels/lobe/microfacet.glsl.
 // indirect/frame/{ltc,ggx}/N: 1080p of scenes/ring.glb with N virtual lights, both on the same lists; all threads, with
-// the time of every pass. Virtual lights are points in both (no quads), so that only the pair differs.
+// the time of every pass. Virtual lights are points in both (no quads), so that only the pair differs. On a Vulkan device under
+// vulkan/indirect/frame/..., without shadows.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -89,11 +90,14 @@ void add_pair(BenchList& list, const std::string& name, Pair pair) {
 
 std::string ring() { return std::string(STERADIAN_SCENES) + "/ring.glb"; }
 
-void add_frame_of(BenchList& list, const std::string& name, IndirectMode mode, int lights) {
+void add_frame_of(BenchList& list, const Where& where, const std::string& name, IndirectMode mode, int lights) {
   list.add(name, [=](const BenchOptions&) -> Bench {
     auto frame = std::make_shared<Frame>();
     frame->scene = load_scene(ring()).scene;
     RenderOptions& o = frame->options;
+    o.backend = where.backend;
+    o.device = where.device;
+    if (where.backend == Backend::vulkan) o.shadows = Shadows::off;
     o.width = 1920;
     o.height = 1080;
     o.method = "ltc-compact";
@@ -110,12 +114,15 @@ void add_indirect(BenchList& list) {
   add_pair(list, "indirect/pair/ltc", Pair::ltc);
   add_pair(list, "indirect/pair/ltc-schlick", Pair::ltc_schlick);
   add_pair(list, "indirect/pair/ggx", Pair::ggx);
+}
+
+void add_indirect_frames(BenchList& list, const Where& where) {
+  const std::string prefix = where.backend == Backend::cpu ? "indirect/frame/" : "vulkan/indirect/frame/";
   if (!std::filesystem::exists(ring())) return;
   for (int bits = 12; bits <= 18; bits += 2)
     for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
       const int lights = 1 << bits;
-      add_frame_of(list, std::string("indirect/frame/") + (mode == IndirectMode::ltc ? "ltc/" : "ggx/") + std::to_string(lights), mode,
-                   lights);
+      add_frame_of(list, where, prefix + (mode == IndirectMode::ltc ? "ltc/" : "ggx/") + std::to_string(lights), mode, lights);
     }
 }
 

@@ -79,11 +79,12 @@ double kept_pairs(const RenderOptions& options, int side) {
 
 }  // namespace
 
-Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads)
+Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads, Passes* device)
     : scene_(scene),
       rays_(rays),
       options_(options),
       threads_(threads),
+      device_(device),
       tables_(ltc_compact_pack_tables()),
       surfaces_(Raster{options.width, options.height}),
       whole_(needs_whole_surfaces(options) ? surfaces_.raster.size() : 0) {
@@ -141,6 +142,7 @@ void Pipeline::add_sum(Picture& picture) {
   const IndirectOptions& o = options_.indirect;
   const ShadowMap map = timed("shadow map", [&] { return make_shadow_map(scene_, rays_, o.virtual_lights); });
   const LobeArrays lobes = timed("virtual lights", [&] {
+    if (device_ != nullptr) return device_->lobes(map);
     LobeArrays result(map.alpha.size());
     virtual_light_table_for(active_simd()).prepare(map, tables_, result);
     return result;
@@ -158,6 +160,14 @@ void Pipeline::add_sum(Picture& picture) {
     return make_sets(map, lobes, set);
   });
   const Layout layout(options_.width, options_.height, side);
+  if (device_ != nullptr) {
+    const VectorArray radiance = timed("device", [&] {
+      return device_->radiance(surfaces_, sets, layout, {o.mode, o.quads, o.filter && side > 1});
+    });
+    for (PassTime& pass : device_->take_times()) passes_.push_back(std::move(pass));
+    for (int y = 0; y < options_.height; ++y) add_radiance(radiance, y, picture);
+    return;
+  }
   Receivers receivers = timed("interleave", [&] { return interleave(surfaces_, layout, o.mode); });
   LightingOptions lighting;
   lighting.mode = o.mode;
@@ -183,17 +193,22 @@ void Pipeline::add_sum(Picture& picture) {
     });
   timed("resolve", [&] {
     VectorArray radiance(surfaces_.raster.size());
-    std::vector<Vec3f>& layer = picture.layers.at("indirect");
     tbb::parallel_for(0, options_.height, [&](int y) {
       resolve_table_for(active_simd()).run(surfaces_, light, tables_, y, y + 1, radiance);
-      for (int x = 0; x < options_.width; ++x) {
-        const Vec3f r = radiance[surfaces_.raster.at(x, y)];
-        layer[static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(x)] = r;
-        picture.at(x, y) += r;
-      }
+      add_radiance(radiance, y, picture);
     });
     return 0;
   });
+}
+
+// A row of it.
+void Pipeline::add_radiance(const VectorArray& radiance, int y, Picture& picture) const {
+  std::vector<Vec3f>& layer = picture.layers.at("indirect");
+  for (int x = 0; x < options_.width; ++x) {
+    const Vec3f r = radiance[surfaces_.raster.at(x, y)];
+    layer[static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(x)] = r;
+    picture.at(x, y) += r;
+  }
 }
 
 void Pipeline::add_true(Picture& picture) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "render/indirect/passes.h"
 #include "render/indirect/receivers.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/ltc_points.h"
@@ -12,8 +13,8 @@ namespace steradian::indirect {
 
 class Pipeline {
  public:
-  // Keeps references to all but the options.
-  Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads);
+  // Keeps references to all but the options. device: what does some of the passes; null for the packs.
+  Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads, Passes* device = nullptr);
 
   // Takes the surfaces of a tile of the picture. From any thread, each tile once.
   void take(const SurfaceTile& tile, TileArea area);
@@ -26,6 +27,7 @@ class Pipeline {
  private:
   void add_sum(Picture& picture);
   void add_true(Picture& picture);
+  void add_radiance(const VectorArray& radiance, int y, Picture& picture) const;
   template <class Work>
   auto timed(const char* name, Work work);
 
@@ -33,6 +35,7 @@ class Pipeline {
   const RayScene& rays_;
   const RenderOptions options_;
   const int threads_;
+  Passes* device_;
   const LtcPackTables tables_;
   FrameSurfaces surfaces_;
   std::vector<Surface> whole_;  // ground truth only: with coat, sheen and material; none of a place that takes no light

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/float_mode.h"
@@ -15,6 +16,8 @@
 #include "render/cpu/methods.h"
 #include "render/cpu/specular.h"
 #include "render/cpu/textured_diffuse.h"
+#include "render/indirect/pipeline.h"
+#include "render/vulkan/bounce.h"
 #include "render/vulkan/direct_light.h"
 #include "steradian/error.h"
 
@@ -33,7 +36,8 @@ void refuse_what_is_missing(const RenderOptions& options, const DirectMethod& me
     throw UsageError("--backend vulkan", "does not have shadows yet", "add --shadows off, or use --backend cpu");
   refuse(method.estimates(), "the method " + method.name);
   refuse(options.lights == LightSum::tree, "--lights tree");
-  refuse(options.indirect.mode != IndirectMode::off, "the bounce of --indirect");
+  refuse(options.indirect.mode == IndirectMode::path, "--indirect path");
+  refuse(options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0, "--indirect-shadows");
 }
 
 bool shaders_have(const PackLight& light) {
@@ -91,6 +95,7 @@ struct Frame::Parts {
         direct(*device, method, o.table, lights),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
+    if (o.indirect.mode != IndirectMode::off) bounce = std::make_unique<Bounce>(*device);
     build_ms = ms_since(start);
   }
 
@@ -138,6 +143,7 @@ struct Frame::Parts {
       Job& job = jobs[i];
       SurfaceTile& tile = *workspaces.local();
       const TilePlane found = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
+      if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
       surfaces.add_environment(tile);
       lists_clock.run([&] {
         tiles[i] = {lights_reaching(light_pointers, tile), tile.any_diffuse, tile.any_specular, tile.any_sheen, tile.any_coat};
@@ -181,6 +187,7 @@ struct Frame::Parts {
 
   Picture render() {
     Picture picture(options.width, options.height);
+    if (bounce) bounced.emplace(scene, surfaces.rays(), options, threads, bounce.get());
     const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
     for (int first = 0; first < count && !stopped(); first += batch) {
       const int end = std::min(first + batch, count);
@@ -193,6 +200,7 @@ struct Frame::Parts {
         for (int tile = first; tile < end; ++tile)
           options.progress(static_cast<std::uint64_t>(tile) + 1, static_cast<std::uint64_t>(count));
     }
+    if (bounced && !stopped()) arena.execute([&] { bounced->add_to(picture); });
     return picture;
   }
 
@@ -207,7 +215,10 @@ struct Frame::Parts {
       stats.environment_spots = environment->share_of_spots();
       stats.diffuse_residual = environment->diffuse_residual();
     }
+    if (bounced) stats.passes.push_back(capture_clock.time(threads));
     for (PassTime& pass : stats.passes) pass.ms -= std::exchange(reported[pass.name], pass.ms);
+    if (bounced)  // of this frame alone
+      for (const PassTime& pass : bounced->passes()) stats.passes.push_back({"indirect: " + pass.name, pass.ms});
     stats.threads = threads;
     stats.lights = lights.size();
     stats.triangles = scene.triangle_count();
@@ -228,9 +239,12 @@ struct Frame::Parts {
   std::vector<const PackLight*> light_pointers;
   const SpecularPass host_specular;
   DirectLight direct;
+  std::unique_ptr<Bounce> bounce;
+  std::optional<indirect::Pipeline> bounced;  // of one frame
   tbb::task_arena arena;
   double build_ms = 0;
-  PassClock lists_clock{"lists"}, host_clock{"host lights"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"};
+  PassClock lists_clock{"lists"}, host_clock{"host lights"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
+      capture_clock{"indirect: surfaces"};
   std::vector<std::unique_ptr<TileVector>> next_shares;  // by job
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> workspaces{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> radiances{[] { return std::make_unique<TileVector>(); }};

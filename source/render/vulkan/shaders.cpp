@@ -19,6 +19,24 @@ constexpr std::uint32_t kRepresentativePoint[] =
 constexpr std::uint32_t kSheen[] =
 #include "sheen.comp.inc"
     ;
+constexpr std::uint32_t kBounceLobes[] =
+#include "bounce_lobes.comp.inc"
+    ;
+constexpr std::uint32_t kBounceBoxes[] =
+#include "bounce_boxes.comp.inc"
+    ;
+constexpr std::uint32_t kBounceCull[] =
+#include "bounce_cull.comp.inc"
+    ;
+constexpr std::uint32_t kBounceLight[] =
+#include "bounce_light.comp.inc"
+    ;
+constexpr std::uint32_t kBounceFilter[] =
+#include "bounce_filter.comp.inc"
+    ;
+constexpr std::uint32_t kBounceResolve[] =
+#include "bounce_resolve.comp.inc"
+    ;
 
 }  // namespace
 
@@ -27,5 +45,9 @@ std::span<const std::uint32_t> ltc_shader() { return kLtc; }
 std::span<const std::uint32_t> closed_form_shader() { return kClosedForm; }
 std::span<const std::uint32_t> representative_point_shader() { return kRepresentativePoint; }
 std::span<const std::uint32_t> sheen_shader() { return kSheen; }
+std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
+std::vector<std::span<const std::uint32_t>> bounce_shaders() {
+  return {kBounceBoxes, kBounceCull, kBounceLight, kBounceFilter, kBounceResolve};
+}
 
 }  // namespace steradian::vulkan

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace steradian::vulkan {
 
@@ -12,5 +13,9 @@ std::span<const std::uint32_t> ltc_shader();
 std::span<const std::uint32_t> closed_form_shader();
 std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
+
+// Of the bounce: lobes of virtual lights; boxes, culling, lighting, filter, resolve.
+std::span<const std::uint32_t> bounce_lobes_shader();
+std::vector<std::span<const std::uint32_t>> bounce_shaders();
 
 }  // namespace steradian::vulkan

@@ -1,0 +1,88 @@
+// The filter that joins what the pixels of a pattern found, along rows (step 0), then along columns (step 1); a thread a pixel.
+// The same as source/render/indirect/filter_pack.cpp.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "bounce.glsl"
+
+const float kEnough = 0.6;     // share of the weights
+const float kRounding = 1e-5;  // a hundredth of a millimetre
+
+float tap_weight(int kind, int tap) {
+    int sets = parameter(kStride) * parameter(kStride);
+    return uintBitsToFloat(parameters[kSets + sets * kSet + kind * kTaps + tap + kTaps / 2]);
+}
+
+// Alpha of the glossy lobe, -1 without one.
+float width_at(int i) {
+    vec4 f0 = f0s[i];
+    return f0.x + f0.y + f0.z + normals[i].w > 0.0 ? positions[i].w : -1.0;
+}
+
+struct Sums {
+    vec3 diffuse;
+    vec3 glossy;
+    float diffuse_weight;
+    float glossy_weight;
+};
+
+// When a tap belongs to the same surface: least cosine of the normals, most distance from the plane over the tap's, difference of widths.
+Sums gather(int i, ivec2 pixel, vec3 like) {
+    vec3 n = normals[i].xyz;
+    vec3 p = positions[i].xyz;
+    float width = width_at(i);
+    bool glossy = width > 0.0;
+    bool sharp = glossy && width < 0.1;
+    Sums s = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    int low = -parameter(kReachLow);
+    int high = parameter(kReachHigh);
+    for (int k = low; k <= high; k++) {
+        ivec2 at = pixel + (step == 0u ? ivec2(k, 0) : ivec2(0, k));
+        if (at.x < 0 || at.y < 0 || at.x >= parameter(kWidth) || at.y >= parameter(kHeight)) continue;
+        int j = index_of(at);
+        vec3 d = positions[j].xyz - p;
+        float off = dot(n, d);
+        bool same = dot(n, normals[j].xyz) > like.x && off * off < dot(d, d) * (like.y * like.y) + kRounding * kRounding;
+        if (!same) continue;
+        float weight = tap_weight(0, k);
+        s.diffuse += (step == 0u ? diffuse_light[j].xyz : diffuse_rows[j].xyz) * weight;
+        s.diffuse_weight += weight;
+        if (!glossy || !(abs(width_at(j) - width) < width * like.z)) continue;
+        weight = tap_weight(sharp ? 2 : 1, k);
+        s.glossy += (step == 0u ? glossy_light[j].xyz : glossy_rows[j].xyz) * weight;
+        s.glossy_weight += weight;
+    }
+    return s;
+}
+
+vec3 over(vec3 sum, float weight) { return sum / max(weight, 1.0e-12); }
+// The mean of what was found; what it lacks to be enough, from the others.
+vec3 joined(vec3 sum, float weight, vec3 others, float others_weight) {
+    float lack = max(kEnough - weight, 0.0);
+    return over(sum + over(others, others_weight) * lack, weight + lack);
+}
+
+void main() {
+    int i = int((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x);
+    if (i >= parameter(kWidth) * parameter(kHeight)) return;
+    vec3 n = normals[i].xyz;
+    vec3 diffuse = vec3(0.0);
+    vec3 glossy = vec3(0.0);
+    if (n != vec3(0.0)) {
+        ivec2 pixel = ivec2(i % parameter(kWidth), i / parameter(kWidth));
+        Sums same = gather(i, pixel, vec3(0.9, 0.05, 0.2));
+        // What is let in where so little is found that the pattern would be seen, at edges.
+        Sums loose = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
+        if (same.diffuse_weight < kEnough || (width_at(i) > 0.0 && same.glossy_weight < kEnough))
+            loose = gather(i, pixel, vec3(0.3, 0.7, 0.5));
+        diffuse = joined(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
+        glossy = joined(same.glossy, same.glossy_weight, loose.glossy, loose.glossy_weight);
+    }
+    if (step == 0u) {
+        diffuse_rows[i] = vec4(diffuse, 0.0);
+        glossy_rows[i] = vec4(glossy, 0.0);
+    } else {
+        diffuse_light[i] = vec4(diffuse, 0.0);
+        glossy_light[i] = vec4(glossy, 0.0);
+    }
+}

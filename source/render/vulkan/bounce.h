@@ -1,0 +1,60 @@
+// The bounce on a device: the lobes of virtual lights, then culling, lighting, filter and resolve (shaders/bounce_*.comp). The shadow map,
+// ranges and sets of virtual lights are the host's.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/cpu/ltc_points.h"
+#include "render/indirect/passes.h"
+#include "render/vulkan/compute_program.h"
+
+namespace steradian::vulkan {
+
+class Bounce final : public indirect::Passes {
+ public:
+  // Buffers and pipelines stay for any number of frames. The device must stay. Throws Error for what it lacks.
+  explicit Bounce(const Device& device);
+
+  indirect::LobeArrays lobes(const indirect::ShadowMap& map) override;
+  indirect::VectorArray radiance(const indirect::FrameSurfaces& surfaces, const std::vector<indirect::LightSet>& sets,
+                                 const indirect::Layout& layout, const indirect::BounceSettings& settings) override;
+  std::vector<PassTime> take_times() override;
+
+ private:
+  enum Plane : std::size_t {
+    kPositions,
+    kNormals,
+    kViews,
+    kF0s,
+    kAlbedos,
+    kDiffuseLight,
+    kGlossyLight,
+    kDiffuseRows,
+    kGlossyRows,
+    kPlanes
+  };
+  enum Kernel : std::size_t { kBoxes, kCull, kLight, kFilter, kResolve };
+
+  Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const std::string& what, BufferUse use = BufferUse::host_writes);
+  void upload(const indirect::FrameSurfaces& surfaces);
+  void upload_lights(const std::vector<indirect::LightSet>& sets, const indirect::BounceSettings& settings, std::size_t first,
+                     std::size_t count);
+  // The light pass: a pipeline for each kind of tiles.
+  std::vector<ComputeProgram::Dispatch> light_tiles(const indirect::FrameSurfaces& surfaces, const indirect::Layout& layout,
+                                                    const indirect::BounceSettings& settings);
+  void run(const std::vector<ComputeProgram::Dispatch>& dispatches, const std::vector<const char*>& names);
+
+  const Device& device_;
+  const LtcPackTables tables_;
+  ComputeProgram lobe_program_, program_;
+  std::unique_ptr<Buffer> texels_, texel_lobes_, table_;
+  std::unique_ptr<Buffer> planes_[kPlanes];
+  std::unique_ptr<Buffer> lights_, masks_, boxes_, parameters_;
+  std::vector<std::uint32_t> values_;  // of the parameters
+  std::map<std::string, double> times_;
+};
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,136 @@
+// The CPU judges the device: the bounce's light alone, with the same virtual lights, sets and seeds.
+#include "render/vulkan/bounce.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "paths.h"
+#include "render/indirect/test_corner.h"
+#include "render/vulkan/frame.h"
+#include "steradian/error.h"
+#include "steradian/load_scene.h"
+
+namespace steradian::vulkan {
+namespace {
+
+Scene scene_of(const std::string& name) { return load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene; }
+
+RenderOptions small(IndirectMode mode, int lights) {
+  RenderOptions options;
+  options.width = 112;
+  options.height = 63;
+  options.method = "ltc-compact";
+  options.shadows = Shadows::off;
+  options.indirect.mode = mode;
+  options.indirect.virtual_lights = lights;
+  return options;
+}
+
+class VulkanBounce : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  }
+};
+
+// The bound is what the back end promises. Rounding moves halves by 1e-6 of them, and with it that share of the pairs over the threshold by
+// which chance keeps them: what one weighs is a few hundredths of a pixel's light.
+void expect_same(const std::string& name, const Scene& scene, RenderOptions options) {
+  options.backend = Backend::cpu;
+  const std::vector<Vec3f> cpu = render(scene, options).layers.at("indirect");
+  options.backend = Backend::vulkan;
+  const std::vector<Vec3f> device = render(scene, options).layers.at("indirect");
+  double squares = 0, errors = 0, largest = 0;
+  for (std::size_t i = 0; i < cpu.size(); ++i) {
+    const Vec3f off = device[i] - cpu[i];
+    const auto error = static_cast<double>(dot(off, off));
+    ASSERT_TRUE(std::isfinite(error)) << name << " pixel " << i;
+    squares += static_cast<double>(dot(cpu[i], cpu[i]));
+    errors += error;
+    largest = std::max(largest, error);
+  }
+  EXPECT_GT(squares, 0) << name;
+  const double relative = std::sqrt(errors / squares);
+  std::printf("%-24s relative L2 %.1e, largest %.1e of the root mean square\n", name.c_str(), relative,
+              std::sqrt(largest / squares * static_cast<double>(cpu.size())));
+  EXPECT_LE(relative, 1e-3) << name;
+}
+
+TEST_F(VulkanBounce, LightsTheProjectsScenesAsTheCpu) {
+  for (const char* name : {"ring", "gallery"}) {
+    const Scene scene = scene_of(name);
+    expect_same(std::string(name) + ", ltc", scene, small(IndirectMode::ltc, 1 << 12));
+    expect_same(std::string(name) + ", ggx", scene, small(IndirectMode::ggx, 1 << 12));
+  }
+}
+
+TEST_F(VulkanBounce, HasEveryOptionOfTheCpu) {
+  const Scene scene = indirect::mixed_corner();
+  RenderOptions options = small(IndirectMode::ltc, 1 << 10);
+  options.width = 65;  // no tile of 16 sub-images is full
+  options.height = 49;
+  expect_same("corner", scene, options);
+  expect_same("sharp corner", indirect::metal_corner(0.2f), options);  // quads
+  options.indirect.quads = options.indirect.soften = false;
+  expect_same("points, not softened", indirect::metal_corner(0.2f), options);
+  options.indirect.filter = false;
+  expect_same("without filter", scene, options);
+  options.indirect.interleave = 2;
+  options.indirect.kept_pairs = 0;
+  expect_same("nothing culled", scene, options);
+}
+
+// More lights of a set than a round has words for.
+TEST_F(VulkanBounce, AddsUpManyLightsInRounds) {
+  RenderOptions options = small(IndirectMode::ltc, 40000);
+  options.width = 24;
+  options.height = 18;
+  options.indirect.interleave = 1;
+  options.indirect.kept_pairs = 0;
+  expect_same("in rounds", indirect::metal_corner(), options);
+}
+
+TEST_F(VulkanBounce, SaysWhatItsPassesTook) {
+  RenderOptions options = small(IndirectMode::ltc, 1 << 10);
+  const Scene scene = indirect::mixed_corner();
+  options.width = options.height = 32;
+  options.backend = Backend::vulkan;
+  Frame frame(scene, options);
+  RenderStats stats;
+  for (int i = 0; i < 2; ++i) frame.render(&stats);
+  for (const char* name : {"indirect: device: cull", "indirect: device: light", "indirect: device: resolve"})
+    EXPECT_TRUE(std::any_of(stats.passes.begin(), stats.passes.end(), [&](const PassTime& p) { return p.name == name && p.ms > 0; }))
+        << name;
+}
+
+TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {
+  std::shared_ptr<const Device> validated;
+  try {
+    validated = std::make_shared<const Device>(DeviceOptions{"", true});
+  } catch (const Error& e) {
+    GTEST_SKIP() << e.what();
+  }
+  const Scene scene = indirect::mixed_corner();
+  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
+    RenderOptions options = small(mode, 1 << 10);
+    options.backend = Backend::vulkan;
+    options.width = options.height = 32;
+    Frame(scene, options, validated).render();
+  }
+  EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
+}
+
+TEST_F(VulkanBounce, RefusesWhatItDoesNotHave) {
+  const Scene scene = indirect::mixed_corner();
+  RenderOptions options = small(IndirectMode::path, 1 << 10);
+  options.backend = Backend::vulkan;
+  EXPECT_THROW(render(scene, options), UsageError);
+  options.indirect.mode = IndirectMode::ltc;
+  options.indirect.shadow_rays = 1;
+  EXPECT_THROW(render(scene, options), UsageError);
+}
+
+}  // namespace
+}  // namespace steradian::vulkan
