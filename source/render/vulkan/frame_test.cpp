@@ -200,7 +200,7 @@ TEST_F(VulkanFrame, RefusesWhatItDoesNotHave) {
   refused([](RenderOptions& o) { o.shadows = Shadows::on; });
   refused([](RenderOptions& o) { o.method = "sampled"; });
   refused([](RenderOptions& o) { o.method = "half-vector"; });
-  refused([](RenderOptions& o) { o.indirect.mode = IndirectMode::ltc; });
+  refused([](RenderOptions& o) { o.indirect.mode = IndirectMode::path; });
   refused([](RenderOptions& o) { o.device = "no such device"; });
   refused([](RenderOptions& o) { o.device = "99"; });
 }
