@@ -5,7 +5,9 @@
 //   const Picture& picture = stage.draw();     // the same bytes as render_plane of the scene as it is now
 //
 // A tile is left alone where no pair of a light and a moved body reaches it, before or after, by the very tests that the frame makes on its
-// way down to the tile. What a moved lamp lights, and what it overlaps, is drawn again.
+// way down to the tile. What a moved lamp lights, and what it overlaps, is drawn again. Of round lights that are uniform, what each sends
+// to each tile is kept (a kilobyte for a light and a tile, 1 GB or a quarter of the memory that the limits allow at most), so that only
+// lights that have changed there are worked out. Of the scene, only what a change touches is made ready again.
 #pragma once
 
 #include <memory>
@@ -16,6 +18,7 @@ namespace steradian {
 
 struct PlaneStageStats {
   std::size_t tiles = 0, drawn = 0;  // of 16 x 16 pixels; those that the last draw made
+  bool anew = false;                 // all of the scene was made ready again, not just what changed
   double ms = 0;
 };
 

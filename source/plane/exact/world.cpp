@@ -176,27 +176,29 @@ double scale_of(const PlaneScene& scene) {
   return side > 1e-12 && side < 1e12 ? std::ldexp(1.0, 10 - std::ilogb(side)) : 1;
 }
 
+void scale_body(PlaneBody& body, double scale) {
+  for (auto& contour : body.contours)
+    for (Vec2d& p : contour) p = p * scale;
+  body.center = body.center * scale;
+  body.x_axis = body.x_axis * scale;
+  body.y_axis = body.y_axis * scale;
+  body.radius *= scale;
+  if (!body.light) return;
+  PlaneEmission& light = *body.light;
+  light.range *= scale;
+  const double brighter = light.profile == PlaneProfile::inverse ? scale : 1;  // divided by a longer distance
+  light.radiance = light.radiance * brighter;
+  if (!light.gradient) return;
+  light.gradient->from = light.gradient->from * scale;
+  light.gradient->to = light.gradient->to * scale;
+  for (PlaneStop& stop : light.gradient->stops) stop.radiance = stop.radiance * brighter;
+}
+
 PlaneScene scaled(PlaneScene scene, double scale) {
   scene.origin = scene.origin * scale;
   scene.width *= scale;
   scene.height *= scale;
-  for (PlaneBody& body : scene.bodies) {
-    for (auto& contour : body.contours)
-      for (Vec2d& p : contour) p = p * scale;
-    body.center = body.center * scale;
-    body.x_axis = body.x_axis * scale;
-    body.y_axis = body.y_axis * scale;
-    body.radius *= scale;
-    if (!body.light) continue;
-    PlaneEmission& light = *body.light;
-    light.range *= scale;
-    const double brighter = light.profile == PlaneProfile::inverse ? scale : 1;  // divided by a longer distance
-    light.radiance = light.radiance * brighter;
-    if (!light.gradient) continue;
-    light.gradient->from = light.gradient->from * scale;
-    light.gradient->to = light.gradient->to * scale;
-    for (PlaneStop& stop : light.gradient->stops) stop.radiance = stop.radiance * brighter;
-  }
+  for (PlaneBody& body : scene.bodies) scale_body(body, scale);
   return scene;
 }
 
@@ -217,8 +219,10 @@ static bool shines_alike(const PlaneBody& body) {
                          body.light->spot_half_angle == 0);
 }
 
-PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits) : scene(std::move(from)), scale(scale_of(scene)) {
-  if (scale != 1) {
+PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits, Use use) : scene(std::move(from)), scale(scale_of(scene)) {
+  if (scale != 1 && use == Use::frames) {
+    scene = scaled(std::move(scene), scale);
+  } else if (scale != 1) {
     given = std::move(scene);
     scene = scaled(*given, scale);
   }
@@ -229,14 +233,14 @@ PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits) : scene(std::move(
   budget.take_memory(scene.name, what, edges * 3 * sizeof(plane::Curve));
   budget.take_work(scene.name, what, edges * 1000);
   try {
-    take_apart(edges);
+    take_apart(edges, use);
   } catch (const std::bad_alloc&) {
     throw budget.out_of_memory();
   }
 }
 
-void PlaneWorld::Impl::take_apart(std::size_t edges) {
-  curves.reserve(edges);
+void PlaneWorld::Impl::take_apart(std::size_t edges, Use use) {
+  curves.reserve(use == Use::all ? edges : edges + edges / 2 + 1024);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const PlaneBody& body = scene.bodies[i];
     if (beyond_par == nullptr && !shines_alike(body)) beyond_par = &body;
@@ -244,12 +248,46 @@ void PlaneWorld::Impl::take_apart(std::size_t edges) {
     const std::vector<plane::Curve> outline = plane::outline_of(body, static_cast<int>(i));
     curves.insert(curves.end(), outline.begin(), outline.end());
     boxes.push_back(plane::bounds_of(body));
-    const bool many = body.shape == PlaneBody::Shape::polygon && edges_of(body) > kManyEdges;
-    rows_of.push_back(many ? static_cast<int>(rows.size()) : -1);
-    if (many) rows.emplace_back(body.contours);
+    add_rows(i);
   }
   first_curve.push_back(curves.size());
-  grid = plane::RayGrid(curves, scene.bodies);
+  if (use == Use::all) grid = plane::RayGrid(curves, scene.bodies);
+}
+
+void PlaneWorld::Impl::add_rows(std::size_t i) {
+  const PlaneBody& body = scene.bodies[i];
+  const bool many = body.shape == PlaneBody::Shape::polygon && edges_of(body) > kManyEdges;
+  rows_of.push_back(many ? static_cast<int>(rows.size()) : -1);
+  if (many) rows.emplace_back(body.contours);
+}
+
+bool PlaneWorld::Impl::set_body(std::size_t i, PlaneBody body) {
+  scale_body(body, scale);
+  const std::vector<plane::Curve> outline = plane::outline_of(body, static_cast<int>(i));
+  const bool many = body.shape == PlaneBody::Shape::polygon && edges_of(body) > kManyEdges;
+  if (outline.size() != first_curve[i + 1] - first_curve[i] || many != (rows_of[i] >= 0)) return false;
+  std::copy(outline.begin(), outline.end(), curves.begin() + static_cast<std::ptrdiff_t>(first_curve[i]));
+  boxes[i] = plane::bounds_of(body);
+  if (many) rows[static_cast<std::size_t>(rows_of[i])] = plane::EdgeRows(body.contours);
+  scene.bodies[i] = std::move(body);
+  return true;
+}
+
+bool PlaneWorld::Impl::append(PlaneBody body) {
+  scale_body(body, scale);
+  const std::vector<plane::Curve> outline = plane::outline_of(body, static_cast<int>(scene.bodies.size()));
+  if (curves.size() + outline.size() > curves.capacity()) return false;  // others point to them
+  curves.insert(curves.end(), outline.begin(), outline.end());
+  first_curve.push_back(curves.size());
+  boxes.push_back(plane::bounds_of(body));
+  scene.bodies.push_back(std::move(body));
+  add_rows(scene.bodies.size() - 1);
+  return true;
+}
+
+void PlaneWorld::Impl::drop(std::size_t i) {
+  scene.bodies[i].light.reset();
+  boxes[i] = {};
 }
 
 bool PlaneWorld::Impl::contains(std::size_t i, Vec2d p) const {

@@ -12,10 +12,18 @@
 namespace steradian {
 
 struct PlaneWorld::Impl {
-  Impl(PlaneScene scene, const Limits& limits);
+  enum class Use { all, frames };  // frames: without what queries ask, and with room for more
+  Impl(PlaneScene scene, const Limits& limits, Use use = Use::all);
+
+  // Changes of a world for frames, from bodies in the user's units. False, and nothing has changed, where a body has another number of
+  // curves than before, or no room. Throws Error as the constructor does.
+  bool set_body(std::size_t i, PlaneBody body);
+  bool append(PlaneBody body);
+  void drop(std::size_t i);  // leaves an empty place
 
   // Bodies to curves, and what finds them; the number of curves at most.
-  void take_apart(std::size_t edges);
+  void take_apart(std::size_t edges, Use use);
+  void add_rows(std::size_t i);
 
   // Is p in body i or on its edge?
   bool contains(std::size_t i, Vec2d p) const;

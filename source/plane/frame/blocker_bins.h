@@ -23,6 +23,13 @@ class BlockerBins {
       if (!blockers[i].in_chain) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
   }
 
+  void remove(int index, const Blocker& b) { std::erase(bins_[bin(b.center)], index); }
+  void insert(int index, const Blocker& b) {
+    largest_ = std::max(largest_, b.bound);
+    std::vector<int>& to = bins_[bin(b.center)];
+    to.insert(std::upper_bound(to.begin(), to.end(), index), index);
+  }
+
   // Calls f with the index of every blocker within `reach` of p.
   template <class F>
   void for_each_within(const std::vector<Blocker>& blockers, Vec2d p, double reach, F f) const {

@@ -27,13 +27,12 @@ class BlockerList {
     for (std::vector<float>* column : {&x, &y, &radius, &core}) column->resize(2 * needed);
     index.resize(2 * needed);
   }
-  void add(float cx, float cy, float r, float core_radius, int blocker) {
-    reserve_more(1);
-    x[size] = cx;
-    y[size] = cy;
-    radius[size] = r;
-    core[size] = core_radius;
-    index[size++] = blocker;
+  void set(std::size_t i, float cx, float cy, float r, float core_radius, int blocker) {
+    x[i] = cx;
+    y[i] = cy;
+    radius[i] = r;
+    core[i] = core_radius;
+    index[i] = blocker;
   }
 };
 

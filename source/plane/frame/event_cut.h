@@ -3,6 +3,7 @@
 // Rays are told apart by the signed distance at which they pass the light's centre (place_on_light): from -radius to radius.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 
 #include "plane/frame/disk_share.h"
@@ -13,9 +14,18 @@
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
 
+// The same to the last bit whether the share has just been worked out or was kept.
+STERADIAN_INLINE void add_share(int i, PackReal share, float red, float green, float blue, TileBuffer& tile) {
+  const auto add = [&](float* p, float radiance) { store(p + i, PackReal::of(xsimd::fma(share.v, broadcast(radiance).v, load(p + i).v))); };
+  add(tile.red, red);
+  add(tile.green, green);
+  add(tile.blue, blue);
+}
+
 class EventEnds {
  public:
-  EventEnds(const EventLight& light, TileBuffer& tile) : light_(light), tile_(tile) {
+  bool shared = false;  // has anything gone into `shares`?
+  EventEnds(const EventLight& light, TileBuffer& tile, float* shares) : light_(light), tile_(tile), shares_(shares) {
     const PackReal radius = broadcast(light.radius);
     for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
       store(low_ + i, -radius);
@@ -168,14 +178,17 @@ class EventEnds {
 
   STERADIAN_INLINE void add_colour(int i, PackReal share) {
     share = share * PackReal(0.159154943091895336);
-    const auto add = [&](float* p, float radiance) { store(p + i, load(p + i) + share * broadcast(radiance)); };
-    add(tile_.red, light_.red);
-    add(tile_.green, light_.green);
-    add(tile_.blue, light_.blue);
+    if (shares_ != nullptr) {
+      if (!shared) std::fill_n(shares_, kTilePixels, 0.0f);
+      shared = true;
+      store(shares_ + i, share);
+    }
+    add_share(i, share, light_.red, light_.green, light_.blue, tile_);
   }
 
   const EventLight& light_;
   TileBuffer& tile_;
+  float* shares_;
   alignas(64) float low_[kTilePixels];
   alignas(64) float high_[kTilePixels];
 };

@@ -140,13 +140,15 @@ __attribute__((flatten)) std::uint32_t split(const EventPair* pairs, const int* 
   return wanted;
 }
 
-__attribute__((flatten)) void add_light(const EventLight& light, const int* list, int count, TileBuffer& tile, EventRest& rest) {
+__attribute__((flatten)) void add_light(const EventLight& light, const int* list, int count, TileBuffer& tile, EventRest& rest,
+                                        float* shares) {
   const Squares squares(light.blocks);
   std::uint32_t lit = light.open & squares.in_range(light.blocks), general = 0, within = 0;
   rest.taken = rest.blocks = 0;
   rest.lit = lit != 0;
+  rest.shared = false;
   if (lit == 0) return;
-  EventEnds ends(light, tile);
+  EventEnds ends(light, tile, shares);
   if (rest.items.size() < static_cast<std::size_t>(count)) rest.items.resize(static_cast<std::size_t>(2 * count));
   std::uint64_t* items = rest.items.data();
   std::uint64_t* last = items;
@@ -189,12 +191,17 @@ __attribute__((flatten)) void add_light(const EventLight& light, const int* list
   const std::size_t room = static_cast<std::size_t>(kept - items) * 2 * kLanes * 2;  // a lens-free body takes one interval
   if (rest.kept.size() < room) rest.kept.resize(2 * room);
   ends.add_to(lit, within & lit, items, kept, rest.kept.data(), squares.x(), squares.y());
+  rest.shared = ends.shared;
+}
+
+__attribute__((flatten)) void add_shares(const float* shares, float red, float green, float blue, TileBuffer& tile) {
+  for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) add_share(i, load(shares + i), red, green, blue, tile);
 }
 
 }  // namespace
 
 const EventTable& event_table() {
-  static constexpr EventTable table = {make_convex, make_round, split, add_light};
+  static constexpr EventTable table = {make_convex, make_round, split, add_light, add_shares};
   return table;
 }
 

@@ -50,10 +50,8 @@ void set_lens(EventPair& pair, const Lens& lens, Vec2d light, double radius, Vec
 
 }  // namespace
 
-void append_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers) {
+void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers, std::size_t first) {
   const EventTable& table = event_table_for(active_simd());
-  const std::size_t first = frame.pairs.size();
-  frame.pairs.resize(first + blockers.size());
   Batch convex(table.make_convex, disk.radius), round(table.make_round, disk.radius);
   for (std::size_t i = 0; i < blockers.size(); ++i) {
     const Blocker& b = frame.blockers[static_cast<std::size_t>(blockers[i])];
@@ -95,7 +93,7 @@ void append_event_pairs(FrameScene& frame, const Emitter& disk, const std::vecto
   }
   convex.flush();
   round.flush();
-  for (std::size_t i = first; i < frame.pairs.size(); ++i) {
+  for (std::size_t i = first; i < first + blockers.size(); ++i) {
     // The inner lines of what is not a disk are its bounding circle's; the outer ones say nothing.
     EventPair& pair = frame.pairs[i];
     if (pair.kind == EventPair::Kind::general)

@@ -6,7 +6,7 @@
 
 namespace steradian::plane {
 
-// Appends a pair for each of the blockers, in their order.
-void append_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers);
+// Makes a pair for each of the blockers, in their order, from `first` on, where FrameScene::pairs has room for them.
+void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers, std::size_t first);
 
 }  // namespace steradian::plane

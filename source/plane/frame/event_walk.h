@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "plane/frame/leaf.h"
 #include "plane/frame/scene.h"
+#include "plane/frame/shares.h"
 #include "plane/frame/tile_lists.h"
 #include "plane/frame/tiles.h"
 
@@ -16,7 +18,8 @@ float slack_of(const FrameScene& frame);
 
 class EventWalk {
  public:
-  EventWalk(const FrameScene& frame, const PixelGrid& grid);
+  // Of what `store` keeps, only what has changed is worked out; null: everything is.
+  EventWalk(const FrameScene& frame, const PixelGrid& grid, const TileSet* only, ShareStore* store);
 
   // What follows is about the 256 pixels from (x, y) on, then about 64 of them, then about a tile.
   void enter_256(int x, int y, const TileArea& tile);
@@ -43,13 +46,21 @@ class EventWalk {
   };
 
   int child_of_64(int x, int y) const { return (y - y_64_) / kTileSide * 4 + (x - x_64_) / kTileSide; }
-  void split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, Children& to) const;
+  // Of sixteen squares those that want a light: all that it changes in, and where everything is worked out.
+  struct Wanted {
+    std::uint32_t any = 0, everything = 0;
+  };
+  Wanted wanted(int x, int y, int side) const;
+  void find_changed(int x, int y);
+  void split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, const Wanted& wanted, Children& to) const;
 
   const FrameScene& frame_;
   const PixelGrid& grid_;
   const EventTable& table_ = event_table_for(active_simd());
   const TileTable& tiles_ = tile_table_for(active_simd());
   const CullTable& cull_ = cull_table_for(active_simd());
+  const TileSet* only_;
+  ShareStore* store_;
   float slack_;
   std::vector<int> disks_;  // emitters
   std::vector<int> hiders_;
@@ -58,9 +69,13 @@ class EventWalk {
   Children of_256_, of_64_;
   int x_256_ = 0, y_256_ = 0, x_64_ = 0, y_64_ = 0;
   EventRest rest_;
+  std::vector<char> changed_;  // by emitter: in the 256 pixels
+  TileShares next_;            // of the tile
 };
 
 // Marks the tiles on whose light from a disk the pair may have had an effect: those that it reaches on the way down, by the same tests.
-void mark_touched(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair, TileSet& tiles);
+// Calls mark(x, y, side).
+void mark_touched(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair,
+                  const std::function<void(int, int, int)>& mark);
 
 }  // namespace steradian::plane

@@ -72,6 +72,7 @@ struct EventRest {
   std::uint32_t blocks = 0;
   std::uint32_t taken = 0;  // pairs that touch any block in range
   bool lit = false;         // is any block of it?
+  bool shared = false;      // has anything gone into `shares`?
   std::vector<int> blockers;
   // Work room.
   std::vector<std::uint64_t> items;
@@ -84,7 +85,10 @@ struct EventTable {
   // Hands the pairs on to those of the wanted children that they touch. Returns the children in range that no blocker hides alone.
   std::uint32_t (*split)(const EventPair* pairs, const int* list, int count, const EventSquares& children, std::uint32_t wanted,
                          EventLists& to);
-  void (*add_light)(const EventLight& light, const int* list, int count, TileBuffer& tile, EventRest& rest);
+  // `shares`: null, or where what the light sends to every pixel goes, before it is multiplied by its radiance.
+  void (*add_light)(const EventLight& light, const int* list, int count, TileBuffer& tile, EventRest& rest, float* shares);
+  // Adds such shares times a radiance.
+  void (*add_shares)(const float* shares, float red, float green, float blue, TileBuffer& tile);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(EventTable, event_table)

@@ -28,62 +28,65 @@ class Finding {
 
   void run() {
     frame_.interior.resize(world_.scene.bodies.size());
-    for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
-      if (!body(i).light || world_.first_curve[i] == world_.first_curve[i + 1]) continue;
-      const Box& mine = world_.boxes[i];
-      std::vector<std::size_t> others{i};
-      const Vec2d middle = (mine.low + mine.high) * 0.5;
-      bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
-        spend_(20);
-        const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
-        const Box& box = world_.boxes[o];
-        if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
-        if (!may_be_inside(i, frame_.blockers[static_cast<std::size_t>(k)])) return;
-        others.push_back(o);
-      });
-      std::sort(others.begin(), others.end());
-      others.erase(std::unique(others.begin(), others.end()), others.end());
-      if (others.size() == 1) continue;  // nothing inside: the light alone
-      LightInterior& inside = frame_.interior[i];
-      std::size_t reaching = 0;
-      for (std::size_t o : others) reaching += world_.first_curve[o + 1] - world_.first_curve[o];
-      spend_(20 * reaching);
-      budget_.take_memory(world_.scene.name, "what reaches into its lights", reaching * (sizeof(Curve*) + sizeof(Curve)));
-      const auto add = [&](std::size_t o) {
-        for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c)
-          if (o == i || may_reach_into(i, world_.curves[c])) inside.curves.push_back(&world_.curves[c]);
-      };
-      add(i);
-      inside.own = inside.curves.size();
-      for (std::size_t o : others)
-        if (o != i) add(o);
-      if (body(i).shape == PlaneBody::Shape::polygon) {
-        inside.in_polygon = true;
-        for (std::size_t c = inside.own; c < inside.curves.size(); ++c) add_parts_within(i, *inside.curves[c], inside.parts);
-        inside.curves.resize(inside.parts.empty() ? 0 : inside.own);
-        continue;
-      }
-      const Curve& own = world_.curves[world_.first_curve[i]];
-      inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
-                           return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
-                         });
-      if (inside.by_chords) {
-        for (const Curve* c : inside.curves) {
-          if (c == &own) continue;
-          if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
-        }
-        continue;
-      }
-      inside.by_parts = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
-                          return c->kind == Curve::Kind::segment || is_full_circle(*c);
-                        });
-      if (!inside.by_parts) continue;
+    for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) find(i);
+  }
+
+  void find(std::size_t i) {
+    frame_.interior[i] = {};
+    if (!body(i).light || world_.first_curve[i] == world_.first_curve[i + 1]) return;
+    const Box& mine = world_.boxes[i];
+    std::vector<std::size_t> others{i};
+    const Vec2d middle = (mine.low + mine.high) * 0.5;
+    bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
+      spend_(20);
+      const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
+      const Box& box = world_.boxes[o];
+      if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
+      if (!may_be_inside(i, frame_.blockers[static_cast<std::size_t>(k)])) return;
+      others.push_back(o);
+    });
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    if (others.size() == 1) return;  // nothing inside: the light alone
+    LightInterior& inside = frame_.interior[i];
+    std::size_t reaching = 0;
+    for (std::size_t o : others) reaching += world_.first_curve[o + 1] - world_.first_curve[o];
+    spend_(20 * reaching);
+    budget_.take_memory(world_.scene.name, "what reaches into its lights", reaching * (sizeof(Curve*) + sizeof(Curve)));
+    const auto add = [&](std::size_t o) {
+      for (std::size_t c = world_.first_curve[o]; c < world_.first_curve[o + 1]; ++c)
+        if (o == i || may_reach_into(i, world_.curves[c])) inside.curves.push_back(&world_.curves[c]);
+    };
+    add(i);
+    inside.own = inside.curves.size();
+    for (std::size_t o : others)
+      if (o != i) add(o);
+    if (body(i).shape == PlaneBody::Shape::polygon) {
+      inside.in_polygon = true;
+      for (std::size_t c = inside.own; c < inside.curves.size(); ++c) add_parts_within(i, *inside.curves[c], inside.parts);
+      inside.curves.resize(inside.parts.empty() ? 0 : inside.own);
+      return;
+    }
+    const Curve& own = world_.curves[world_.first_curve[i]];
+    inside.by_chords = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
+                         return c == &own || (c->kind == Curve::Kind::segment && !body(static_cast<std::size_t>(c->body)).light);
+                       });
+    if (inside.by_chords) {
       for (const Curve* c : inside.curves) {
         if (c == &own) continue;
-        const std::optional<Curve> part =
-            c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
-        if (part) inside.parts.push_back(*part);
+        if (const std::optional<Curve> part = clipped_to_circle(*c, own.ellipse)) inside.chords.push_back(*part);
       }
+      return;
+    }
+    inside.by_parts = is_full_circle(own) && std::all_of(inside.curves.begin(), inside.curves.end(), [&](const Curve* c) {
+                        return c->kind == Curve::Kind::segment || is_full_circle(*c);
+                      });
+    if (!inside.by_parts) return;
+    for (const Curve* c : inside.curves) {
+      if (c == &own) continue;
+      const std::optional<Curve> part =
+          c->kind == Curve::Kind::segment ? clipped_to_circle(*c, own.ellipse) : circle_clipped_to_circle(*c, own.ellipse);
+      if (part) inside.parts.push_back(*part);
     }
   }
 
@@ -163,6 +166,11 @@ class Finding {
 
 void find_interiors(FrameScene& frame, const BlockerBins& bins, Budget& budget, const std::function<void(std::uint64_t)>& spend) {
   Finding(frame, bins, budget, spend).run();
+}
+
+void find_interior(FrameScene& frame, std::size_t body, const BlockerBins& bins, Budget& budget,
+                   const std::function<void(std::uint64_t)>& spend) {
+  Finding(frame, bins, budget, spend).find(body);
 }
 
 }  // namespace steradian::plane

@@ -12,5 +12,8 @@ namespace steradian::plane {
 
 // Fills FrameScene::interior. `spend` is told the steps that this takes, and may throw.
 void find_interiors(FrameScene& frame, const BlockerBins& bins, Budget& budget, const std::function<void(std::uint64_t)>& spend);
+// Of one body, anew.
+void find_interior(FrameScene& frame, std::size_t body, const BlockerBins& bins, Budget& budget,
+                   const std::function<void(std::uint64_t)>& spend);
 
 }  // namespace steradian::plane

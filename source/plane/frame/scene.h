@@ -85,7 +85,8 @@ struct FrameScene {
   std::vector<DividingLine> lines;
   std::vector<PaddedOutline> outlines;    // of convex blockers, by Blocker::outline
   BlockerList nearby;                     // emitter by emitter: blockers within its range, private ones too
-  std::vector<std::size_t> first_nearby;  // by emitter, and one more
+  std::vector<std::size_t> first_nearby;  // by emitter, and one more: where its blockers begin,
+  std::vector<std::size_t> nearby_count;  // and how many there are; what follows them may be room
   std::vector<EventPair> pairs;           // of disks; BlockerList::index is among these for them
   double slack = 0;                       // what rounding to float may move a place by
   std::vector<char> whole_run;            // by emitter: a run of which nothing else comes between edges and chord

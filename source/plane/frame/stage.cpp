@@ -10,40 +10,62 @@
 #include "core/budget.h"
 #include "plane/frame/event_walk.h"
 #include "plane/frame/hull.h"
+#include "plane/frame/preparation.h"
 #include "plane/frame/tiles.h"
 #include "steradian/error.h"
 
 namespace steradian::plane {
 namespace {
 
-// A scene made ready, and its frame.
+// A scene made ready, as it is drawn.
 struct Ready {
-  PlaneWorld world;
-  FrameScene frame;
-  Ready(const PlaneScene& scene, const PlaneFrameOptions& options) : world(scene, options.limits) {
-    Budget budget(options.limits);
-    frame = prepare_frame(world.impl(), budget);
-  }
+  World world;
+  Budget budget;
+  Preparation prepared;
+  Ready(const PlaneScene& scene, const PlaneFrameOptions& options)
+      : world(scene, options.limits, World::Use::frames), budget(options.limits), prepared(world, budget, {}) {}
 };
+
+// Shares of lights that a stage keeps, at most, and of the memory it may take.
+constexpr std::uint64_t kMostShares = std::uint64_t{1} << 30, kShareOfMemory = 4;
 
 // Marks what a body has to do with in a frame of which it is part.
 class Marking {
  public:
-  Marking(const FrameScene& frame, const PixelGrid& grid, TileSet& tiles)
-      : frame_(frame), world_(*frame.world), grid_(grid), tiles_(tiles) {}
+  Marking(const FrameScene& frame, const PixelGrid& grid, TileSet& tiles, ShareStore& store)
+      : frame_(frame), world_(*frame.world), grid_(grid), tiles_(tiles), store_(store) {}
 
+  // A body that moves, comes or goes.
   void mark(std::size_t body) {
     const Box& box = world_.boxes[body];
-    mark_box(box.low, box.high);
+    // Which pixels are within something, and which blocks all are.
+    for_each_tile(box.low, box.high, [&](int x, int y) {
+      tiles_.mark(x, y, kTileSide);
+      store_.at(x, y).kept = false;
+    });
+    const Vec2d middle = (box.low + box.high) * 0.5;
+    const double radius = 0.5 * length(box.high - box.low) + kNear;
     for (std::size_t index = 0; index < frame_.emitters.size(); ++index) {
       const Emitter& e = frame_.emitters[index];
       const auto owner = static_cast<std::size_t>(e.body);
+      if (owner == body) {
+        mark_range(index);
+        continue;
+      }
+      if (length(e.center - middle) > std::min(e.range, 1e8) + e.bound + radius) continue;
       // What overlaps a light changes how it is taken apart, and what is seen from within.
-      if (owner == body || near(world_.boxes[owner], box))
-        mark_range(e);
+      if (near(world_.boxes[owner], box))
+        mark_range(index);
       else
         mark_pairs(index, static_cast<int>(body));
     }
+  }
+
+  // A light of another colour.
+  void mark_lit(std::size_t body) {
+    for (std::size_t index = 0; index < frame_.emitters.size(); ++index)
+      if (static_cast<std::size_t>(frame_.emitters[index].body) == body)
+        for_each_tile_in_range(frame_.emitters[index], [&](int x, int y) { tiles_.mark(x, y, kTileSide); });
   }
 
  private:
@@ -56,32 +78,52 @@ class Marking {
     return {grid_.at(column, row) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
   }
 
-  // Tiles that a box touches, and those around them.
-  void mark_box(Vec2d low, Vec2d high) {
+  // Tiles that a box comes near to.
+  template <class F>
+  void for_each_tile(Vec2d low, Vec2d high, F call) {
+    if (!(low.x <= high.x)) return;
     const auto tile = [](double at, double step, int last) {
       return static_cast<int>(std::clamp(std::floor(at / (step * kTileSide)), -1.0, last + 1.0));
     };
-    const Vec2d from = low - grid_.origin, to = high - grid_.origin;
-    const int x1 = tile(to.x, grid_.step.x, tiles_.columns) + 1, y1 = tile(to.y, grid_.step.y, tiles_.rows) + 1;
-    for (int y = std::max(tile(from.y, grid_.step.y, tiles_.rows) - 1, 0); y <= std::min(y1, tiles_.rows - 1); ++y)
-      for (int x = std::max(tile(from.x, grid_.step.x, tiles_.columns) - 1, 0); x <= std::min(x1, tiles_.columns - 1); ++x)
-        tiles_.mark(x * kTileSide, y * kTileSide, kTileSide);
+    const Vec2d margin{kNear, kNear}, from = low - grid_.origin - margin, to = high - grid_.origin + margin;
+    const int x1 = tile(to.x, grid_.step.x, tiles_.columns), y1 = tile(to.y, grid_.step.y, tiles_.rows);
+    for (int y = std::max(tile(from.y, grid_.step.y, tiles_.rows), 0); y <= std::min(y1, tiles_.rows - 1); ++y)
+      for (int x = std::max(tile(from.x, grid_.step.x, tiles_.columns), 0); x <= std::min(x1, tiles_.columns - 1); ++x)
+        call(x * kTileSide, y * kTileSide);
   }
 
-  void mark_range(const Emitter& e) {
+  // All that an emitter may light.
+  template <class F>
+  void for_each_tile_in_range(const Emitter& e, F call) {
     const double reach = std::min(e.range + e.bound, 1e9);
-    mark_box(e.center - Vec2d{reach, reach}, e.center + Vec2d{reach, reach});
+    for_each_tile(e.center - Vec2d{reach, reach}, e.center + Vec2d{reach, reach}, [&](int x, int y) {
+      const TileArea tile = area(x, y, kTileSide);
+      if (length(tile.center - e.center) <= reach + tile.radius) call(x, y);
+    });
+  }
+
+  void mark_changed(std::size_t emitter, int x0, int y0, int side) {
+    tiles_.mark(x0, y0, side);
+    for (int y = y0; y < std::min(y0 + side, grid_.height); y += kTileSide)
+      for (int x = x0; x < std::min(x0 + side, grid_.width); x += kTileSide) {
+        TileShares& tile = store_.at(x, y);
+        if (tile.kept) tile.changed.push_back(static_cast<int>(emitter));
+      }
+  }
+
+  void mark_range(std::size_t index) {
+    for_each_tile_in_range(frame_.emitters[index], [&](int x, int y) { mark_changed(index, x, y, kTileSide); });
   }
 
   void mark_pairs(std::size_t index, int body) {
     const Emitter& e = frame_.emitters[index];
     const bool disk = e.kind == Emitter::Kind::disk;
-    for (std::size_t k = frame_.first_nearby[index]; k < frame_.first_nearby[index + 1]; ++k) {
+    for (std::size_t k = frame_.first_nearby[index]; k < frame_.first_nearby[index] + frame_.nearby_count[index]; ++k) {
       const int at = frame_.nearby.index[k];
       const int blocker = disk ? frame_.pairs[static_cast<std::size_t>(at)].blocker : at;
       if (frame_.blockers[static_cast<std::size_t>(blocker)].body != body) continue;
       if (disk)
-        mark_touched(frame_, grid_, e, at, tiles_);
+        mark_touched(frame_, grid_, e, at, [&](int x, int y, int side) { mark_changed(index, x, y, side); });
       else
         mark_hulls(e, k, 0, 0, 256);
     }
@@ -113,6 +155,7 @@ class Marking {
   const World& world_;
   const PixelGrid& grid_;
   TileSet& tiles_;
+  ShareStore& store_;
   const CullTable& cull_ = cull_table_for(active_simd());
   BlockerList found_;
 };
@@ -126,9 +169,14 @@ struct PlaneStage::Impl {
   PlaneScene scene;
   PlaneFrameOptions options;
   std::unique_ptr<plane::Ready> ready;  // what is drawn
-  // Of the bodies: where each was when it was drawn; -1: it is new, or has changed. Those that are gone.
-  std::vector<int> drawn_as;
-  std::vector<std::size_t> gone;
+  // Of the bodies: where each is in what is drawn, -1 for a new one; and what has become of it since.
+  struct State {
+    int place = -1;
+    bool changed = true, recoloured = false;
+  };
+  std::vector<State> states;
+  std::vector<std::size_t> gone;  // places
+  std::unique_ptr<plane::ShareStore> store;
   Picture picture;
   PlaneStageStats stats;
 
@@ -137,39 +185,101 @@ struct PlaneStage::Impl {
   }
   void change(std::size_t body) {
     check(body);
-    if (drawn_as[body] >= 0) gone.push_back(static_cast<std::size_t>(drawn_as[body]));
-    drawn_as[body] = -1;
+    states[body].changed = true;
+  }
+  bool is_same() const {
+    return gone.empty() && std::none_of(states.begin(), states.end(), [](const State& s) { return s.changed || s.recoloured; });
   }
   void draw();
+  void redraw(const plane::PixelGrid& grid, plane::TileSet& tiles);
+  bool follow();
 };
 
 void PlaneStage::Impl::draw() {
-  const bool same = std::all_of(drawn_as.begin(), drawn_as.end(), [](int i) { return i >= 0; }) && gone.empty();
-  if (ready && same) {
+  if (ready && is_same()) {
     stats.drawn = 0;
+    stats.anew = false;
     return;
   }
-  auto next = std::make_unique<plane::Ready>(scene, options);
-  const plane::World& world = next->world.impl();
-  const plane::PixelGrid grid = plane::grid_of(world.scene, picture.width, picture.height);
-  plane::TileSet tiles(grid);
-  // Thresholds that have moved, and lights that are asked of every pixel, spare no tile.
-  const bool anew = !ready || next->frame.slack != ready->frame.slack || next->frame.any_general || ready->frame.any_general;
-  if (anew) {
-    std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
+  // Of a scene that is refused half way, nothing is kept.
+  try {
+    const plane::PixelGrid unscaled = plane::grid_of(scene, picture.width, picture.height);
+    plane::TileSet tiles(unscaled);
+    if (!store) store = std::make_unique<plane::ShareStore>(tiles.columns, tiles.rows);
+    stats.anew = !ready;
+    if (!ready) {
+      ready = std::make_unique<plane::Ready>(scene, options);
+      std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
+      store->forget();
+    }
+    redraw(plane::grid_of(ready->world.scene, picture.width, picture.height), tiles);
+    stats.tiles = tiles.marked.size();
+    stats.drawn = static_cast<std::size_t>(std::count(tiles.marked.begin(), tiles.marked.end(), 1));
+  } catch (...) {
+    ready.reset();
+    throw;
+  }
+  gone.clear();
+}
+
+void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, plane::TileSet& tiles) {
+  const bool everything = tiles.any(0, 0, 1 << 30);
+  if (!everything) {
+    const double slack = ready->prepared.frame().slack;
+    const bool general = ready->prepared.frame().any_general;
+    plane::Marking before(ready->prepared.frame(), grid, tiles, *store);
+    for (std::size_t place : gone) before.mark(place);
+    for (const State& s : states)
+      if (s.changed && s.place >= 0)
+        before.mark(static_cast<std::size_t>(s.place));
+      else if (s.recoloured && s.place >= 0)
+        before.mark_lit(static_cast<std::size_t>(s.place));
+    if (general || !follow()) {
+      // Places and numbers are other ones now.
+      stats.anew = true;
+      ready = std::make_unique<plane::Ready>(scene, options);
+      store->forget();
+      for (std::size_t i = 0; i < states.size(); ++i) states[i].place = static_cast<int>(i);
+    }
+    const plane::FrameScene& frame = ready->prepared.frame();
+    // Thresholds that have moved, and lights that are asked of every pixel, spare no tile.
+    if (general || frame.any_general || frame.slack != slack) std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
+    plane::Marking after(frame, grid, tiles, *store);
+    for (const State& s : states)
+      if (s.changed) after.mark(static_cast<std::size_t>(s.place));
   } else {
-    plane::Marking before(ready->frame, grid, tiles), after(next->frame, grid, tiles);
-    for (std::size_t body : gone) before.mark(body);
-    for (std::size_t body = 0; body < drawn_as.size(); ++body)
-      if (drawn_as[body] < 0) after.mark(body);
+    for (std::size_t i = 0; i < states.size(); ++i) states[i].place = static_cast<int>(i);
   }
   PlaneFrameStats unused;
-  render_tiles(next->frame, options, grid, picture, unused, &tiles);
-  ready = std::move(next);
-  gone.clear();
-  for (std::size_t i = 0; i < drawn_as.size(); ++i) drawn_as[i] = static_cast<int>(i);
-  stats.tiles = tiles.marked.size();
-  stats.drawn = static_cast<std::size_t>(std::count(tiles.marked.begin(), tiles.marked.end(), 1));
+  render_tiles(ready->prepared.frame(), options, grid, picture, unused, &tiles, store.get());
+  store->keep_below(std::min(plane::kMostShares, options.limits.memory / plane::kShareOfMemory));
+  for (State& s : states) s.changed = s.recoloured = false;
+}
+
+// Changes what is prepared as the scene has changed. False: it has to be prepared anew.
+bool PlaneStage::Impl::follow() {
+  plane::World& world = ready->world;
+  plane::Preparation& prepared = ready->prepared;
+  for (std::size_t place : gone) prepared.forget(place);
+  for (const State& s : states)
+    if (s.changed && s.place >= 0) prepared.forget(static_cast<std::size_t>(s.place));
+  for (std::size_t place : gone) {
+    world.drop(place);
+    prepared.drop(place);
+  }
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    State& s = states[i];
+    if (!s.changed && !s.recoloured) continue;
+    if (s.place < 0) {
+      s.place = static_cast<int>(world.scene.bodies.size());
+      if (!world.append(scene.bodies[i])) return false;
+    } else if (!world.set_body(static_cast<std::size_t>(s.place), scene.bodies[i])) {
+      return false;
+    }
+    const auto place = static_cast<std::size_t>(s.place);
+    if (s.changed ? !prepared.take(place) : !prepared.recolour(place)) return false;
+  }
+  return prepared.finish();
 }
 
 PlaneStage::PlaneStage(PlaneScene scene, const PlaneFrameOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -177,7 +287,7 @@ PlaneStage::PlaneStage(PlaneScene scene, const PlaneFrameOptions& options) : imp
       options.occluders != PlaneOccluders::black)
     throw Error("options", "a stage draws exact light alone, one value a pixel", "leave moments, bounces, aa and occluders out");
   impl_->options = options;
-  impl_->drawn_as.assign(scene.bodies.size(), -1);
+  impl_->states.resize(scene.bodies.size());
   impl_->picture.width = options.width > 0 ? options.width : std::max(static_cast<int>(std::lround(scene.width)), 1);
   impl_->picture.height = options.height > 0 ? options.height : std::max(static_cast<int>(std::lround(scene.height)), 1);
   if (impl_->picture.width > 65536 || impl_->picture.height > 65536)
@@ -197,14 +307,15 @@ const PlaneStageStats& PlaneStage::stats() const { return impl_->stats; }
 
 std::size_t PlaneStage::add(PlaneBody body) {
   impl_->scene.bodies.push_back(std::move(body));
-  impl_->drawn_as.push_back(-1);
+  impl_->states.emplace_back();
   return impl_->scene.bodies.size() - 1;
 }
 
 void PlaneStage::remove(std::size_t body) {
-  impl_->change(body);
+  impl_->check(body);
+  if (impl_->states[body].place >= 0) impl_->gone.push_back(static_cast<std::size_t>(impl_->states[body].place));
   impl_->scene.bodies.erase(impl_->scene.bodies.begin() + static_cast<std::ptrdiff_t>(body));
-  impl_->drawn_as.erase(impl_->drawn_as.begin() + static_cast<std::ptrdiff_t>(body));
+  impl_->states.erase(impl_->states.begin() + static_cast<std::ptrdiff_t>(body));
 }
 
 void PlaneStage::replace(std::size_t body, PlaneBody with) {
@@ -225,7 +336,7 @@ void PlaneStage::move(std::size_t body, Vec2d by) {
 void PlaneStage::recolour(std::size_t light, Vec3d radiance) {
   impl_->check(light);
   if (!impl_->scene.bodies[light].light) throw Error("body", "is no light");
-  impl_->change(light);
+  impl_->states[light].recoloured = true;
   impl_->scene.bodies[light].light->radiance = radiance;
 }
 

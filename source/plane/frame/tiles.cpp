@@ -67,7 +67,8 @@ struct Level {
 class Worker {
  public:
   // lists: null for the packs.
-  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only, TileLists* lists)
+  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only, ShareStore* store,
+         TileLists* lists)
       : only_(only),
         lists_(lists),
         frame_(frame),
@@ -76,7 +77,7 @@ class Worker {
         table_(table),
         picture_(picture),
         leaf_(frame),
-        events_(frame, grid) {
+        events_(frame, grid, only, store) {
     std::fill(std::begin(inside_), std::end(inside_), kOutside);
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x) {
@@ -134,7 +135,9 @@ class Worker {
     if (faces == Facing::none) return;
     const std::size_t at = to.entries.size();
     if (!is_run(e) || whole) {
-      if (!filter(static_cast<int>(index), frame_.nearby, frame_.first_nearby[index], frame_.first_nearby[index + 1], tile, to)) return;
+      if (!filter(static_cast<int>(index), frame_.nearby, frame_.first_nearby[index],
+                  frame_.first_nearby[index] + frame_.nearby_count[index], tile, to))
+        return;
       if (faces == Facing::all) return;
     }
     for (std::size_t k = index + 1; k < index + e.group; k += frame_.emitters[k].group) take_first(k, tile, to);
@@ -466,7 +469,7 @@ bool TileSet::any(int x, int y, int side) const {
 namespace {
 
 void work_on_squares(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
-                     PlaneFrameStats& stats, const TileSet* only, const ListsOfSquare* lists) {
+                     PlaneFrameStats& stats, const TileSet* only, ShareStore* store, const ListsOfSquare* lists) {
   const TileTable& table = tile_table_for(active_simd());
   const int columns = (grid.width + kSides[0] - 1) / kSides[0], rows = (grid.height + kSides[0] - 1) / kSides[0];
   std::atomic<std::uint64_t> done{0}, lights{0}, blockers{0};
@@ -474,7 +477,7 @@ void work_on_squares(const FrameScene& frame, const PlaneFrameOptions& options, 
     if (only != nullptr && !only->any(i % columns * kSides[0], i / columns * kSides[0], kSides[0])) return;
     const FlushDenormals flush;
     TileLists* own = lists != nullptr ? &(*lists)(static_cast<std::size_t>(i)) : nullptr;
-    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only, own);
+    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only, store, own);
     worker->run(i % columns * kSides[0], i / columns * kSides[0]);
     lights += worker->tile_lights;
     blockers += worker->tile_blockers;
@@ -492,13 +495,13 @@ std::size_t squares_of(const PixelGrid& grid) {
 }
 
 void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
-                  PlaneFrameStats& stats, const TileSet* only) {
-  work_on_squares(frame, options, grid, picture, stats, only, nullptr);
+                  PlaneFrameStats& stats, const TileSet* only, ShareStore* store) {
+  work_on_squares(frame, options, grid, picture, stats, only, store, nullptr);
 }
 
 void list_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, const ListsOfSquare& lists,
                 Picture& picture, PlaneFrameStats& stats) {
-  work_on_squares(frame, options, grid, picture, stats, nullptr, &lists);
+  work_on_squares(frame, options, grid, picture, stats, nullptr, nullptr, &lists);
 }
 
 }  // namespace steradian::plane

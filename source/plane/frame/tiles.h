@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plane/frame/scene.h"
+#include "plane/frame/shares.h"
 #include "plane/frame/tile.h"
 #include "plane/frame/tile_lists.h"
 #include "steradian/picture.h"
@@ -30,9 +31,10 @@ struct TileSet {
   bool any(int x, int y, int side) const;
 };
 
-// Fills the picture's pixels, or those of some tiles, and the counts of the statistics.
+// Fills the picture's pixels, or those of some tiles, and the counts of the statistics. With a store, what round lights send to a tile is
+// kept there, and worked out anew only where that has changed.
 void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
-                  PlaneFrameStats& stats, const TileSet* only = nullptr);
+                  PlaneFrameStats& stats, const TileSet* only = nullptr, ShareStore* store = nullptr);
 
 // The same with tiles' light left to the lists of each square of 256 pixels, which are asked for by the square's number, row by row, from
 // any thread. What the host alone knows is in the picture: pixels that something fills, and lights that only the general method serves.
