@@ -105,7 +105,8 @@ void Preparation::check_pairs() {
     if (e.kind == Emitter::Kind::disk) of_disks += within;
     ++pieces;
   }
-  const std::string what = "the " + std::to_string(pairs) + " pairs of its " + std::to_string(pieces) + " pieces of light and what may block them";
+  const std::string what =
+      "the " + std::to_string(pairs) + " pairs of its " + std::to_string(pieces) + " pieces of light and what may block them";
   budget_.take_work(world_.scene.name, what, pairs * kPairSteps);
   budget_.take_memory(world_.scene.name, what, pairs * kPairBytes);
   frame_.pairs.reserve(of_disks);
