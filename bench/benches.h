@@ -17,6 +17,7 @@ void add_ltc(BenchList& list);
 void add_eval(BenchList& list);
 void add_derivatives(BenchList& list);
 void add_phong(BenchList& list);
+void add_phong_on_device(BenchList& list, const std::string& device);
 void add_ggx(BenchList& list);
 void add_plane(BenchList& list);
 void add_plane_on_device(BenchList& list, const std::string& device);
@@ -33,6 +34,7 @@ inline BenchList all_benches(const Where& where = {}) {
     add_frame(list, where);
     add_indirect_frames(list, where);
     add_plane_on_device(list, where.device);
+    add_phong_on_device(list, where.device);
     return list;
   }
   add_lambert(list);

@@ -14,7 +14,7 @@ NamedLight upright(std::string name, std::vector<Vec3d> outline) {
   PolygonLight light;
   light.vertices = std::move(outline);
   const std::size_t edges = light.vertices.size();
-  return {std::move(name), prepare_polygon(light), edges};
+  return {std::move(name), prepare_polygon(light), edges, light.vertices};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ struct NamedLight {
   std::string name;  // "quad", "star", "triangle"
   PreparedPolygon light;
   std::size_t edges;
+  std::vector<Vec3d> corners;
 };
 
 // The upright lights over the far half of the plane: a quad of 2 by 1.5, a star of five points, a skewed triangle.

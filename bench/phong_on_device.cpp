@@ -1,0 +1,104 @@
+#include "bench/phong_on_device.h"
+
+#include "render/vulkan/compute_program.h"
+#include "steradian/error.h"
+
+namespace steradian::bench {
+namespace {
+
+using vulkan::Buffer;
+using vulkan::BufferUse;
+using vulkan::ComputeProgram;
+
+// Written by glslc: cmake/shaders.cmake.
+constexpr std::uint32_t kShader[] =
+#include "phong.comp.inc"
+    ;
+
+constexpr std::uint32_t kGroup = 64, kAcross = 32768;
+
+int number_of(const PhongOptions& options) {
+  switch (options.method) {
+    case Method::arvo: return 0;
+    case Method::lorentzian: return 1;
+    case Method::pearson: return 2;
+    case Method::ellipsoid: return 3;
+    case Method::series: return options.quality == Quality::high ? 5 : 4;
+    default: throw Error("bench", std::string("no shader has the method ") + name_of(options.method));
+  }
+}
+
+std::vector<float> points_of(const moment::PhongPlane& plane) {
+  std::vector<float> points;
+  for (std::size_t i = 0; i < plane.count; ++i)
+    for (float x : {plane.x[i], plane.y[i], plane.z[i], 0.0f, plane.nx[i], plane.ny[i], plane.nz[i], 0.0f, plane.vx[i], plane.vy[i],
+                    plane.vz[i], 0.0f})
+      points.push_back(x);
+  return points;
+}
+
+// The corners in walk order, counter-clockwise about a direction in the light: as the lit side sees them, the other way round. Then the
+// normal.
+std::vector<float> corners_of(const moment::NamedLight& light) {
+  std::vector<float> corners;
+  Vec3d area;
+  for (std::size_t i = light.corners.size(); i-- > 0;) {
+    const Vec3d v = light.corners[i], next = light.corners[(i + 1) % light.corners.size()];
+    for (double x : {v.x, v.y, v.z, 0.0}) corners.push_back(static_cast<float>(x));
+    area = area + cross(v - light.corners[0], next - light.corners[0]);
+  }
+  const Vec3d n = normalized(area);
+  for (double x : {n.x, n.y, n.z, 0.0}) corners.push_back(static_cast<float>(x));
+  return corners;
+}
+
+}  // namespace
+
+struct PhongOnDevice::Parts {
+  Parts(const moment::PhongPlane& plane, const moment::NamedLight& light, int exponent, const PhongOptions& options,
+        const std::string& name)
+      : device({name, false}), program(device, {kShader}, 3), count(plane.count) {
+    const std::vector<float> p = points_of(plane), c = corners_of(light);
+    points = std::make_unique<Buffer>(device, p.size() * sizeof(float), BufferUse::host_writes);
+    points->write(p.data(), p.size() * sizeof(float));
+    corners = std::make_unique<Buffer>(device, c.size() * sizeof(float), BufferUse::host_writes);
+    corners->write(c.data(), c.size() * sizeof(float));
+    results = std::make_unique<Buffer>(device, count * sizeof(float), BufferUse::host_reads);
+    // The best form of each fit: docs/moments.md.
+    const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
+    const auto edges = static_cast<std::int32_t>(light.corners.size());
+    dispatch.pipeline = program.pipeline(0, {number_of(options), exponent, x ? 1 : 0, edges, 2 * edges + 2});
+    const auto groups = static_cast<std::uint32_t>((count + kGroup - 1) / kGroup);
+    dispatch.groups_x = std::min(groups, kAcross);
+    dispatch.groups_y = (groups + kAcross - 1) / kAcross;
+    dispatch.push = static_cast<std::uint32_t>(count);
+  }
+
+  vulkan::Device device;
+  ComputeProgram program;
+  std::size_t count;
+  std::unique_ptr<Buffer> points, corners, results;
+  ComputeProgram::Dispatch dispatch;
+  double ms = 0;
+};
+
+PhongOnDevice::PhongOnDevice(const moment::PhongPlane& plane, const moment::NamedLight& light, int exponent, const PhongOptions& options,
+                             const std::string& device)
+    : parts_(std::make_unique<Parts>(plane, light, exponent, options, device)) {}
+PhongOnDevice::~PhongOnDevice() = default;
+
+void PhongOnDevice::run() {
+  const std::vector<double> ms =
+      parts_->program.run({parts_->points.get(), parts_->corners.get(), parts_->results.get()}, {parts_->dispatch});
+  parts_->ms = ms.empty() ? 0 : ms.front();
+}
+
+std::vector<float> PhongOnDevice::radiance() const {
+  std::vector<float> result(parts_->count);
+  parts_->results->read(result.data(), result.size() * sizeof(float));
+  return result;
+}
+
+double PhongOnDevice::device_ms() const { return parts_->ms; }
+
+}  // namespace steradian::bench

@@ -1,0 +1,94 @@
+// Phong lobes of exponent N under a polygon, by the methods that benches compare: a thread a point, edge after edge of what the horizon
+// leaves of the outline.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+layout(constant_id = 0) const int METHOD = 0;  // arvo, lorentzian, pearson, ellipsoid, series, series of high quality
+layout(constant_id = 1) const int N = 1;
+layout(constant_id = 2) const int F_IS_X = 0;  // of the fits
+layout(constant_id = 3) const int CORNERS = 4;
+layout(constant_id = 4) const int EDGE_SPACE = 8;
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };    // position, normal and view of each
+layout(std430, binding = 1) readonly buffer Corners { vec4 corners[]; };  // then the light's normal
+layout(std430, binding = 2) buffer Results { float results[]; };
+layout(push_constant) uniform Push { uint count; };
+
+#include "prelude/prelude.glsl"
+#include "math/constants.glsl"
+#include "math/frame.glsl"
+#include "math/inverse_trig.glsl"
+#include "outline/polygon.glsl"
+#include "outline/horizon_clip.glsl"
+#include "lobe/phong.glsl"
+#include "integral/moment.glsl"
+#include "integral/moment_series.glsl"
+#include "comparison/moment_arvo.glsl"
+#include "comparison/moment_peak_fits.glsl"
+
+vec3 edge_begins[EDGE_SPACE];
+vec3 edge_ends[EDGE_SPACE];
+int edge_count;
+
+void add_edge(vec3 a, vec3 b) {
+    vec3 chord = b - a;
+    if (dot(chord, chord) > smallest_divisor() && edge_count < EDGE_SPACE) {
+        edge_begins[edge_count] = a;
+        edge_ends[edge_count] = b;
+        ++edge_count;
+    }
+}
+
+void add_arc(HorizonClip clip) {
+    if (!clip.closes) return;
+    vec3 start = clip.arc_start;
+    if (dot(start, clip.arc_end) < -0.9999) {
+        vec3 middle = horizon_arc_middle(start, clip.arc_end, 1.0);
+        add_edge(start, middle);
+        start = middle;
+    }
+    add_edge(start, clip.arc_end);
+}
+
+// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of an edge, m = n + 1.
+float front_of(MomentEdge edge) {
+    float n = float(N);
+    if (METHOD == 0) return moment_arvo_front(edge, N, 0, 0.0);
+    if (METHOD == 1) return moment_lorentzian_front(edge, n, F_IS_X);
+    if (METHOD == 2) return moment_pearson_front(edge, n, F_IS_X);
+    if (METHOD == 3) return moment_ellipsoid_front(edge, n, F_IS_X);
+    if (METHOD == 4) return moment_series_front(edge, moment_series_prepare(n));
+    return moment_series_high_front(edge, moment_series_high_prepare(n));
+}
+
+void main() {
+    uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    if (i >= count) return;
+    vec3 p = points[3u * i].xyz;
+    mat3 frame = frame_from_normal(points[3u * i + 1u].xyz);
+    vec3 view = transform_transposed(frame, points[3u * i + 2u].xyz);
+    bool lit = view.z > 0.0 && dot(p - corners[0].xyz, corners[CORNERS].xyz) > 0.0;
+
+    edge_count = 0;
+    HorizonClip clip = horizon_clip_begin();
+    vec3 previous = polygon_direction(transform_transposed(frame, corners[CORNERS - 1].xyz - p));
+    for (int k = 0; k < CORNERS; k++) {
+        vec3 here = polygon_direction(transform_transposed(frame, corners[k].xyz - p));
+        clip = horizon_clip_edge(clip, previous, here);
+        add_edge(clip.start, clip.end);
+        add_arc(clip);
+        previous = here;
+    }
+    clip = horizon_clip_finish(clip);
+    add_arc(clip);
+
+    vec3 axis = phong_mirror(view);
+    float sum = 0.0;
+    for (int k = 0; k < edge_count; k++) {
+        MomentEdge edge = moment_edge(edge_begins[k], edge_ends[k], axis);
+        sum += moment_edge_share(edge, front_of(edge));
+    }
+    results[i] = lit ? moment_phong_radiance(sum, false) : 0.0;
+}
