@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|plane|textured_floor|ring|arcade|hall|stadium ...]
+"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|morph|plane|textured_floor|ring|arcade|hall|stadium ...]
 
 Standard library only; the same bytes on every machine: coordinates are rounded before they become floats.
 """
@@ -324,6 +324,57 @@ def gallery():
     g.area_light("lamp", {"type": "sphere", "color": [1.0, 0.55, 0.3], "intensity": 14.0, "size": 0.36},
                  translation=[2.45, 0.4, 0.5])
     g.camera("main", [0.35, 1.65, 6.6], [0.0, 1.25, -1.2], 0.62)
+    return g
+
+
+def morph():
+    """A light whose outline changes in four seconds from a star into a disk and back, turns and changes colour, over a polished floor."""
+    g = Gltf()
+    g.node("floor", mesh=g.mesh("floor", plate((-6, 0, 6), (6, 0, 6), (6, 0, -6), (-6, 0, -6)), g.material("floor", (0.3, 0.28, 0.26), roughness=0.14)))
+    g.node("wall", mesh=g.mesh("wall", plate((-6, 0, -1.6), (6, 0, -1.6), (6, 5, -1.6), (-6, 5, -1.6)), g.diffuse("wall", (0.6, 0.6, 0.62))))
+    ball = g.mesh("ball", sphere(), g.material("copper", (0.93, 0.55, 0.42), 1.0, 0.35))
+    g.node("ball", mesh=ball, translation=[-1.0, 0.4, 0.1], scale=[0.4, 0.4, 0.4])
+    g.node("box", mesh=g.mesh("box", box(-0.3, 0, -0.3, 0.3, 0.7, 0.3), g.diffuse("chalk", (0.8, 0.78, 0.74))), translation=[1.0, 0.0, 0.0])
+
+    # The star with four points on each edge; the morph takes each to the circle, at even steps of the angle.
+    shape, steps, corners = Shape(), 4, []
+    for k in range(10):
+        r, a = (0.3 if k % 2 else 0.75), math.pi / 2 + math.pi * k / 5
+        corners.append((r * math.cos(a), r * math.sin(a)))
+    center, rim, moves = shape.vertex((0, 0, 0), (0, 0, 1)), [], [(0.0, 0.0, 0.0)]
+    for k in range(10 * steps):
+        (x0, y0), (x1, y1), s = corners[k // steps], corners[(k // steps + 1) % 10], k % steps / steps
+        x, y, a = rounded(x0 + s * (x1 - x0)), rounded(y0 + s * (y1 - y0)), math.pi / 2 + 2 * math.pi * k / (10 * steps)
+        rim.append(shape.vertex((x, y, 0), (0, 0, 1)))
+        moves.append((rounded(0.6 * math.cos(a) - x), rounded(0.6 * math.sin(a) - y), 0.0))
+    shape.triangles = [(center, rim[k], rim[(k + 1) % len(rim)]) for k in range(len(rim))]
+    material = g.material("light", (0.0, 0.0, 0.0), emission=(9.0, 5.4, 1.8), specular=0.0)
+    g.json["materials"][material]["doubleSided"] = True
+    mesh = g.mesh("light", shape, material)
+    low, high = ([f(v[i] for v in moves) for i in range(3)] for f in (min, max))
+    g.json["meshes"][mesh]["primitives"][0]["targets"] = [{"POSITION": g.vectors(moves, min=low, max=high)}]
+    g.json["meshes"][mesh]["weights"] = [0.0]
+    tilt = math.radians(25)  # down, to the floor
+    light = len(g.json["nodes"])
+    g.node("light", mesh=mesh, translation=[0.0, 1.35, -0.9], rotation=[rounded(math.sin(tilt / 2)), 0.0, 0.0, rounded(math.cos(tilt / 2))])
+    g.camera("main", [0.0, 1.9, 5.4], [0.0, 0.62, -0.3], 0.6)
+
+    def floats(kind, rows):
+        flat = [x for row in rows for x in row]
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[kind]
+        return g.accessor(5126, kind, len(flat) // width, struct.pack("<%df" % len(flat), *flat),
+                          **({"min": [min(flat)], "max": [max(flat)]} if kind == "SCALAR" else {}))
+
+    g.use("KHR_animation_pointer")
+    times = floats("SCALAR", [(0.0,), (2.0,), (4.0,)])
+    turns = [tilt, tilt - 0.3, tilt]
+    samplers = [{"input": times, "output": floats("SCALAR", [(0.0,)] * 3 + [(0.0,), (1.0,), (0.0,)] + [(0.0,)] * 3), "interpolation": "CUBICSPLINE"},
+                {"input": times, "output": floats("VEC4", [(rounded(math.sin(t / 2)), 0.0, 0.0, rounded(math.cos(t / 2))) for t in turns])},
+                {"input": times, "output": floats("VEC3", [(1.0, 0.6, 0.2), (0.35, 0.6, 1.0), (1.0, 0.6, 0.2)])}]
+    color = "/materials/%d/emissiveFactor" % material
+    g.json["animations"] = [{"name": "star to disk", "samplers": samplers, "channels": [
+        {"sampler": 0, "target": {"node": light, "path": "weights"}}, {"sampler": 1, "target": {"node": light, "path": "rotation"}},
+        {"sampler": 2, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": color}}}}]}]
     return g
 
 
@@ -699,7 +750,7 @@ def stadium():
     return g
 
 
-SCENES = {"room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
+SCENES = {"room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
           "ring": ring, "arcade": arcade, "hall": hall, "stadium": stadium}
 
 

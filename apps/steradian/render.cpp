@@ -18,6 +18,7 @@
 #include "core/simd.h"
 #include "integrals/methods.h"
 #include "picture_options.h"
+#include "render_frames.h"
 #include "render_plane.h"
 #include "resume.h"
 #include "steradian/error.h"
@@ -36,7 +37,9 @@ struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
                              exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black",
-                             light_sum = "auto", bounces = "0", frames, edits;
+                             light_sum = "auto", bounces = "0", frames, edits, animation;
+  double fps = 24;
+  bool force = false;
   std::vector<std::string> lights;
   std::optional<int> max_lights;
   Limits limits;
@@ -146,7 +149,8 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--terminator", options.shadows != "off", "--shadows on or exact"},
                                {"--light-error", options.light_sum != "all", "--lights auto or tree"},
                                {"--device", options.backend == "vulkan", "--backend vulkan"},
-                               {"--resume", samples || r.method == "reference", "--method reference or sampled, or --indirect path"},
+                               {"--resume", (samples || r.method == "reference") && options.frames.empty(),
+                                "--method reference or sampled, or --indirect path"},
                                {"--vpls", points, bounce},
                                {"--indirect-pairs", points, bounce},
                                {"--indirect-clamp", points, bounce},
@@ -155,7 +159,10 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--moments", false, "a plane scene (.svg)"},
                                {"--occluders", false, "a plane scene (.svg)"},
                                {"--bounces", false, "a plane scene (.svg)"},
-                               {"--frames", false, "a plane scene (.svg)"},
+                               {"--fps", !options.frames.empty(), "--frames"},
+                               {"--animation", !options.frames.empty(), "--frames"},
+                               {"--force", !options.frames.empty(), "--frames"},
+                               {"--stats", options.frames.empty(), "one picture, not --frames"},
                                {"--edits", false, "a plane scene (.svg)"}});
 }
 
@@ -192,6 +199,9 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
              {"--frames", method == "auto" || method == "exact", "--method exact"},
              {"--edits", !options.frames.empty(), "--frames"},
+             {"--fps", false, third},
+             {"--animation", false, third},
+             {"--force", false, third},
              {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
@@ -259,6 +269,11 @@ void run(const CLI::App& verb, Options& options) {
                                                       : LightUnits::from_generator;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
   load.lights = added_lights(options.lights);
+  if (!options.frames.empty()) {
+    render_options.background = options.background == "on";
+    return render_scene_frames({options.scene, options.output, frame_range(options.frames), options.fps, options.animation, options.force,
+                                load, render_options, fixed_exposure, options.multiple_scattering});
+  }
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded = load_scene(options.scene, load);
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -406,10 +421,14 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
       ->check(CLI::IsMember({"black", "fill", "clear"}))
       ->group("Picture");
-  verb->add_option("--frames", options->frames, "plane scenes: A..B, pictures numbered by the #s of -o; scenes change by --edits")
-      ->group("Picture");
+  verb->add_option("--frames", options->frames,
+                   "A..B: pictures numbered by the #s of -o, of a file's animation, or of a plane scene with --edits")
+      ->group("Frames");
+  verb->add_option("--fps", options->fps, "frame N shows the moment N / fps seconds")->check(CLI::Range(1e-3, 1e6))->group("Frames");
+  verb->add_option("--animation", options->animation, "by its name; none: the file's first")->group("Frames");
+  verb->add_flag("--force", options->force, "make frames again that are there")->group("Frames");
   verb->add_option("--edits", options->edits, "plane scenes: JSON file of what moves, changes or goes before which of --frames")
-      ->group("Picture");
+      ->group("Frames");
   verb->add_option("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
       ->check(CLI::Validator(
           [](std::string& text) {

@@ -42,9 +42,7 @@ void render_plane_scene(const PlaneRender& job) {
     throw UsageError("--method", e.problem(), e.hint());
   }
   if (!job.frames.empty()) {
-    PlaneFrames frames = plane_frames(job.frames);
-    frames.edits = job.edits;
-    return render_plane_frames(job, frames, std::move(loaded.scene));
+    return render_plane_frames(job, {frame_range(job.frames), job.edits}, std::move(loaded.scene));
   }
   const PlaneWorld world(std::move(loaded.scene), job.limits);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -97,27 +96,7 @@ void apply(const Edit& edit, const std::string& file, PlaneStage& stage) {
   if (!found) throw Error(file, "the scene has no shape with the id " + edit.id, "give it one, or edit another");
 }
 
-std::string numbered(const std::string& pattern, int frame) {
-  const std::size_t first = pattern.find('#');
-  if (first == std::string::npos) throw UsageError("--output", "has no # for the frames' numbers", "write -o 'frame_####.png'");
-  const std::size_t end = std::min(pattern.find_first_not_of('#', first), pattern.size());
-  return pattern.substr(0, first) + fmt::format("{:0{}}", frame, end - first) + pattern.substr(end);
-}
-
 }  // namespace
-
-PlaneFrames plane_frames(const std::string& text) {
-  PlaneFrames frames;
-  const std::size_t dots = text.find("..");
-  const auto number = [&](std::size_t from, std::size_t to, int& value) {
-    const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
-    return error == std::errc() && end == text.data() + to && value >= 0;
-  };
-  if (dots == std::string::npos || !number(0, dots, frames.first) || !number(dots + 2, text.size(), frames.last) ||
-      frames.first > frames.last || frames.last > 1000000)
-    throw UsageError("--frames", text + " are no frames", "write A..B, as in 0..99");
-  return frames;
-}
 
 void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, PlaneScene scene) {
   const std::vector<Edit> edits = frames.edits.empty() ? std::vector<Edit>{} : edits_of(frames.edits);
@@ -125,10 +104,10 @@ void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, Plan
   PlaneFrameOptions options = job.frame;
   options.limits = job.limits;
   PlaneStage stage(std::move(scene), options);
-  for (int frame = 0; frame <= frames.last; ++frame) {
+  for (int frame = 0; frame <= frames.range.last; ++frame) {
     for (const Edit& edit : edits)
       if (edit.first <= frame && frame <= edit.last) apply(edit, frames.edits, stage);
-    if (frame < frames.first) continue;
+    if (frame < frames.range.first) continue;
     Picture picture = stage.draw();
     picture.metadata = {{"steradian.version", version()}, {"steradian.scene", job.scene}, {"steradian.frame", std::to_string(frame)}};
     write_picture(picture, numbered(job.output, frame), job.exposure);

@@ -13,7 +13,8 @@ namespace steradian::app {
 namespace {
 
 struct Options {
-  std::string scene, size = "1280x720", shadows = "on", quality = "normal", exposure = "auto", script, record, panel = "on";
+  std::string scene, size = "1280x720", shadows = "on", quality = "normal", exposure = "auto", backend = "cpu", script, record,
+                     panel = "on";
   RenderOptions render;
 };
 
@@ -27,6 +28,10 @@ void run(const Options& options) {
   window.render.height = size.height;
   window.render.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
   window.render.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
+  if (options.backend == "vulkan") {
+    window.render.backend = Backend::vulkan;
+    window.render.shadows = Shadows::off;  // which it does not have
+  }
   window.exposure = exposure_stops(options.exposure);
   window.script = options.script;
   window.record = options.record;
@@ -55,6 +60,8 @@ void add_view(CLI::App& app, Exit&) {
   verb->add_option("--camera", options->render.camera, "camera by name; none: the first");
   verb->add_option("--exposure", options->exposure, "stops, or auto: middle grey in the mean of the first picture");
   verb->add_option("--aa", options->render.aa, "primary samples a pixel, at rest")->check(CLI::Range(1, 4096));
+  verb->add_option("--backend", options->backend, "where to compute; vulkan is without shadows")->check(CLI::IsMember({"cpu", "vulkan"}));
+  verb->add_option("--device", options->render.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first");
   verb->add_option("--threads", options->render.threads, "0: all")->check(CLI::Range(0, 4096));
   verb->add_option("--panel", options->panel, "whether the panel is open")->check(CLI::IsMember({"on", "off"}));
   verb->add_option("--script", options->script, "play what a file says: drags, keys, pictures of the window");

@@ -32,15 +32,15 @@ void put(Document& document, int node, const char* key, const Json& value, const
 
 }  // namespace
 
-NodeTree::NodeTree(const Document& document) {
+NodeTree::NodeTree(const Json& json, const std::string& path) {
   // The nodes alone, judged and multiplied out by the reader of files.
   Budget budget;
   scene::GltfDocument nodes;
-  nodes.path = document.file().path;
+  nodes.path = path;
   nodes.sources = std::make_unique<scene::GltfSources>(scene::GltfSources{budget});
   nodes.json = nlohmann::json::object();
   for (const char* key : {"nodes", "scenes", "scene"})
-    if (const Json* found = document.find(std::string("/") + key)) nodes.json[key] = *found;
+    if (json.contains(key)) nodes.json[key] = json[key];
   nodes_ = scene::read_nodes(nodes);
   parents_.assign(nodes_.world.size(), -1);
   int index = 0;

@@ -15,7 +15,8 @@ using scene::Affine;
 // The transforms of all nodes of a document as it stands.
 class NodeTree {
  public:
-  explicit NodeTree(const Document& document);  // throws Error as load_scene does
+  explicit NodeTree(const Document& document) : NodeTree(document.json(), document.file().path) {}
+  NodeTree(const Json& json, const std::string& path);  // throws Error as load_scene does
   const Affine& world(int node) const { return nodes_.world[static_cast<std::size_t>(node)]; }
   Affine parent_world(int node) const;  // the identity for a root
   const std::vector<scene::GltfNode>& visible() const { return nodes_.visible; }

@@ -183,6 +183,24 @@ void render_controls(ViewState& state, Session& s) {
   }
 }
 
+void animation_controls(ViewState& state, Session& s) {
+  const auto& animations = s.animations();
+  if (ImGui::BeginCombo("animation", animations[s.animation()].name.c_str())) {
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::Selectable((animations[i].name + "##").c_str(), i == s.animation())) s.choose_animation(i);
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  auto time = static_cast<float>(s.time());
+  if (ImGui::SliderFloat("time", &time, 0, static_cast<float>(animations[s.animation()].duration), "%.2f s")) {
+    state.playing = false;
+    s.set_time(static_cast<double>(time));
+  }
+  if (ImGui::SmallButton(state.playing ? "pause" : "play")) state.playing = !state.playing;
+}
+
 void times(ViewState& state, Session& s) {
   const RenderedFrame& frame = s.frame();
   ImGui::Text("%d x %d%s, %.0f ms", frame.picture.width, frame.picture.height, s.settled() ? "" : " ...", frame.stats.total_ms);
@@ -276,6 +294,7 @@ void draw_panel(ViewState& state) {
     Session& s = *state.session;
     if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) light_list(s);
     if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) selected_controls(s);
+    if (!s.animations().empty() && ImGui::CollapsingHeader("Time", ImGuiTreeNodeFlags_DefaultOpen)) animation_controls(state, s);
     if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) render_controls(state, s);
   }
   if (state.drawing != nullptr) {

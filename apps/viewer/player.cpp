@@ -12,8 +12,8 @@ double number_of(const std::string& what, const nlohmann::json& value) {
   return value.get<double>();
 }
 
-Vec3d color_of(const std::string& what, const nlohmann::json& value) {
-  if (!value.is_array() || value.size() != 3) throw Error("set " + what, "needs three numbers");
+Vec3d three_of(const std::string& what, const nlohmann::json& value) {
+  if (!value.is_array() || value.size() != 3) throw Error("set " + what, "needs three numbers, as in [1, 0.5, 0]");
   return {number_of(what, value[0]), number_of(what, value[1]), number_of(what, value[2])};
 }
 
@@ -27,7 +27,7 @@ bool set_of_lamp(LampValues& v, const std::string& what, const nlohmann::json& v
   if (what == "intensity")
     v.intensity = number_of(what, value);
   else if (what == "color")
-    v.color = color_of(what, value);
+    v.color = three_of(what, value);
   else if (what == "type" && v.type)
     v.type = text_of(what, value);
   else if (what == "size" && v.size)
@@ -49,7 +49,7 @@ bool set_of_material(MaterialValues& v, const std::string& what, const nlohmann:
   else if (what == "metallic")
     v.metallic = number_of(what, value);
   else if (what == "base_color")
-    v.base_color = color_of(what, value);
+    v.base_color = three_of(what, value);
   else
     return false;
   return true;
@@ -79,8 +79,17 @@ bool set_of_picture(ViewState& state, const std::string& what, const nlohmann::j
 }
 
 bool set_of_session(Session& s, const std::string& what, const nlohmann::json& value) {
+  if (what == "time") {
+    s.set_time(number_of(what, value));
+    return true;
+  }
   if (what == "method") {
     s.options().method = text_of(what, value);
+    return true;
+  }
+  if (const int node = s.selection().node; what == "position" && node >= 0) {
+    const Vec3d by = three_of(what, value) - s.tree().world(node).t;
+    set_pose(s.document(), node, moved(pose_of(s.document(), node), s.tree().parent_world(node), by));
     return true;
   }
   for (const Lamp& lamp : s.lamps())
@@ -101,9 +110,9 @@ bool set_of_drawing(Drawing& d, const std::string& what, const nlohmann::json& v
   if (!d.selection()) return false;
   PlaneBody body = d.scene().bodies[*d.selection()];
   if (what == "color" && body.light)
-    body.light->radiance = color_of(what, value);
+    body.light->radiance = three_of(what, value);
   else if (what == "color")
-    body.color = color_of(what, value);
+    body.color = three_of(what, value);
   else if (what == "scale")
     body = scaled(body, bounds_of(body).middle(), number_of(what, value));
   else if (what == "turn")
@@ -136,6 +145,7 @@ void open_stage(ViewState& state, const std::string& path, const RenderOptions& 
   state.scene_name = beside(path, "");
   state.picture_name = beside(path, ".png");
   state.frame_ms.clear();
+  state.playing = false;
   if (state.split || state.error_map) choose_other(state);
 }
 
@@ -200,6 +210,7 @@ void act(ViewState& state, Action action) {
       state.error_map = !state.error_map;
       choose_other(state);
       break;
+    case Action::play: state.playing = !state.playing && s != nullptr && !s->animations().empty(); break;
     case Action::fly: break;  // while it is held, by the window
     case Action::quit: state.quit = true; break;
   }

@@ -23,13 +23,31 @@ double distance_of_view(const Scene& scene, const Camera& camera) {
 
 }  // namespace
 
-Session::Session(const std::string& path, RenderOptions options)
-    : document_(std::make_unique<Document>(scene::read_gltf_file(path))), options_(std::move(options)), file_time_(time_of(path)) {}
+Session::Session(const std::string& path, RenderOptions options) : options_(std::move(options)) {
+  take_document(std::make_unique<Document>(scene::read_gltf_file(path)));
+}
+
+void Session::take_document(std::unique_ptr<Document> document) {
+  std::vector<scene::GltfAnimation> animations = read_animations(document->file());
+  if (document_) base_revision_ += document_->revision() + 1;
+  ++source_;
+  document_ = std::move(document);
+  animations_ = std::move(animations);
+  if (animation_ >= animations_.size()) animation_ = 0;
+  file_time_ = time_of(this->path());
+  changed();
+}
+
+Json Session::shown_json() const {
+  return animations_.empty() ? document_->json() : json_at(document_->json(), animations_[animation_], time_);
+}
 
 // ---- pictures
 
 void Session::submit() {
-  RenderRequest request{document_->file(), base_revision_ + document_->revision(), {}, options_, other_, moving_};
+  RenderRequest request{document_->file(), base_revision_ + document_->revision(), source_, {}, options_, other_, moving_};
+  request.file.json = shown_json();
+  request.refine = submitted_ == wanted_ && submitted_moving_ && !moving_ && frame_.request == request_;
   if (camera_) {
     request.camera = as_read(camera_->camera());
     request.file = with_camera(std::move(request.file), camera_->camera());
@@ -88,7 +106,7 @@ void Session::set_moving(bool moving) {
 
 const NodeTree& Session::tree() const {
   const std::uint64_t now = base_revision_ + document_->revision();
-  if (!tree_ || tree_revision_ != now) tree_.emplace(*document_);
+  if (!tree_ || tree_revision_ != now) tree_.emplace(shown_json(), path());
   tree_revision_ = now;
   return *tree_;
 }
@@ -227,6 +245,22 @@ void Session::reset_camera() {
   changed();
 }
 
+// ---- time
+
+void Session::choose_animation(std::size_t animation) {
+  if (animation >= animations_.size()) return;
+  animation_ = animation;
+  set_time(0);
+}
+
+void Session::set_time(double seconds) {
+  if (animations_.empty()) return;
+  const double end = animations_[animation_].duration;
+  time_ = end > 0 && seconds > end ? std::fmod(seconds, end) : std::max(seconds, 0.0);
+  ++base_revision_;
+  changed();
+}
+
 // ---- edits
 
 void Session::select_named(const std::string& name) {
@@ -277,12 +311,8 @@ void Session::redo() {
 // ---- files
 
 void Session::reload() {
-  auto opened = std::make_unique<Document>(scene::read_gltf_file(path()));
-  base_revision_ += document_->revision() + 1;
-  document_ = std::move(opened);
-  file_time_ = time_of(path());
+  take_document(std::make_unique<Document>(scene::read_gltf_file(path())));
   if (!tree().contains(selection_.node)) selection_ = {};
-  changed();
 }
 
 bool Session::file_changed() const {

@@ -11,6 +11,7 @@
 #include "gizmo.h"
 #include "lamps.h"
 #include "pick.h"
+#include "scene/gltf_animation.h"
 #include "stage.h"
 #include "worker.h"
 
@@ -67,6 +68,13 @@ class Session : public Stage {
   GizmoMode gizmo_mode = GizmoMode::move;
   std::optional<Gizmo> gizmo() const;  // of what is selected
 
+  // The moment of the file's animation that is shown; nothing where it has none.
+  const std::vector<scene::GltfAnimation>& animations() const { return animations_; }
+  std::size_t animation() const { return animation_; }
+  void choose_animation(std::size_t animation);
+  double time() const { return time_; }
+  void set_time(double seconds);  // beyond the end it begins again
+
   void add_light(const std::string& type);  // above what is looked at, and selected
   void remove_selected() override;
   void undo() override;
@@ -81,6 +89,8 @@ class Session : public Stage {
  private:
   Ray ray(Vec2d at) const { return ray_through(camera_->camera(), at, size().x, size().y); }
   void submit();
+  void take_document(std::unique_ptr<Document> document);
+  Json shown_json() const;  // of the document, at the moment
   void click(Vec2d at);
   void drag_handle(Vec2d to);
 
@@ -93,7 +103,11 @@ class Session : public Stage {
   std::filesystem::file_time_type file_time_{};
 
   std::uint64_t wanted_ = 1, submitted_ = 0, request_ = 0;
-  std::uint64_t base_revision_ = 0;  // so that another document's revisions are other numbers
+  // So that another document's revisions, and other moments, are other numbers.
+  std::uint64_t base_revision_ = 0, source_ = 0;
+  std::vector<scene::GltfAnimation> animations_;
+  std::size_t animation_ = 0;
+  double time_ = 0;
   mutable std::optional<NodeTree> tree_;
   mutable std::uint64_t tree_revision_ = 0;
   bool moving_ = false, submitted_moving_ = false, settled_ = false;

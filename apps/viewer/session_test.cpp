@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "paths.h"
 #include "scene/gltf_test_file.h"
@@ -222,6 +223,62 @@ TEST(ViewSession, ADragIsAnsweredBySmallPicturesAndEndsInTheWholeOne) {
   s.wait_until_settled();
   EXPECT_EQ(s.frame().divisor, 1);
   EXPECT_EQ(s.frame().picture.width, 640);
+}
+
+// What is answered leaves nothing behind: by the memory of the process, in pages.
+TEST(ViewSession, ManyFramesLeaveMemoryWhereItWas) {
+  RenderOptions tiny = small();
+  tiny.width = 16;
+  tiny.height = 9;
+  tiny.threads = 1;
+  Session s(room(), tiny);
+  const auto resident = [] {
+    std::ifstream statm("/proc/self/statm");
+    long size = 0, pages = 0;
+    statm >> size >> pages;
+    return pages * 4096;
+  };
+  const auto frames = [&](int count) {
+    s.select_named("panel");
+    for (int i = 0; i < count; ++i) {
+      LampValues v = values_of(s.document(), s.lamps().at(0));
+      v.intensity = 1 + i % 7;
+      set_values(s.document(), s.lamps().at(0), v);
+      s.changed();
+      s.wait_until_settled();
+    }
+    s.document().close_step();
+  };
+  frames(100);
+  const long before = resident();
+  frames(300);
+  std::printf("300 frames: %.1f MB more\n", static_cast<double>(resident() - before) / 1e6);
+  EXPECT_LT(resident() - before, 8'000'000) << "a scene is smaller than a kilobyte, its undo one step";
+}
+
+TEST(ViewSession, ShowsTheMomentsOfAnAnimation) {
+  Session s(test::kSourceDir + "/scenes/morph.glb", small());
+  s.wait_until_settled();
+  ASSERT_EQ(s.animations().size(), 1u);
+  const Picture start = s.frame().picture;
+  const auto corners = [&] {  // 0: an ellipse
+    const auto* polygon = std::get_if<Polygon>(&s.frame().scene->scene.area_lights.at(0).shape);
+    return polygon != nullptr ? polygon->vertices.size() : 0u;
+  };
+  EXPECT_EQ(corners(), 40u) << "a star, with points on its edges";
+  s.set_time(2);
+  s.wait_until_settled();
+  EXPECT_EQ(corners(), 0u) << "an outline on a circle is taken for a disk";
+  s.set_time(1);
+  s.wait_until_settled();
+  EXPECT_EQ(corners(), 40u) << "between them";
+  EXPECT_NE(s.frame().picture.pixels, start.pixels);
+  s.set_time(8);  // twice its length
+  s.wait_until_settled();
+  s.set_time(4);
+  s.wait_until_settled();
+  EXPECT_EQ(corners(), 40u);
+  EXPECT_EQ(s.message(), "");
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct ViewState {
   float exposure = 0;
   bool exposure_known = false;  // automatic until the first picture, then the same for all
   bool panel = true, help = false;
+  bool playing = false;  // the animation runs
   bool split = false, error_map = false;
   float split_at = 0.5f;    // share of the width
   float error_most = 0.1f;  // of the map: white

@@ -93,10 +93,11 @@ class Window {
 
   void run() {
     while (glfwWindowShouldClose(window_) == 0 && !state_.quit) {
-      const bool busy = !state_.stage->settled() || playing() || flying_;
+      const bool busy = !state_.stage->settled() || playing() || flying_ || state_.playing;
       busy ? glfwWaitEventsTimeout(1.0 / 120) : glfwWaitEventsTimeout(0.25);
       play();
       fly();
+      run_time();
       watch_file();
       if (state_.stage->update()) take_picture();
       draw();
@@ -113,6 +114,7 @@ class Window {
   void play();
   void play(const ScriptEvent& event);
   void fly();
+  void run_time();  // of an animation that is played
   void watch_file();
   bool playing() const { return next_event_ < script_.size(); }
   void record(const ScriptEvent& event) {
@@ -146,7 +148,7 @@ class Window {
   ViewState state_;
   std::map<char, bool> held_;  // of the keys that fly
   bool flying_ = false;
-  Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now();
+  Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now(), last_moment_ = Clock::now();
 
   std::vector<ScriptEvent> script_;
   std::size_t next_event_ = 0;
@@ -254,7 +256,7 @@ void Window::draw() {
   if (state_.help) draw_help(state_);
   draw_message(state_);
   // What a widget changes while it is held is one step of undo, and hurried.
-  if (!flying_ && !state_.stage->dragging()) state_.stage->set_moving(ImGui::IsAnyItemActive());
+  if (!flying_ && !state_.stage->dragging()) state_.stage->set_moving(ImGui::IsAnyItemActive() || state_.playing);
   ImGui::Render();
   glViewport(0, 0, width, height);
   glClearColor(0, 0, 0, 1);
@@ -318,6 +320,12 @@ void Window::fly() {
   flying_ = flies;
   constexpr double kSpeed = 0.7;  // of the distance to what is looked at, a second
   if (flies) state_.stage->fly(right * kSpeed * seconds, up * kSpeed * seconds, forward * kSpeed * seconds);
+}
+
+void Window::run_time() {
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - std::exchange(last_moment_, now)).count();
+  if (state_.playing && state_.session != nullptr) state_.session->set_time(state_.session->time() + seconds);
 }
 
 // The file may be written by another program: it is looked at twice a second.

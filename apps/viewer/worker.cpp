@@ -99,6 +99,9 @@ void Worker::answer(const Job& job) {
     const auto start = std::chrono::steady_clock::now();
     LoadOptions options;
     options.aspect = static_cast<double>(request.options.width) / request.options.height;
+    if (!pictures_ || source_ != request.source) pictures_ = std::make_shared<DecodedPictures>();
+    source_ = request.source;
+    options.pictures = pictures_;
     scene_.reset();
     scene_ = std::make_shared<LoadedScene>(load_scene_from_memory(glb_bytes(request.file), request.file.path, options));
     revision_ = request.revision;
@@ -112,7 +115,9 @@ void Worker::answer(const Job& job) {
   frame.camera = scene_->scene.cameras.front();
 
   const int first = cost_.divisor == 0 ? 4 : divisor_within(kFrameMs, cost_);
-  if (!show(job, frame, first, first == 1) || request.moving || first == 1) return;
+  if (!request.refine || first == 1) {
+    if (!show(job, frame, first, first == 1) || request.moving || first == 1) return;
+  }
   // At rest: a picture of half the size on the way where the whole one takes long.
   {
     const std::lock_guard lock(mutex_);

@@ -22,10 +22,12 @@ namespace steradian::view {
 struct RenderRequest {
   scene::GltfFile file;
   std::uint64_t revision = 0;          // of the file: another number, and it is read again
+  std::uint64_t source = 0;            // another number: its pictures are others, too
   std::optional<Camera> camera;        // none: the file's
   RenderOptions options;               // of the full picture
   std::optional<RenderOptions> other;  // a second picture of the same, for a comparison
   bool moving = false;
+  bool refine = false;  // the last request again, at rest: its small picture is there
 };
 
 struct RenderedFrame {
@@ -80,7 +82,8 @@ class Worker {
 
   // Of the thread.
   std::shared_ptr<LoadedScene> scene_;
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = 0, source_ = 0;
+  std::shared_ptr<DecodedPictures> pictures_;
   Cost cost_;
 
   std::thread thread_;

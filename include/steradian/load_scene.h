@@ -1,6 +1,8 @@
 // load_scene: a glTF 2.0 file (.gltf or .glb) to a Scene. What is read and what is not: docs/scenes.md.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,14 +22,21 @@ enum class AddedLight { standard, none, sun, studio };
 // that Blender's exporter wrote with that factor, which is said in a warning.
 enum class LightUnits { from_generator, candela, watt };
 
+// The pictures of a file as they were decoded, by their numbers in it: a file that is read again and again with other values needs them
+// once.
+struct DecodedPictures {
+  std::map<int, Image> images;
+};
+
 struct LoadOptions {
   // Area lights kept, strongest first (AreaLight::power); at least 1. None: 256, and room for every mesh and single light, up to 65,536.
   std::optional<int> max_lights = {};
   Limits limits{};
   std::string environment = {};  // as load_environment takes it; empty: the file's own (EXT_lights_image_based), if any
   LightUnits light_units = LightUnits::from_generator;
-  double aspect = 16.0 / 9;             // width over height of the picture that a default camera fills
-  std::vector<AddedLight> lights = {};  // empty: standard where the file's own lights are too weak for a picture
+  double aspect = 16.0 / 9;                        // width over height of the picture that a default camera fills
+  std::vector<AddedLight> lights = {};             // empty: standard where the file's own lights are too weak for a picture
+  std::shared_ptr<DecodedPictures> pictures = {};  // kept from one reading of the same file to the next; null: none
 };
 
 // What a file says of itself.

@@ -5,11 +5,11 @@
 namespace steradian::scene {
 namespace {
 
-constexpr const char* kSupported[] = {
-    "EXT_lights_area",          "EXT_lights_ies",          "EXT_lights_image_based",     "KHR_lights_punctual",
-    "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_sheen",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",        "KHR_materials_specular",  "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_mesh_quantization",    "KHR_texture_transform"};
+constexpr const char* kSupported[] = {"KHR_animation_pointer",   "EXT_lights_area",        "EXT_lights_ies",
+                                      "EXT_lights_image_based",  "KHR_lights_punctual",    "KHR_materials_anisotropy",
+                                      "KHR_materials_clearcoat", "KHR_materials_sheen",    "KHR_materials_emissive_strength",
+                                      "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
+                                      "KHR_materials_unlit",     "KHR_mesh_quantization",  "KHR_texture_transform"};
 
 bool is_supported(const std::string& extension) {
   return std::any_of(std::begin(kSupported), std::end(kSupported), [&](const char* known) { return extension == known; });

@@ -25,8 +25,14 @@ Wrap wrap_of(const JsonCursor& sampler, const char* key) {
 
 }  // namespace
 
-GltfTextures::GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings)
-    : document_(document), images_(images), warnings_(warnings), loaded_(document.count("images"), kNotLoaded), texels_left_(kMaxTexels) {}
+GltfTextures::GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings,
+                           std::shared_ptr<DecodedPictures> kept)
+    : document_(document),
+      images_(images),
+      warnings_(warnings),
+      kept_(std::move(kept)),
+      loaded_(document.count("images"), kNotLoaded),
+      texels_left_(kMaxTexels) {}
 
 void GltfTextures::apply_sampler(TextureUse& use, const JsonCursor& sampler) const {
   use.wrap_u = wrap_of(sampler, "wrapS");
@@ -53,6 +59,12 @@ void GltfTextures::apply_transform(TextureUse& use, const JsonCursor& transform)
 }
 
 int GltfTextures::load_image(int gltf_image) {
+  if (kept_ != nullptr)
+    if (const auto known = kept_->images.find(gltf_image); known != kept_->images.end()) {
+      document_.budget().take_memory(document_.object("images", gltf_image).place(), "its pixels", known->second.rgba.size());
+      images_.push_back(known->second);
+      return static_cast<int>(images_.size()) - 1;
+    }
   const JsonCursor image = document_.object("images", gltf_image);
   const std::string type = image.text("mimeType", "");
   if (!type.empty() && type != "image/png" && type != "image/jpeg") {
@@ -82,6 +94,7 @@ int GltfTextures::load_image(int gltf_image) {
   decoding_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   texels_left_ -= decoded.rgba.size() / 4;
   decoded.name = image.text("name", image.text("uri", "").starts_with("data:") ? "" : image.text("uri", ""));
+  if (kept_ != nullptr) kept_->images.emplace(gltf_image, decoded);
   images_.push_back(std::move(decoded));
   return static_cast<int>(images_.size()) - 1;
 }

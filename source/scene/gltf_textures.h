@@ -5,13 +5,15 @@
 
 #include "scene/gltf_document.h"
 #include "scene/warnings.h"
+#include "steradian/load_scene.h"
 #include "steradian/texture.h"
 
 namespace steradian::scene {
 
 class GltfTextures {
  public:
-  GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings);
+  // kept: pictures of earlier readings, and of this one for the next; may be null.
+  GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings, std::shared_ptr<DecodedPictures> kept = {});
 
   // The texture that member `key` of `owner` refers to; not present() where there is none or its format is
   // not read.
@@ -32,6 +34,7 @@ class GltfTextures {
   const GltfDocument& document_;
   std::vector<Image>& images_;
   Warnings& warnings_;
+  std::shared_ptr<DecodedPictures> kept_;
   std::vector<int> loaded_;  // by glTF image: into images_, or one of the two states below
   std::size_t texels_left_;
   double decoding_ms_ = 0;

@@ -101,7 +101,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   const GltfNodes nodes = read_nodes(document);
 
   Scene scene;
-  GltfTextures textures(document, scene.images, warnings);
+  GltfTextures textures(document, scene.images, warnings, options.pictures);
   scene.materials = read_materials(document, textures);
   PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings);
   scene.meshes = std::move(placed.meshes);
