@@ -233,15 +233,6 @@ void run_plane(Options& options) {
   render_plane_scene(job);
 }
 
-// Vulkan has no shadows: whoever asks for them is refused later, whoever does not ask is told that the picture has none.
-void take_backend(const CLI::App& verb, Options& options) {
-  if (options.backend == "cpu") return;
-  options.render.backend = Backend::vulkan;
-  if (verb.count("--shadows") > 0) return;
-  options.shadows = "off";
-  fmt::print(stderr, "warning: --backend vulkan does not have shadows yet: this is the picture of --shadows off\n");
-}
-
 void run(const CLI::App& verb, Options& options) {
   RenderOptions& render_options = options.render;
   if (is_plane_scene(options.scene)) {
@@ -251,7 +242,7 @@ void run(const CLI::App& verb, Options& options) {
   if (render_options.method == "par" || render_options.method == "marched")
     throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
-  take_backend(verb, options);
+  render_options.backend = options.backend == "vulkan" ? Backend::vulkan : Backend::cpu;
   render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
   render_options.terminator = options.terminator == "smooth" ? Terminator::smooth : Terminator::strict;
   render_options.lights = options.light_sum == "all" ? LightSum::all : options.light_sum == "tree" ? LightSum::tree : LightSum::automatic;

@@ -26,8 +26,8 @@ enum class Terminator { strict, smooth };
 // together, within a bound; see docs/manylights.md. automatic: tree from 64 lights on.
 enum class LightSum { automatic, all, tree };
 
-// vulkan: direct light without shadows of metallic-roughness surfaces (docs/render.md says what is missing); what it does not have is a
-// UsageError, and so is a device that is not there an Error.
+// vulkan: the same picture; direct light of metallic-roughness surfaces where nothing blocks it on a device, the rest on the host
+// (docs/vulkan.md). The bounce is a UsageError there, a device that is not there an Error.
 enum class Backend { cpu, vulkan };
 
 struct RenderOptions {

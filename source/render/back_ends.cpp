@@ -5,6 +5,15 @@ namespace steradian {
 
 Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
   if (options.backend == Backend::cpu) return render_on_cpu(scene, options, stats, state);
+  if (vulkan::runs_on_host_alone(scene, options)) {
+    const vulkan::Device device({options.device, false});
+    Picture picture = render_on_cpu(scene, options, stats, state);
+    if (stats != nullptr)
+      stats->warnings.push_back(
+          "the CPU renders all of this picture: " + (options.lights == LightSum::tree ? "--lights tree" : "the method " + options.method) +
+          " has nothing for the device '" + device.info().name + "'");
+    return picture;
+  }
   vulkan::Frame frame(scene, options);
   Picture picture = frame.render(stats);
   if (state != nullptr) state->complete = options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);

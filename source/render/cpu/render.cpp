@@ -14,15 +14,12 @@
 
 #include "core/float_mode.h"
 #include "render/indirect/pipeline.h"
-#include "render/cpu/direct.h"
 #include "render/cpu/frame_surfaces.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/monte_carlo.h"
 #include "render/cpu/pass_clock.h"
-#include "render/cpu/shadow_pass.h"
-#include "render/cpu/specular.h"
-#include "render/cpu/textured_diffuse.h"
+#include "render/cpu/tile_lighting.h"
 #include "render/lights/many_lights.h"
 #include "steradian/error.h"
 
@@ -39,17 +36,6 @@ constexpr int kPilotPairs = 32;  // enough to rank tiles; the final estimate doe
 constexpr int kMinPairs = 64;    // below, the estimated variance is too rough for a z-test
 constexpr int kMaxPairs = 1 << 16;
 
-// Shadows of a tile in work, and their thread's memory.
-struct ShadowWork {
-  TileShadow shadow;
-  ShadowCounts counts;
-  PackLight pieces;                  // what slots see of a light
-  std::vector<std::uint32_t> slots;  // in `some`, side by side
-  SurfaceTile some;
-  SurfaceTile coats;                 // that have a normal of their own
-  std::size_t filled = kTilePixels;  // slots of `some` that may hold a surface
-};
-
 class Renderer {
  public:
   Renderer(const Scene& scene, const RenderOptions& options)
@@ -60,14 +46,12 @@ class Renderer {
         surfaces_(scene, options),
         lights_(prepare_lights(scene, surfaces_.environment_spots())),
         many_lights_(prepare_many_lights()),
-        direct_(direct_table_for(active_simd())),
-        specular_(method_, options.table),
+        lighting_(scene, options, method_, lights_, surfaces_.rays(), many_lights_.get()),
         samplers_([this] {
           return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &surfaces_.rays() : nullptr,
                                                  environment() != nullptr ? &environment()->sampler() : nullptr, options_.terminator);
         }),
         arena_(threads_) {
-    if (options.shadows != Shadows::off && !method_.estimates()) shadows_.emplace(scene_, lights_, surfaces_.rays(), options.shadows);
     if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, surfaces_.rays(), options_, threads_);
     build_ms_ = ms_since(start_);
   }
@@ -95,8 +79,8 @@ class Renderer {
     stats.passes = {{"build", build_ms_},
                     surfaces_.rays_time(threads_),
                     surfaces_.gbuffer_time(threads_),
-                    direct_clock_.time(threads_),
-                    specular_clock_.time(threads_)};
+                    lighting_.direct_time(threads_),
+                    lighting_.specular_time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
     if (environment() != nullptr) {
       stats.passes.front().ms -= surfaces_.environment_build_ms();
@@ -107,20 +91,14 @@ class Renderer {
     }
     if (many_lights_) {
       stats.light_tree = true;
-      lights::Counts all;
-      for (const auto& work : light_work_) all += lights::ManyLights::counts(*work);
+      const lights::Counts all = lighting_.light_counts();
       const double points = std::max(static_cast<double>(all.points), 1.0);
       stats.light_elements = static_cast<double>(all.elements) / points;
       stats.light_outlines = static_cast<double>(all.outlines) / points;
     }
-    if (shadows_) {
-      stats.passes.push_back(shadow_clock_.time(threads_));
-      ShadowCounts counts;
-      for (const auto& work : shadow_work_) {
-        counts.points += work->counts.points;
-        counts.fallback += work->counts.fallback;
-      }
-      if (counts.points > 0) stats.shadow_fallback = static_cast<double>(counts.fallback) / static_cast<double>(counts.points);
+    if (lighting_.has_shadows()) {
+      stats.passes.push_back(lighting_.shadow_time(threads_));
+      stats.shadow_fallback = lighting_.shadow_fallback();
     }
     if (indirect_) {
       stats.passes.push_back(capture_clock_.time(threads_));
@@ -258,146 +236,21 @@ class Renderer {
     return pairs;
   }
 
-  // The same of many lights, the diffuse light of those far off together.
-  void add_many_lights(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-    if (method_.exact_diffuse && tile.any_diffuse)
-      direct_clock_.run([&] {
-        std::vector<const PackLight*> together, plain;
-        for (const PackLight* light : lights) (many_lights_->serves(*light) ? together : plain).push_back(light);
-        many_lights_->add_diffuse(tile, together, *light_bounds_.local(), *light_work_.local());
-        const std::vector<const PackLight*> untextured = without_textured(plain);
-        if (!untextured.empty()) direct_.add_diffuse(tile, untextured.data(), untextured.size());
-        if (untextured.size() < plain.size()) add_diffuse_from_textured(tile, plain);
-      });
-    const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), *light_bounds_.local()};
-    specular_clock_.run([&] { specular_.add(tile, lights, SpecularPass::Walk::specular_alone, &far); });
-  }
-
-  // What the lights send without sampling, nothing between.
-  void add_light(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-    constexpr std::size_t kFew = 8;  // are done before cells are
-    if (many_lights_ && lights.size() > kFew) return add_many_lights(tile, lights);
-    if (method_.exact_diffuse && tile.any_diffuse)
-      direct_clock_.run([&] {
-        std::vector<const PackLight*> plain = without_textured(lights);
-        if (!method_.estimates()) std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
-        if (!plain.empty()) direct_.add_diffuse(tile, plain.data(), plain.size());
-        if (plain.size() < lights.size()) add_diffuse_from_textured(tile, lights);
-      });
-    if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });
-  }
-
-  // The light of a tile past what blocks it. A light before which nothing stands goes the usual way; of the others, the slots that see
-  // all of it or a part are evaluated side by side.
-  void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-    if (lights.empty()) return;
-    ShadowWork& work = *shadow_work_.local();
-    const bool coats = tile.any_coat && take_coats(tile, work.coats);
-    add_past_blockers(tile, lights, work);
-    if (!coats) return;
-    add_past_blockers(work.coats, lights, work);
-    put_back_coats(work.coats, tile);
-  }
-
-  void add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowWork& work) {
-    TilePoints points;
-    shadow_clock_.run([&] { points = points_for_shadows(tile, options_.terminator); });
-    std::vector<const PackLight*> plain;
-    for (const PackLight* light : lights) {
-      shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts); });
-      if (work.shadow.is_plain()) {
-        plain.push_back(light);
-        continue;
-      }
-      add_whole(tile, *light, work);
-      add_parts(tile, *light, work);
-    }
-    if (!plain.empty()) add_light(tile, plain);
-  }
-
-  // Slots that see all of a light, or a share of it.
-  void add_whole(SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
-    using Seen = TileShadow::Seen;
-    work.slots.clear();
-    for (std::uint32_t i = 0; i < kTilePixels; ++i)
-      if (work.shadow.seen[i] == Seen::whole || work.shadow.seen[i] == Seen::share) work.slots.push_back(i);
-    if (work.slots.empty()) return;
-    SurfaceTile& some = light_slots(tile, light, work);
-    for (std::size_t k = 0; k < work.slots.size(); ++k) {
-      const std::uint32_t i = work.slots[k];
-      add_radiance(tile, i, radiance_in(some, k) * (work.shadow.seen[i] == Seen::share ? work.shadow.share[i] : 1.0f));
-    }
-  }
-
-  // The radiance that a light sends to some slots alone, in their order.
-  SurfaceTile& light_slots(const SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
-    work.filled = take_slots(tile, work.slots, work.filled, work.some);
-    // Pieces lie above the surface's horizon, and no coat's normal differs from it by more than rounding (take_coats).
-    if (light.is_pieces()) work.some.coat_normal = work.some.normal;
-    add_light(work.some, {&light});
-    return work.some;
-  }
-
-  static Vec3f radiance_in(const SurfaceTile& tile, std::size_t i) { return {tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]}; }
-  static void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
-    tile.radiance.x[i] += r.x;
-    tile.radiance.y[i] += r.y;
-    tile.radiance.z[i] += r.z;
-  }
-
-  // Slots that see a part of a light.
-  void add_parts(SurfaceTile& tile, const PackLight& light, ShadowWork& work) {
-    for (std::size_t i = 0; i < work.shadow.batch_count; ++i) add_batch(tile, light, work.shadow.batches[i], work);
-  }
-
-  void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, ShadowWork& work) {
-    work.slots = batch.slots;
-    const std::size_t count = batch.slots.size();
-    std::vector<Vec3f> radiance(count);
-    work.pieces.radiance = light.radiance;
-    light_pieces(tile, batch.visible, work, [&](const SurfaceTile& seen) {
-      for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance_in(seen, k) * batch.passes[k];
-    });
-    if (batch.all.point_count() > 0) {
-      // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
-      const auto over = [](float part, float all) { return all > 0 ? part / all : 0.0f; };
-      light_pieces(tile, batch.all, work, [&](const SurfaceTile& all) {
-        for (std::size_t k = 0; k < count; ++k) {
-          const Vec3f a = radiance_in(all, k);
-          radiance[k] = {over(radiance[k].x, a.x), over(radiance[k].y, a.y), over(radiance[k].z, a.z)};
-        }
-      });
-      const SurfaceTile& whole = light_slots(tile, light, work);
-      for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance[k] * radiance_in(whole, k);
-    }
-    for (std::size_t k = 0; k < count; ++k)
-      if (batch.slots[k] != kNoSlot) add_radiance(tile, batch.slots[k], radiance[k]);
-  }
-
-  // use(tile): the radiance that some slots get from pieces, in their order.
-  template <class Use>
-  void light_pieces(const SurfaceTile& tile, packed::Pieces& pieces, ShadowWork& work, Use use) {
-    if (!work.pieces.is_pieces()) work.pieces.shape = packed::Pieces();
-    std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
-    use(light_slots(tile, work.pieces, work));
-    std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
-  }
-
   // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
   void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture) {
     const float weight = 1.0f / static_cast<float>(options_.aa);
-    TileVector* bounds = many_lights_ ? light_bounds_.local().get() : nullptr;
+    TileVector* bounds = many_lights_ ? &lighting_.bounds() : nullptr;
     std::vector<Vec3f>* bound_layer = many_lights_ ? &picture.layers.at("light_bound") : nullptr;
     if (bounds != nullptr) *bounds = {};
     const bool diffuse_alone = !(tile.any_specular || tile.any_sheen || tile.any_coat || tile.any_override);
-    if (many_lights_ && !shadows_ && diffuse_alone) {
-      add_light(tile, light_pointers_);  // it finds out by itself whom they reach
+    if (many_lights_ && !lighting_.has_shadows() && diffuse_alone) {
+      lighting_.add(tile, light_pointers_);  // it finds out by itself whom they reach
     } else {
       const auto reaching = lights_reaching(light_pointers_, tile);
-      if (shadows_) {
-        add_shadowed(tile, reaching.lights);
+      if (lighting_.has_shadows()) {
+        lighting_.add_shadowed(tile, reaching.lights);
       } else {
-        add_light(tile, reaching.lights);
+        lighting_.add(tile, reaching.lights);
       }
     }
     if (!method_.estimates()) surfaces_.add_environment(tile);
@@ -445,19 +298,13 @@ class Renderer {
   const std::vector<PackLight> lights_;
   const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
   const std::unique_ptr<const lights::ManyLights> many_lights_;  // null where each light is done by itself
-  const DirectTable& direct_;
-  const SpecularPass specular_;
+  TileLighting lighting_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
-  std::optional<ShadowPass> shadows_;
-  tbb::enumerable_thread_specific<lights::ManyLights::WorkPointer> light_work_{[] { return lights::ManyLights::make_work(); }};
-  tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> light_bounds_{[] { return std::make_unique<TileVector>(); }};
-  tbb::enumerable_thread_specific<std::unique_ptr<ShadowWork>> shadow_work_{[] { return std::make_unique<ShadowWork>(); }};
   double build_ms_ = 0;
-  PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, sampling_clock_{"sampling"}, capture_clock_{"indirect: surfaces"},
-      shadow_clock_{"shadows"};
+  PassClock sampling_clock_{"sampling"}, capture_clock_{"indirect: surfaces"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

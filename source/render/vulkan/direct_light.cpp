@@ -25,13 +25,14 @@ static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroup
 
 enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie };
 
+// The specular lobe's; kDiffuse: none.
 Shader shader_of(const DirectMethod& method) {
   switch (method.ggx) {
     case Method::closed_form: return kClosedForm;
     case Method::ltc:
     case Method::ltc_compact: return kLtc;
     case Method::representative_point: return kRepresentativePoint;
-    default: throw UsageError("--method " + method.name, "does not run on Vulkan yet", "use auto, ltc, ltc-compact or --backend cpu");
+    default: return kDiffuse;
   }
 }
 
@@ -130,6 +131,8 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
   fitting(surfaces_, tiles_ * bytes_of_planes(kPlanes));
   radiance_ = std::make_unique<Buffer>(device, tiles_ * bytes_of_planes(3), BufferUse::host_reads);
 }
+
+bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != kDiffuse; }
 
 bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
 

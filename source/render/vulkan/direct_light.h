@@ -19,8 +19,10 @@ void check_device(const DeviceInfo& device);
 
 class DirectLight {
  public:
-  // table: as RenderOptions::table. The device and the lights must stay. Throws UsageError for a method that the shaders do not have, and
-  // Error for a device that lacks something.
+  // Whether the shaders have the lobes of metallic-roughness surfaces by this method; else only diffuse light and sheen.
+  static bool has(const DirectMethod& method);
+
+  // table: as RenderOptions::table. The device and the lights must stay. Throws Error for a device that lacks something.
   DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
 
   std::size_t tiles_of_batch() const { return tiles_; }

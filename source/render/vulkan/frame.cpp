@@ -11,11 +11,9 @@
 #include <utility>
 
 #include "core/float_mode.h"
-#include "render/cpu/direct.h"
 #include "render/cpu/frame_surfaces.h"
 #include "render/cpu/methods.h"
-#include "render/cpu/specular.h"
-#include "render/cpu/textured_diffuse.h"
+#include "render/cpu/tile_lighting.h"
 #include "render/indirect/pipeline.h"
 #include "render/vulkan/bounce.h"
 #include "render/vulkan/direct_light.h"
@@ -24,20 +22,9 @@
 namespace steradian::vulkan {
 namespace {
 
-constexpr const char* kOtherwise = "use --backend cpu";
-
-void refuse(bool has, const std::string& what) {
-  if (has) throw UsageError("--backend vulkan", "does not have " + what + " yet", kOtherwise);
-}
-
-// Whatever would be left out of the picture.
-void refuse_what_is_missing(const RenderOptions& options, const DirectMethod& method) {
-  if (options.shadows != Shadows::off)
-    throw UsageError("--backend vulkan", "does not have shadows yet", "add --shadows off, or use --backend cpu");
-  refuse(method.estimates(), "the method " + method.name);
-  refuse(options.lights == LightSum::tree, "--lights tree");
-  refuse(options.indirect.mode == IndirectMode::path, "--indirect path");
-  refuse(options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0, "--indirect-shadows");
+// What of the bounce the shaders do not have.
+bool bounce_on_host(const IndirectOptions& options) {
+  return options.mode == IndirectMode::path || options.shadow_rays > 0;
 }
 
 bool shaders_have(const PackLight& light) {
@@ -46,12 +33,15 @@ bool shaders_have(const PackLight& light) {
 }
 
 // What the shaders do not have, and the host lights: a sentence each.
-std::vector<std::string> lit_by_host(const Scene& scene) {
+std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method) {
   std::vector<std::string> sentences;
   const auto say = [&](const std::string& what) {
     const std::string sentence = "the CPU lights " + what + ": the shaders do not have that yet";
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   };
+  if (options.indirect.mode != IndirectMode::off && bounce_on_host(options.indirect))
+    say(options.indirect.mode == IndirectMode::path ? "the bounce by paths" : "the bounce behind its shadow rays");
+  if (!DirectLight::has(method)) say(std::string("lobes by the method ") + name_of(method.ggx));
   for (const AreaLight& light : scene.area_lights)
     if (light.texture && light.texture->use.present()) say("by the textured light '" + light.name + "'");
   for (const PunctualLight& light : scene.punctual_lights)
@@ -67,9 +57,8 @@ std::vector<std::string> lit_by_host(const Scene& scene) {
 }
 
 DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
-  const DirectMethod method = choose_method(scene, options);
-  refuse_what_is_missing(options, method);
-  return method;
+  if (runs_on_host_alone(scene, options)) throw UsageError("--backend vulkan", "has no part in this picture", "use --backend cpu");
+  return choose_method(scene, options);
 }
 
 // What is seen through one primary sample of a tile, past as many surfaces as `layer` says.
@@ -82,6 +71,10 @@ struct Job {
 
 }  // namespace
 
+bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
+  return options.lights == LightSum::tree || choose_method(scene, options).estimates();
+}
+
 struct Frame::Parts {
   Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d)
       : scene(s),
@@ -91,14 +84,15 @@ struct Frame::Parts {
         device(d != nullptr ? std::move(d) : std::make_shared<const Device>(DeviceOptions{o.device, false})),
         surfaces(s, o),
         lights(prepare_lights(s, surfaces.environment_spots())),
-        host_specular(method, o.table),
+        host(s, o, method, lights, surfaces.rays(), nullptr),
         direct(*device, method, o.table, lights),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
-    if (o.indirect.mode != IndirectMode::off) bounce = std::make_unique<Bounce>(*device);
+    if (has_bounce() && !bounce_on_host(o.indirect)) bounce = std::make_unique<Bounce>(*device);
     build_ms = ms_since(start);
   }
 
+  bool has_bounce() const { return options.indirect.mode != IndirectMode::off; }
   bool stopped() const { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); }
 
   template <class Work>
@@ -111,29 +105,24 @@ struct Frame::Parts {
     });
   }
 
-  // Adds what the shaders do not have; lights that they have remain.
+  // Adds what the shaders do not have: the light of those before which something stands, and of those that they do not know, which leave
+  // the list; and of the others that of some lobes, which leave the tile.
   void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching) {
-    const bool specular = tile.any_specular, sheen = tile.any_sheen, coat = tile.any_coat, override_lobes = tile.any_override;
-    if (override_lobes) {
-      tile.any_specular = tile.any_sheen = tile.any_coat = false;
-      host_specular.add(tile, reaching);
-      tile.any_specular = specular;
-      tile.any_sheen = sheen;
-      tile.any_coat = coat;
-    }
-    const auto on_host =
+    reaching = host.add_hidden(tile, reaching);
+    const auto unknown =
         std::stable_partition(reaching.begin(), reaching.end(), [](const PackLight* light) { return shaders_have(*light); });
-    const std::vector<const PackLight*> here(on_host, reaching.end());
-    if (here.empty()) return;
-    reaching.erase(on_host, reaching.end());
-    if (tile.any_diffuse) {
-      const std::vector<const PackLight*> plain = without_textured(here);
-      if (!plain.empty()) direct_table_for(active_simd()).add_diffuse(tile, plain.data(), plain.size());
-      add_diffuse_from_textured(tile, here);
-    }
-    tile.any_override = false;
-    host_specular.add(tile, here, SpecularPass::Walk::specular_alone);
-    tile.any_override = override_lobes;
+    if (unknown != reaching.end()) host.add(tile, {unknown, reaching.end()});
+    reaching.erase(unknown, reaching.end());
+
+    const bool diffuse = std::exchange(tile.any_diffuse, false), sheen = std::exchange(tile.any_sheen, false);
+    const bool layers = DirectLight::has(method);
+    const bool specular = tile.any_specular, coat = tile.any_coat;
+    if (layers) tile.any_specular = tile.any_coat = false;
+    if (tile.any_specular || tile.any_coat || tile.any_override) host.add(tile, reaching);
+    tile.any_diffuse = diffuse;
+    tile.any_sheen = sheen;
+    tile.any_specular = layers && specular;
+    tile.any_coat = layers && coat;
   }
 
   // The surfaces of the jobs, put on the device, and the lights that may reach them.
@@ -145,10 +134,12 @@ struct Frame::Parts {
       const TilePlane found = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
       if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
       surfaces.add_environment(tile);
-      lists_clock.run([&] {
-        tiles[i] = {lights_reaching(light_pointers, tile), tile.any_diffuse, tile.any_specular, tile.any_sheen, tile.any_coat};
-      });
-      host_clock.run([&] { light_on_host(tile, tiles[i].lights.lights); });
+      lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
+      light_on_host(tile, tiles[i].lights.lights);
+      tiles[i].any_diffuse = tile.any_diffuse;
+      tiles[i].any_specular = tile.any_specular;
+      tiles[i].any_sheen = tile.any_sheen;
+      tiles[i].any_coat = tile.any_coat;
       upload_clock.run([&] { direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
@@ -187,7 +178,7 @@ struct Frame::Parts {
 
   Picture render() {
     Picture picture(options.width, options.height);
-    if (bounce) bounced.emplace(scene, surfaces.rays(), options, threads, bounce.get());
+    if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce.get());
     const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
     for (int first = 0; first < count && !stopped(); first += batch) {
       const int end = std::min(first + batch, count);
@@ -205,9 +196,14 @@ struct Frame::Parts {
   }
 
   void report(RenderStats& stats) {
-    stats.passes = {{"build", build_ms},      surfaces.rays_time(threads), surfaces.gbuffer_time(threads), lists_clock.time(threads),
-                    host_clock.time(threads), upload_clock.time(threads),  device_clock.time(1),           resolve_clock.time(threads)};
+    stats.passes = {{"build", build_ms},        surfaces.rays_time(threads), surfaces.gbuffer_time(threads), lists_clock.time(threads),
+                    upload_clock.time(threads), device_clock.time(1),        resolve_clock.time(threads)};
     for (const auto& [name, ms] : direct.times()) stats.passes.push_back({"device: " + name, ms});
+    if (host.has_shadows()) {
+      stats.passes.push_back(host.shadow_time(threads));
+      stats.shadow_fallback = host.shadow_fallback();
+    }
+    for (PassTime pass : {host.direct_time(threads), host.specular_time(threads)}) stats.passes.push_back({"host: " + pass.name, pass.ms});
     if (const auto* environment = surfaces.environment()) {
       stats.passes.front().ms -= surfaces.environment_build_ms();
       stats.passes.push_back({"environment: maps", surfaces.environment_build_ms()});
@@ -225,7 +221,7 @@ struct Frame::Parts {
     stats.method = method.name;
     stats.device = device->info().name;
     stats.warnings = lobes_under_means(scene, method);
-    for (std::string& sentence : lit_by_host(scene)) stats.warnings.push_back(std::move(sentence));
+    for (std::string& sentence : lit_by_host(scene, options, method)) stats.warnings.push_back(std::move(sentence));
   }
 
   const Clock::time_point start = Clock::now();
@@ -237,13 +233,13 @@ struct Frame::Parts {
   FrameSurfaces surfaces;
   const std::vector<PackLight> lights;
   std::vector<const PackLight*> light_pointers;
-  const SpecularPass host_specular;
+  TileLighting host;
   DirectLight direct;
   std::unique_ptr<Bounce> bounce;
   std::optional<indirect::Pipeline> bounced;  // of one frame
   tbb::task_arena arena;
   double build_ms = 0;
-  PassClock lists_clock{"lists"}, host_clock{"host lights"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
+  PassClock lists_clock{"lists"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
       capture_clock{"indirect: surfaces"};
   std::vector<std::unique_ptr<TileVector>> next_shares;  // by job
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> workspaces{[] { return std::make_unique<SurfaceTile>(); }};

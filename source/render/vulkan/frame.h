@@ -1,4 +1,5 @@
-// Frames on a Vulkan device: the host finds the surfaces and the lights that may reach them, as for the CPU; the device lights them.
+// Frames on a Vulkan device: the host finds the surfaces, the lights that may reach them and what blocks those, as for the CPU; the device
+// adds the light of those that nothing blocks.
 #pragma once
 
 #include <memory>
@@ -8,11 +9,14 @@
 
 namespace steradian::vulkan {
 
+// Whether the device would have nothing to do: estimates by samples, and many lights added up together.
+bool runs_on_host_alone(const Scene& scene, const RenderOptions& options);
+
 // Buffers and pipelines are made once, for any number of frames of a scene.
 class Frame {
  public:
-  // Scene and options must stay. device: null for the one that the options name. Throws UsageError for options that this back end does
-  // not have yet, Error where there is no such device.
+  // Scene and options must stay. device: null for the one that the options name. Throws UsageError for what runs on the host
+  // alone, and for options that this back end does not have yet; Error where there is no such device.
   Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr);
   ~Frame();
 

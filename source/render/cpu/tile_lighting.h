@@ -1,0 +1,72 @@
+// TileLighting: the direct light of a tile's surfaces without sampling, past what blocks it: what every back end has on the CPU.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "render/cpu/light_list.h"
+#include "render/cpu/methods.h"
+#include "render/cpu/pass_clock.h"
+#include "render/cpu/ray_scene.h"
+#include "render/cpu/shadow_pass.h"
+#include "render/cpu/specular.h"
+#include "render/lights/many_lights.h"
+#include "steradian/render.h"
+
+namespace steradian {
+
+struct DirectTable;
+
+class TileLighting {
+ public:
+  // All must stay; lights: of prepare_lights. many_lights: null where each light is done by itself.
+  TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const std::vector<PackLight>& lights,
+               const RayScene& rays, const lights::ManyLights* many_lights);
+
+  bool has_shadows() const { return shadows_.has_value(); }
+
+  // Adds the light of lights before which nothing stands to tile.radiance. Under many lights the thread's bounds() grow.
+  void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // ... of lights before which something may stand.
+  void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // ... of those of them before which something does stand, and returns the others. Coats with a normal of their own are done with for
+  // good: they weigh nothing in the tile then.
+  std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+
+  // How far the many lights that this thread has added may be off.
+  TileVector& bounds() { return *light_bounds_.local(); }
+  lights::Counts light_counts() const;
+
+  PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
+  PassTime specular_time(int threads) const { return specular_clock_.time(threads); }
+  PassTime shadow_time(int threads) const { return shadow_clock_.time(threads); }
+  // Share of pairs of a surface and a light whose shadows rays have estimated.
+  double shadow_fallback() const;
+
+ private:
+  struct Work;
+  void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work);
+  void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
+  void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
+  void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, Work& work);
+  SurfaceTile& light_slots(const SurfaceTile& tile, const PackLight& light, Work& work);
+  template <class Use>
+  void light_pieces(const SurfaceTile& tile, packed::Pieces& pieces, Work& work, Use use);
+
+  const RenderOptions& options_;
+  const DirectMethod& method_;
+  const lights::ManyLights* const many_lights_;
+  const DirectTable& direct_;
+  const SpecularPass specular_;
+  std::optional<ShadowPass> shadows_;
+  tbb::enumerable_thread_specific<lights::ManyLights::WorkPointer> light_work_{[] { return lights::ManyLights::make_work(); }};
+  tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> light_bounds_{[] { return std::make_unique<TileVector>(); }};
+  tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
+  PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
+};
+
+}  // namespace steradian
