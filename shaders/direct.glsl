@@ -29,12 +29,13 @@ const bool COMPACT = COMPACT_TABLE == 1;
 const bool TOGETHER = WITH_DIFFUSE == 1;
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Surfaces { float surfaces[]; };
-layout(std430, binding = 1) buffer Radiance { float radiance[]; };
-layout(std430, binding = 2) readonly buffer Lights { vec4 lights[]; };
-layout(std430, binding = 3) readonly buffer Vertices { vec4 vertices[]; };
-layout(std430, binding = 4) readonly buffer Lists { uint lists[]; };
-layout(std430, binding = 5) readonly buffer Tables { vec4 tables[]; };
+layout(binding = 0) uniform samplerBuffer surfaces;
+layout(binding = 1) uniform samplerBuffer tables;
+layout(binding = 2) uniform samplerBuffer lights;
+layout(binding = 3) uniform samplerBuffer vertices;
+layout(binding = 4) uniform samplerBuffer radiance_before;  // the same buffer as `radiance`: every thread reads what it alone writes
+layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
+layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
 layout(push_constant) uniform Push { uint first_entry; };
 
 #include "kernels.glsl"
@@ -65,11 +66,7 @@ PunctualIncident punctual_at(Light light, vec3 p) {
 #include "specular.glsl"
 #endif
 
-uint plane(uint tile, int number, uint slot) { return (tile * uint(kPlanes) + uint(number)) * uint(kSlots) + slot; }
-float number_at(uint tile, int number, uint slot) { return surfaces[plane(tile, number, slot)]; }
-vec3 vector_at(uint tile, int number, uint slot) {
-    return vec3(number_at(tile, number, slot), number_at(tile, number + 1, slot), number_at(tile, number + 2, slot));
-}
+vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (int(tile) * kPlanes + plane) * kSlots + int(slot)); }
 
 void main() {
     uint entry = (first_entry + gl_WorkGroupID.y) * uint(kEntry);
@@ -78,26 +75,38 @@ void main() {
     uint count = lists[entry + 2u];
     uint slot = gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocationID.x;
 
-    bool coat = COAT_LOBE == 1;
-    vec3 p = vector_at(tile, kPosition, slot);
-    vec3 n = vector_at(tile, coat ? kCoatNormal : kNormal, slot);
-    vec3 v = vector_at(tile, kView, slot);
+    vec4 position = surface_at(tile, kPosition, slot);
+    vec4 normal = surface_at(tile, kNormal, slot);
+    vec4 view = surface_at(tile, kView, slot);
+    vec3 p = position.xyz;
+    vec3 n = normal.xyz;
+    vec3 v = view.xyz;
+    float loss = view.w;
     if (!(dot(n, n) > 0.25)) return;  // no surface
 #if LOBE == LOBE_DIFFUSE
-    vec3 albedo = vector_at(tile, kAlbedo, slot);
-    float loss = number_at(tile, kFresnelLoss, slot);
+    vec3 albedo = surface_at(tile, kAlbedo, slot).xyz;
 #elif LOBE == LOBE_SHEEN
-    vec3 color = vector_at(tile, kSheen, slot);
-    float alpha = number_at(tile, kSheenAlpha, slot);
+    vec4 sheen = surface_at(tile, kSheen, slot);
 #else
     SpecularLobe lobe;
-    lobe.tangent = vector_at(tile, kTangent, slot);
-    lobe.ax = number_at(tile, coat ? kCoatAlpha : kAlphaX, slot);
-    lobe.ay = coat ? lobe.ax : number_at(tile, kAlphaY, slot);
-    vec3 f90 = coat ? vec3(number_at(tile, kCoat, slot)) : vector_at(tile, kF90, slot);
-    vec3 f0 = coat ? 0.04 * f90 : vector_at(tile, kF0, slot);
-    vec3 albedo = TOGETHER ? vector_at(tile, kAlbedo, slot) : vec3(0.0);
-    float loss = TOGETHER ? number_at(tile, kFresnelLoss, slot) : 0.0;
+    vec4 tangent = surface_at(tile, kTangent, slot);
+    lobe.tangent = tangent.xyz;
+    lobe.ax = position.w;
+    lobe.ay = normal.w;
+    vec3 f0 = vec3(0.0);
+    vec3 f90 = vec3(0.0);
+    if (COAT_LOBE == 1) {
+        vec4 coat = surface_at(tile, kCoatNormal, slot);
+        n = coat.xyz;
+        lobe.ax = coat.w;
+        lobe.ay = coat.w;
+        f90 = vec3(tangent.w);
+        f0 = 0.04 * f90;
+    } else {
+        f0 = surface_at(tile, kF0, slot).xyz;
+        f90 = surface_at(tile, kF90, slot).xyz;
+    }
+    vec3 albedo = TOGETHER ? surface_at(tile, kAlbedo, slot).xyz : vec3(0.0);
 #endif
 
     vec3 sum = vec3(0.0);
@@ -107,7 +116,7 @@ void main() {
 #if LOBE == LOBE_DIFFUSE
         sum += light.r[0].xyz * albedo * lambert_radiance(irradiance_below_boundary(light, p, n, v, loss));
 #elif LOBE == LOBE_SHEEN
-        sum += light.r[0].xyz * color * sheen_radiance(light, p, n, v, alpha);
+        sum += light.r[0].xyz * sheen.xyz * sheen_radiance(light, p, n, v, sheen.w);
 #else
         Answer answer = specular_answer(light, p, n, v, lobe, loss);
         sum += light.r[0].xyz * (f0 * (answer.specular.x - answer.specular.y) + f90 * answer.specular.y +
@@ -116,8 +125,6 @@ void main() {
         ++i;
     } while (i < count);
 
-    uint at = tile * uint(3 * kSlots) + slot;
-    radiance[at] += sum.x;
-    radiance[at + uint(kSlots)] += sum.y;
-    radiance[at + uint(2 * kSlots)] += sum.z;
+    uint at = tile * uint(kSlots) + slot;
+    radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
 }

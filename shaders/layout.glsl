@@ -1,24 +1,18 @@
 // What the host and the shaders agree on: places in buffers and the numbers of choices. This text is C++ and GLSL at once.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Surfaces: planes of kSlots floats, kPlanes of them a tile; three for a vector.
+// Surfaces: planes of kSlots vectors of four, kPlanes of them a tile: three numbers, and one that stands beside them.
 const int kSlots = 1024;
-const int kPosition = 0;
-const int kNormal = 3;
-const int kView = 6;
-const int kTangent = 9;
-const int kAlbedo = 12;
-const int kFresnelLoss = 15;
-const int kF0 = 16;
-const int kF90 = 19;
-const int kAlphaX = 22;
-const int kAlphaY = 23;
-const int kCoat = 24;
-const int kCoatAlpha = 25;
-const int kCoatNormal = 26;
-const int kSheen = 29;
-const int kSheenAlpha = 32;
-const int kPlanes = 33;
+const int kPosition = 0;    // alpha_x
+const int kNormal = 1;      // alpha_y
+const int kView = 2;        // Fresnel loss
+const int kAlbedo = 3;
+const int kF0 = 4;
+const int kF90 = 5;
+const int kTangent = 6;     // weight of the coat
+const int kCoatNormal = 7;  // alpha of the coat
+const int kSheen = 8;       // its alpha
+const int kPlanes = 9;
 
 // Lights: kRecord vectors of four each, as shaders/lights.glsl reads them.
 const int kRecord = 9;

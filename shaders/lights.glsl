@@ -17,7 +17,7 @@ struct Light {
 
 Light light_at(uint number) {
     Light light;
-    for (int i = 0; i < kRecord; i++) light.r[i] = lights[number * uint(kRecord) + uint(i)];
+    for (int i = 0; i < kRecord; i++) light.r[i] = texelFetch(lights, int(number) * kRecord + i);
     return light;
 }
 

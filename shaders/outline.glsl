@@ -40,7 +40,7 @@ struct Place {
 Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     Place place;
     if (KIND == kPolygon) {
-        vec4 v = vertices[uint(light.r[0].w) + uint(i)];
+        vec4 v = texelFetch(vertices, int(light.r[0].w) + i);
         place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
         place.joined = v.w > 0.5;
     } else {

@@ -20,8 +20,8 @@ vec4 look_up(int first, int size, vec2 at) {
     vec2 cell = min(floor(place), float(size - 2));
     vec2 f = place - cell;
     int node = first + int(cell.y) * size + int(cell.x);
-    vec4 top = mix(tables[node], tables[node + 1], f.x);
-    vec4 bottom = mix(tables[node + size], tables[node + size + 1], f.x);
+    vec4 top = mix(texelFetch(tables, node), texelFetch(tables, node + 1), f.x);
+    vec4 bottom = mix(texelFetch(tables, node + size), texelFetch(tables, node + size + 1), f.x);
     return mix(top, bottom, f.y);
 }
 

@@ -42,6 +42,7 @@ Json facts() {
                                       {"memory", readable_bytes(d.memory)},
                                       {"storage_buffer", readable_bytes(d.storage_buffer)},
                                       {"storage_buffers_of_a_shader", d.storage_buffers},
+                                      {"texels_of_a_buffer", d.texel_buffer},
                                       {"subgroup", d.subgroup},
                                       {"timestamps", d.timestamps}});
   const auto dotted = [](int a, int b, int c) { return fmt::format("{}.{}.{}", a, b, c); };

@@ -122,14 +122,17 @@ TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {
   EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
 }
 
-TEST_F(VulkanBounce, RefusesWhatItDoesNotHave) {
+TEST_F(VulkanBounce, LeavesPathsAndShadowRaysToTheHostAndSaysSo) {
   const Scene scene = indirect::mixed_corner();
-  RenderOptions options = small(IndirectMode::path, 1 << 10);
-  options.backend = Backend::vulkan;
-  EXPECT_THROW(render(scene, options), UsageError);
-  options.indirect.mode = IndirectMode::ltc;
+  RenderOptions options = small(IndirectMode::ltc, 1 << 10);
   options.indirect.shadow_rays = 1;
-  EXPECT_THROW(render(scene, options), UsageError);
+  RenderStats stats;
+  const Picture cpu = render(scene, options);
+  options.backend = Backend::vulkan;
+  const Picture device = render(scene, options, &stats);
+  ASSERT_EQ(stats.warnings.size(), 1u);
+  EXPECT_NE(stats.warnings[0].find("the bounce behind its shadow rays"), std::string::npos) << stats.warnings[0];
+  EXPECT_TRUE(cpu.layers.at("indirect") == device.layers.at("indirect"));
 }
 
 }  // namespace

@@ -32,15 +32,20 @@ void check_size(std::size_t bytes, std::size_t available) {
 
 }  // namespace
 
-Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use) : bytes_(bytes), handles_(std::make_unique<Handles>()) {
+Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferForm form)
+    : bytes_(bytes), handles_(std::make_unique<Handles>()) {
   checked(("make a buffer of " + readable_bytes(bytes)).c_str(), [&] {
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
-    h.buffer = d.device.createBuffer({{}, bytes, vk::BufferUsageFlagBits::eStorageBuffer});
+    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer;
+    if (form == BufferForm::texels) usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
+    h.buffer = d.device.createBuffer({{}, bytes, usage});
     const auto needed = h.buffer.getMemoryRequirements();
     h.memory = d.device.allocateMemory({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});
     h.buffer.bindMemory(*h.memory, 0);
     h.mapped = h.memory.mapMemory(0, bytes);
+    if (form == BufferForm::texels)
+      h.texels = d.device.createBufferView({{}, *h.buffer, vk::Format::eR32G32B32A32Sfloat, 0, VK_WHOLE_SIZE});
   });
 }
 

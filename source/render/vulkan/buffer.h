@@ -1,4 +1,4 @@
-// A storage buffer that both the host and shaders read and write.
+// A buffer that both the host and shaders read and write.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,13 @@ namespace steradian::vulkan {
 // What the host mostly does with it: memory near the device is slow for the host to read.
 enum class BufferUse { host_writes, host_reads };
 
+// How shaders see it: as a storage buffer, or also as texels of four floats, which devices fetch in one go.
+enum class BufferForm { storage, texels };
+
 class Buffer {
  public:
   // Throws Error that says how many bytes the device does not have.
-  Buffer(const Device& device, std::size_t bytes, BufferUse use = BufferUse::host_reads);
+  Buffer(const Device& device, std::size_t bytes, BufferUse use = BufferUse::host_reads, BufferForm form = BufferForm::storage);
   Buffer(Buffer&&) noexcept;
   Buffer& operator=(Buffer&&) noexcept;
   ~Buffer();

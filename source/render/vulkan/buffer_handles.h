@@ -9,6 +9,7 @@ namespace steradian::vulkan {
 struct Buffer::Handles {
   vk::raii::Buffer buffer = nullptr;
   vk::raii::DeviceMemory memory = nullptr;
+  vk::raii::BufferView texels = nullptr;
   void* mapped = nullptr;
 };
 

@@ -13,6 +13,11 @@ constexpr std::uint64_t kLongestWait = 300'000'000'000;  // ns; a device that ta
 }  // namespace
 
 struct ComputeProgram::Handles {
+  std::uint32_t texels = 0;
+  vk::DescriptorType type(std::uint32_t binding) const {
+    return binding < texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
+  }
+
   std::vector<vk::raii::ShaderModule> shaders;
   vk::raii::DescriptorSetLayout set_layout = nullptr;
   vk::raii::PipelineLayout layout = nullptr;
@@ -26,23 +31,25 @@ struct ComputeProgram::Handles {
   std::vector<vk::raii::Pipeline> pipelines;
 };
 
-ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers)
+ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
+                               std::size_t texels)
     : device_(device), handles_(std::make_unique<Handles>()) {
   checked("make a compute program", [&] {
     const vk::raii::Device& d = device.handles().device;
     Handles& h = *handles_;
-    const auto buffer_count = static_cast<std::uint32_t>(buffers);
+    h.texels = static_cast<std::uint32_t>(texels);
+    const auto buffer_count = static_cast<std::uint32_t>(texels + buffers);
     for (const auto& spirv : shaders) h.shaders.push_back(d.createShaderModule({{}, spirv.size_bytes(), spirv.data()}));
 
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < buffer_count; ++i)
-      bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+    for (std::uint32_t i = 0; i < buffer_count; ++i) bindings.emplace_back(i, h.type(i), 1, vk::ShaderStageFlagBits::eCompute);
     h.set_layout = d.createDescriptorSetLayout({{}, bindings});
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
     h.layout = d.createPipelineLayout({{}, *h.set_layout, push});
 
-    const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, buffer_count);
-    h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, static_cast<std::uint32_t>(buffers)}};
+    if (texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
+    h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.set_layout}).front());
     h.commands = std::move(d.allocateCommandBuffers({*device.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
     h.done = d.createFence({});
@@ -70,8 +77,10 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
     const Device::Handles& d = device_.handles();
     Handles& h = *handles_;
     for (std::uint32_t i = 0; i < buffers.size(); ++i) {
-      const vk::DescriptorBufferInfo info(*buffers[i]->handles().buffer, 0, VK_WHOLE_SIZE);
-      d.device.updateDescriptorSets(vk::WriteDescriptorSet(*h.set, i, 0, vk::DescriptorType::eStorageBuffer, {}, info), nullptr);
+      const Buffer::Handles& buffer = buffers[i]->handles();
+      const vk::DescriptorBufferInfo info(*buffer.buffer, 0, VK_WHOLE_SIZE);
+      vk::WriteDescriptorSet write(*h.set, i, 0, 1, h.type(i), nullptr, &info, &*buffer.texels);
+      d.device.updateDescriptorSets(write, nullptr);
     }
     const bool timed = device_.info().timestamps;
     const auto stamps = static_cast<std::uint32_t>(dispatches.size() + 1);

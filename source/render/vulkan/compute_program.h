@@ -13,9 +13,10 @@ namespace steradian::vulkan {
 
 class ComputeProgram {
  public:
-  // A shader's entry point is `main`, its storage buffers are among the bindings 0 ... buffers-1 of set 0; it may read one uint of push
-  // constants. The device must stay.
-  ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers);
+  // A shader's entry point is `main`, its buffers are among the bindings of set 0: `texels` buffers of texels (samplerBuffer), then
+  // storage buffers; it may read one uint of push constants. The device must stay.
+  ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
+                 std::size_t texels = 0);
   ~ComputeProgram();
 
   // The number of the pipeline of a shader in which specialisation constant i is constants[i].
@@ -26,8 +27,9 @@ class ComputeProgram {
     std::uint32_t groups_x = 1, groups_y = 1;
     std::uint32_t push = 0;
   };
-  // Runs the dispatches in their order, each after what the ones before have written, and waits until the host can read the results.
-  // Returns the milliseconds of each, empty where the device does not tell. Throws Error when the device is lost or does not end.
+  // Runs the dispatches in their order, over the buffers by their bindings, each after what the ones before have written, and waits until
+  // the host can read the results. Returns the milliseconds of each, empty where the device does not tell. Throws Error when the device is
+  // lost or does not end.
   std::vector<double> run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches);
 
  private:

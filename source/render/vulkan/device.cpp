@@ -69,6 +69,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
   info.memory = own_memory(device);
   info.storage_buffer = properties.limits.maxStorageBufferRange;
   info.storage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
+  info.texel_buffer = properties.limits.maxTexelBufferElements;
   info.subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
   info.timestamps = device.getQueueFamilyProperties()[queue_family].timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
   return info;

@@ -17,6 +17,7 @@ struct DeviceInfo {
   std::size_t memory = 0;          // bytes of its largest heap of its own
   std::size_t storage_buffer = 0;  // bytes of the largest that a shader reads
   unsigned storage_buffers = 0;    // that a shader may have
+  std::size_t texel_buffer = 0;    // texels of the largest buffer of them
   unsigned subgroup = 0;           // threads that run in step
   bool timestamps = false;         // of compute work
 };

@@ -13,13 +13,15 @@ namespace {
 
 #include "shaders/layout.glsl"
 
-constexpr std::size_t kBuffers = 6;
+constexpr std::size_t kTexels = 5, kBuffers = 2;                // as bound in run
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr int kCornersNearRim = 32;
 constexpr int kMostEdges = 48;  // kept by a thread; longer outlines are walked in pieces
 
-constexpr auto bytes_of_planes(int planes) { return static_cast<std::size_t>(planes) * static_cast<std::size_t>(kSlots) * sizeof(float); }
+constexpr auto bytes_of_planes(int planes) {
+  return static_cast<std::size_t>(planes) * static_cast<std::size_t>(kSlots) * sizeof(Vec4Floats);
+}
 
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 
@@ -42,13 +44,9 @@ LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
   return method.ggx == Method::ltc_compact ? ltc_compact_pack_tables() : LtcPackTables{};
 }
 
-void put_plane(float* planes, int number, const TilePlane& plane) {
-  std::memcpy(planes + number * kSlots, plane.data(), bytes_of_planes(1));
-}
-void put_vector(float* planes, int number, const TileVector& v) {
-  put_plane(planes, number, v.x);
-  put_plane(planes, number + 1, v.y);
-  put_plane(planes, number + 2, v.z);
+void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TilePlane& beside) {
+  Vec4Floats* to = planes + number * kSlots;
+  for (std::size_t i = 0; i < kTilePixels; ++i) to[i] = {v.x[i], v.y[i], v.z[i], beside[i]};
 }
 
 // Squared distances of a point from a box.
@@ -72,11 +70,6 @@ Distances distances(Vec3f p, Vec3f low, Vec3f high) {
 
 void check_device(const DeviceInfo& device) {
   const std::string who = "Vulkan device '" + device.name + "'";
-  if (device.storage_buffers < kBuffers)
-    throw Error(
-        who,
-        "lets a shader have " + std::to_string(device.storage_buffers) + " storage buffers, " + std::to_string(kBuffers) + " are needed",
-        "choose another --device, or --backend cpu");
   if (device.storage_buffer < kLargestBuffer)
     throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
 }
@@ -111,8 +104,10 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
     : device_(device),
       method_(method),
       specular_shader_(shader_of(method)),
-      tiles_((check_device(device.info()), kTilesOfBatch)),
-      program_(device, {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader()}, kBuffers) {
+      tiles_(
+          (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
+      program_(device, {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader()}, kBuffers,
+               kTexels) {
   for (const PackLight& light : lights) records_.add(light);
   scene_lights_ = records_.lights.size();
   scene_vertices_ = records_.vertices.size();
@@ -129,7 +124,7 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
   fresnel_table_ = tables.fresnel_matrix.size > 0;
   fitting(tables_, nodes.size() * sizeof(float)).write(nodes.data(), nodes.size() * sizeof(float));
   fitting(surfaces_, tiles_ * bytes_of_planes(kPlanes));
-  radiance_ = std::make_unique<Buffer>(device, tiles_ * bytes_of_planes(3), BufferUse::host_reads);
+  radiance_ = std::make_unique<Buffer>(device, tiles_ * bytes_of_planes(1), BufferUse::host_reads, BufferForm::texels);
 }
 
 bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != kDiffuse; }
@@ -138,48 +133,39 @@ bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
 
 // The buffer, made anew where it is too small: room for half as much again, so that frames that follow find it.
 Buffer& DirectLight::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const {
-  if (bytes > kLargestBuffer)
-    throw Error("Vulkan", "the lights' lists take " + std::to_string(bytes) + " bytes, more than the 128 MiB of a storage buffer",
+  const std::size_t most = std::min(kLargestBuffer, device_.info().texel_buffer * sizeof(Vec4Floats));
+  if (bytes > most)
+    throw Error("Vulkan",
+                "the lights' lists take " + std::to_string(bytes) + " bytes, more than the " + std::to_string(most) + " of a buffer",
                 "use fewer --max-lights, or --backend cpu");
   if (buffer == nullptr || buffer->bytes() < bytes)
-    buffer =
-        std::make_unique<Buffer>(device_, buffer == nullptr ? bytes : std::min(bytes + bytes / 2, kLargestBuffer), BufferUse::host_writes);
+    buffer = std::make_unique<Buffer>(device_, buffer == nullptr ? bytes : std::min(bytes + bytes / 2, most), BufferUse::host_writes,
+                                      BufferForm::texels);
   return *buffer;
 }
 
 void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
-  float* planes = static_cast<float*>(surfaces_->mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
-  put_vector(planes, kPosition, tile.position);
-  put_vector(planes, kNormal, tile.normal);
-  put_vector(planes, kView, tile.view);
-  if (tile.any_diffuse) {
-    put_vector(planes, kAlbedo, tile.albedo);
-    put_plane(planes, kFresnelLoss, tile.fresnel_loss);
-  }
-  if (tile.any_specular || tile.any_coat) put_vector(planes, kTangent, tile.tangent);
+  Vec4Floats* planes = static_cast<Vec4Floats*>(surfaces_->mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
+  put_vector(planes, kPosition, tile.position, tile.alpha_x);
+  put_vector(planes, kNormal, tile.normal, tile.alpha_y);
+  put_vector(planes, kView, tile.view, tile.fresnel_loss);
+  if (tile.any_diffuse) put_vector(planes, kAlbedo, tile.albedo, tile.coat);
+  if (tile.any_specular || tile.any_coat) put_vector(planes, kTangent, tile.tangent, tile.coat);
   if (tile.any_specular) {
-    put_vector(planes, kF0, tile.f0);
-    put_vector(planes, kF90, tile.f90);
-    put_plane(planes, kAlphaX, tile.alpha_x);
-    put_plane(planes, kAlphaY, tile.alpha_y);
+    put_vector(planes, kF0, tile.f0, tile.coat);
+    put_vector(planes, kF90, tile.f90, tile.coat);
   }
-  if (tile.any_sheen) {
-    put_vector(planes, kSheen, tile.sheen);
-    put_plane(planes, kSheenAlpha, tile.sheen_alpha);
-  }
-  if (tile.any_coat) {
-    put_plane(planes, kCoat, tile.coat);
-    put_plane(planes, kCoatAlpha, tile.coat_alpha);
-    put_vector(planes, kCoatNormal, tile.coat_normal);
-  }
-  put_vector(static_cast<float*>(radiance_->mapped()) + place * static_cast<std::size_t>(3 * kSlots), 0, tile.radiance);
+  if (tile.any_sheen) put_vector(planes, kSheen, tile.sheen, tile.sheen_alpha);
+  if (tile.any_coat) put_vector(planes, kCoatNormal, tile.coat_normal, tile.coat_alpha);
+  put_vector(static_cast<Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kSlots), 0, tile.radiance, tile.coat);
 }
 
 void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
-  const float* planes = static_cast<const float*>(radiance_->mapped()) + place * static_cast<std::size_t>(3 * kSlots);
-  for (TilePlane* plane : {&radiance.x, &radiance.y, &radiance.z}) {
-    std::memcpy(plane->data(), planes, bytes_of_planes(1));
-    planes += kSlots;
+  const Vec4Floats* from = static_cast<const Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kSlots);
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    radiance.x[i] = from[i][0];
+    radiance.y[i] = from[i][1];
+    radiance.z[i] = from[i][2];
   }
 }
 
@@ -279,8 +265,8 @@ void DirectLight::run(const std::vector<Tile>& tiles) {
   write(lights_, records_.values);
   write(vertices_, records_.vertices);
 
-  const std::vector<double> ms =
-      program_.run({surfaces_.get(), radiance_.get(), lights_.get(), vertices_.get(), lists_.get(), tables_.get()}, dispatches);
+  const std::vector<double> ms = program_.run(
+      {surfaces_.get(), tables_.get(), lights_.get(), vertices_.get(), radiance_.get(), radiance_.get(), lists_.get()}, dispatches);
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)
     if (i < ms.size()) times_[group.name] += ms[i++];

@@ -23,9 +23,7 @@ namespace steradian::vulkan {
 namespace {
 
 // What of the bounce the shaders do not have.
-bool bounce_on_host(const IndirectOptions& options) {
-  return options.mode == IndirectMode::path || options.shadow_rays > 0;
-}
+bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
 
 bool shaders_have(const PackLight& light) {
   const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
