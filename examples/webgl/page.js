@@ -1,153 +1,212 @@
-// The page's controls and its one draw call. SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+// The page's controls. SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 "use strict";
-const kGgx = ["ltc-compact", "closed-form-draft", "closed-form"], kGlossy = [...kGgx, "series"];
-const kMethods = {  // name in the address: name on the page; their order is the numbers of scene.glsl
-  "lambert": "Lambert: exact",
-  "ltc-compact": "GGX: LTC, 4 KB table",
-  "closed-form-draft": "GGX: closed form, draft",
-  "closed-form": "GGX: closed form",
-  "series": "Phong: series",
-};
-const kSliders = [  // name, label, unit, low, high, start, step, methods that have it
-  ["roughness", "Roughness", "", 0.1, 1, 0.3, 0.01, kGgx],
-  ["exponent", "Exponent", "", 1, 400, 60, 1, ["series"]],
-  ["f0", "F0", "", 0, 1, 0.5, 0.01, kGlossy],
-  ["height", "Height", "m", 0.05, 3, 1.3, 0.01],
-  ["size", "Size", "m", 0.2, 3, 1.6, 0.01],
-  ["tilt", "Tilt", "°", 0, 90, 35, 1],
-  ["intensity", "Intensity", "", 0.5, 20, 5, 0.1],
-  ["exposure", "Exposure", "EV", -3, 3, 0, 0.1],
-  ["gain", "Difference shown", "times", 1, 64, 16, 1],
-];
+const $ = (id) => document.getElementById(id);
 const query = new URLSearchParams(location.search);
-const state = { orbit: Number(query.get("orbit") ?? 0.45), method: query.get("method") ?? "ltc-compact",
-                other: query.get("other") ?? "" };
-const canvas = document.getElementById("canvas");
-const gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
-const text = (id) => document.getElementById(id).textContent;
+const SLIDERS = [  // name, label, unit, low, high, start, step
+  ["size", "Size of the lights", "times", 0.3, 2, 1, 0.01],
+  ["brightness", "Brightness", "times", 0.1, 4, 1, 0.05],
+  ["gloss", "Roughness", "times", 0.5, 2, 1, 0.01],
+  ["exposure", "Exposure", "EV", -3, 3, 0.7, 0.1],
+  ["bar", "Bar", "", 0, 1, 0.5, 0.01],
+  ["gain", "Difference shown", "times", 1, 64, 8, 1],
+];
+const COMPARE = ["one", "side by side", "difference"];
+const canvas = $("canvas");
+const state = { method: query.get("method") ?? "closed-form", other: query.get("other") ?? "ltc-compact", mode: Number(query.get("mode") ?? 0),
+                camera: { orbit: Number(query.get("orbit") ?? 0.35), rise: Number(query.get("rise") ?? 0.3), distance: Number(query.get("distance") ?? 5.2) },
+                lights: (query.get("lights") ?? "quad,star,disk,ball,tube").split(",") };
+for (const [name, , , , , start] of SLIDERS) state[name] = Number(query.get(name) ?? start);
+let renderer = null;
 
-function shader(type, source) {
-  const s = gl.createShader(type);
-  gl.shaderSource(s, source);
-  gl.compileShader(s);
-  if (!gl.getShaderParameter(s, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(s));
-  return s;
+function scene_now(eye) {
+  const lights = lights_at(state.size, state.brightness).filter((l) => state.lights.includes(l.name));
+  const things = THINGS.map((t) => ({ ...t, roughness: Math.min(Math.max(t.roughness * state.gloss, 0.05), 1) }));
+  for (const light of lights) {
+    const mesh = `${light.name} ${state.size}`;
+    things.push({ mesh, make: () => light_mesh(light), emission: shown_of(light, eye) });
+  }
+  return { lights, things };
 }
 
-// A program holds one method or two: what is not looked at is not compiled.
-const programs = new Map();
-function program_of(method, other) {
-  const key = `${method} ${other}`;
-  if (programs.has(key)) return programs.get(key);
-  const names = Object.keys(kMethods);
-  const program = gl.createProgram();
-  gl.attachShader(program, shader(gl.VERTEX_SHADER, `#version 300 es
-    void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`));
-  gl.attachShader(program, shader(gl.FRAGMENT_SHADER,
-    `#version 300 es\nprecision highp float;\nprecision highp int;\n#define FIRST ${names.indexOf(method)}\n` +
-    `#define SECOND ${names.indexOf(other)}\n` + text("steradian") + text("scene")));
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-  const at = new Proxy({}, { get: (_, name) => gl.getUniformLocation(program, name) });
-  programs.set(key, { program, at });
-  return programs.get(key);
+// Draws at the canvas's size, scale x scale texels a pixel: for smooth edges, the light needs none.
+function draw(scale) {
+  const { width, height } = canvas, eye = eye_of(state.camera), { lights, things } = scene_now(eye);
+  const g = renderer.fill_gbuffer(things, state.camera, width * scale, height * scale);
+  const first = renderer.light("first", g, lights, state.method, eye);
+  const second = state.mode > 0 ? renderer.light("second", g, lights, state.other, eye) : first;
+  renderer.show(first, second, { mode: state.mode, scale, exposure: state.exposure, gain: state.gain, bar: state.bar, width, height });
+  return { g, first, lights, eye };
 }
 
-function draw(samples) {
-  const { program, at } = program_of(state.method, state.other);
-  gl.useProgram(program);
-  gl.viewport(0, 0, canvas.width, canvas.height);
-  gl.uniform2f(at.resolution, canvas.width, canvas.height);
-  gl.uniform1i(at.samples, samples);
-  for (const name of ["orbit", "height", "intensity", "roughness", "f0", "exponent", "exposure", "gain"])
-    gl.uniform1f(at[name], state[name]);
-  gl.uniform2f(at.half_size, state.size / 2, state.size * 0.3);
-  gl.uniform1f(at.tilt, state.tilt * Math.PI / 180);
-  gl.drawArrays(gl.TRIANGLES, 0, 3);
+// How far a method is from the best of its lobe, over what a small picture sees: relative root mean square.
+function error_of(method) {
+  const best = METHODS[method][1], width = 240, height = 160, eye = eye_of(state.camera), { lights, things } = scene_now(eye);
+  if (best === method) return null;
+  const { width: w, height: h } = canvas;
+  const g = renderer.fill_gbuffer(things, state.camera, width, height);
+  const place = renderer.read(g), a = renderer.read(renderer.light("first", g, lights, method, eye)), b = renderer.read(renderer.light("second", g, lights, best, eye));
+  let off = 0, sum = 0;
+  for (let i = 0; i < a.length; i += 4) {
+    if (place[i + 3] < 0.5) continue;
+    for (let c = 0; c < 3; ++c) {
+      off += (a[i + c] - b[i + c]) ** 2;
+      sum += b[i + c] ** 2;
+    }
+  }
+  canvas.width = w;
+  canvas.height = h;
+  return Math.sqrt(off / Math.max(sum, 1e-30));
+}
+function show_errors() {
+  const words = [...new Set([state.method, ...(state.mode > 0 ? [state.other] : [])])].map((m) => {
+    const e = error_of(m);
+    return `${METHODS[m][0]}: ${e === null ? "the best of its lobe" : `${(100 * e).toPrecision(2)} % rms off ${METHODS[METHODS[m][1]][0].split(": ")[1]}`}`;
+  });
+  $("errors").textContent = words.join("; ");
 }
 
-// For the test: the picture of the address's settings as text, ?test=WIDTHxHEIGHT&method=...&height=...
+// For the test: what a small picture shows, and what it is made of, ?test=WIDTHxHEIGHT&method=...
 function dump(size) {
   [canvas.width, canvas.height] = size.split("x").map(Number);
-  draw(1);
-  const pixels = new Uint8Array(canvas.width * canvas.height * 4);
-  gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-  let bytes = "";
-  for (let i = 0; i < pixels.length; i += 3072) bytes += String.fromCharCode(...pixels.subarray(i, i + 3072));
-  document.body.innerHTML = `<pre id="pixels">${btoa(bytes)}</pre>`;
+  const { g, first, lights, eye } = draw(1), { width, height } = canvas, gl = renderer.gl;
+  const shown = new Uint8Array(4 * width * height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, shown);
+  const coded = (array) => {
+    const bytes = new Uint8Array(array.buffer);
+    let text = "";
+    for (let i = 0; i < bytes.length; i += 3072) text += String.fromCharCode(...bytes.subarray(i, i + 3072));
+    return btoa(text);
+  };
+  const [places, normals, albedos, mirrors] = [0, 1, 2, 3].map((i) => coded(renderer.read(g, i)));
+  const answer = { width, height, eye, lights, places, normals, albedos, mirrors, radiance: coded(renderer.read(first)), shown: coded(shown), error: query.has("error") ? error_of(state.method) : null };
+  document.body.innerHTML = `<pre id="answer">${JSON.stringify(answer)}</pre>`;
 }
 
-function fail(e) { document.getElementById("footer").textContent = `Cannot draw: ${e.message}`; }
+function fail(e) { $("errors").textContent = `Cannot draw: ${e.message}`; }
 
-let pending = false;
+let pending = false, settle = 0;
 function redraw() {
+  clearTimeout(settle);
+  settle = setTimeout(() => frame(true), 180);
   if (pending) return;
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
-    const scale = Math.min(window.devicePixelRatio, 2);
-    canvas.width = Math.round(canvas.clientWidth * scale);
-    canvas.height = Math.round(canvas.clientHeight * scale);
-    try { draw(2); } catch (e) { fail(e); }
+    frame(false);
   });
 }
-
-function add_choices(rows) {
-  for (const [name, label, none] of [["method", "Method"], ["other", "Compare with", "nothing"]]) {
-    const row = document.createElement("label");
-    row.innerHTML = `<span>${label}</span><select></select>`;
-    const select = row.lastChild;
-    if (none) select.add(new Option(none, ""));
-    for (const [value, words] of Object.entries(kMethods)) select.add(new Option(words, value));
-    select.value = state[name];
-    select.addEventListener("input", () => { state[name] = select.value; show_sliders(); redraw(); });
-    rows.append(row);
+// While something moves a pixel is one texel; at rest four, and errors are told.
+function frame(at_rest) {
+  const scale = Math.min(window.devicePixelRatio, 1.5);
+  canvas.width = Math.round(canvas.clientWidth * scale);
+  canvas.height = Math.round(canvas.clientHeight * scale);
+  try {
+    if (at_rest) show_errors();
+    draw(at_rest ? 2 : 1);
+  } catch (e) {
+    fail(e);
   }
 }
 
-function add_sliders(rows) {
-  for (const [name, label, unit, low, high, , step] of kSliders) {
-    const row = document.createElement("label");
+function row_of(html, parent) {
+  const row = document.createElement("label");
+  row.innerHTML = html;
+  parent.append(row);
+  return row;
+}
+function refresh() {
+  for (const [name, , unit] of SLIDERS) $(`row-${name}`).children[1].textContent = `${state[name]} ${unit}`;
+  $("row-bar").hidden = state.mode !== 1;
+  $("row-gain").hidden = state.mode !== 2;
+  $("row-other").hidden = state.mode === 0;
+  $("method").value = state.method;
+  $("other").value = state.other;
+  $("mode").value = state.mode;
+  for (const name of ["quad", "star", "disk", "ball", "tube"]) $(`light-${name}`).checked = state.lights.includes(name);
+  redraw();
+}
+function toggle(name) {
+  state.lights = state.lights.includes(name) ? state.lights.filter((n) => n !== name) : [...state.lights, name];
+  refresh();
+}
+
+function add_controls() {
+  const rows = $("rows"), options = (names) => names.map(([value, words]) => `<option value="${value}">${words}</option>`).join("");
+  const methods = options(Object.entries(METHODS).map(([k, v]) => [k, v[0]]));
+  row_of(`<span>Method</span><select id="method">${methods}</select>`, rows);
+  row_of(`<span>Compare</span><select id="mode">${options(COMPARE.map((words, i) => [i, words]))}</select>`, rows);
+  row_of(`<span>With</span><select id="other">${methods}</select>`, rows).id = "row-other";
+  for (const name of ["method", "other"]) $(name).oninput = () => { state[name] = $(name).value; refresh(); };
+  $("mode").oninput = () => { state.mode = Number($("mode").value); refresh(); };
+  for (const [name, label, , low, high, , step] of SLIDERS) {
+    const row = row_of(`<span>${label}</span><output></output><input type="range" min="${low}" max="${high}" step="${step}" value="${state[name]}">`, rows);
     row.id = `row-${name}`;
-    row.innerHTML = `<span>${label}</span><output></output><input type="range" min="${low}" max="${high}" step="${step}">`;
-    const [, output, input] = row.children;
-    input.value = state[name];
-    const show = () => { output.textContent = `${state[name]} ${unit}`; };
-    input.addEventListener("input", () => { state[name] = Number(input.value); show(); redraw(); });
-    show();
-    rows.append(row);
+    row.lastChild.oninput = () => { state[name] = Number(row.lastChild.value); refresh(); };
+  }
+  for (const name of ["quad", "star", "disk", "ball", "tube"]) {
+    row_of(`<input type="checkbox" id="light-${name}"> ${name}`, $("lights"));
+    $(`light-${name}`).oninput = () => toggle(name);
   }
 }
 
-// Those that the chosen methods have.
-function show_sliders() {
-  for (const [name, , , , , , , methods] of kSliders) {
-    const used = name === "gain" ? state.other !== "" : !methods || methods.includes(state.method) || methods.includes(state.other);
-    document.getElementById(`row-${name}`).hidden = !used;
-  }
+// Mouse, pen, touch: one pointer walks around, two come nearer; the wheel too. Keys: see the page.
+const pointers = new Map();
+function turn_camera(dx, dy) {
+  state.camera.orbit -= dx * 0.006;
+  state.camera.rise = Math.min(Math.max(state.camera.rise + dy * 0.006, 0.03), 1.45);
+  redraw();
 }
-
-function interact() {
-  const rows = document.getElementById("rows");
-  add_choices(rows);
-  add_sliders(rows);
-  show_sliders();
-  canvas.addEventListener("pointerdown", (e) => canvas.setPointerCapture(e.pointerId));
+function zoom(factor) {
+  state.camera.distance = Math.min(Math.max(state.camera.distance * factor, 2.2), 14);
+  redraw();
+}
+function span() {
+  const [a, b] = [...pointers.values()];
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}
+function add_hands() {
+  canvas.addEventListener("pointerdown", (e) => {
+    canvas.focus({ preventScroll: true });
+    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
+    try { canvas.setPointerCapture(e.pointerId); } catch { /* of a script */ }
+  });
   canvas.addEventListener("pointermove", (e) => {
-    if (e.buttons === 0) return;
-    state.orbit -= e.movementX * 0.006;
-    redraw();
+    const last = pointers.get(e.pointerId);
+    if (!last) return;
+    const before = pointers.size === 2 ? span() : 0, dx = e.clientX - last.x, dy = e.clientY - last.y;
+    Object.assign(last, { x: e.clientX, y: e.clientY });
+    if (pointers.size === 2) zoom(before / Math.max(span(), 1));
+    else turn_camera(dx, dy);
+  });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => pointers.delete(e.pointerId));
+  canvas.addEventListener("wheel", (e) => { e.preventDefault(); zoom(1.1 ** Math.sign(e.deltaY)); }, { passive: false });
+  const names = Object.keys(METHODS), next = (name, by) => names[(names.indexOf(name) + by + names.length) % names.length];
+  const keys = {
+    ArrowLeft: () => turn_camera(-12, 0), ArrowRight: () => turn_camera(12, 0), ArrowUp: () => turn_camera(0, 12), ArrowDown: () => turn_camera(0, -12),
+    "+": () => zoom(1 / 1.1), "-": () => zoom(1.1), m: () => { state.method = next(state.method, 1); refresh(); }, M: () => { state.method = next(state.method, -1); refresh(); },
+    o: () => { state.other = next(state.other, 1); refresh(); }, c: () => { state.mode = (state.mode + 1) % 3; refresh(); },
+  };
+  ["quad", "star", "disk", "ball", "tube"].forEach((name, i) => { keys[i + 1] = () => toggle(name); });
+  canvas.addEventListener("keydown", (e) => {
+    if (!keys[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
+    e.preventDefault();
+    keys[e.key]();
   });
   window.addEventListener("resize", redraw);
-  redraw();
 }
 
 try {
+  const gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
   if (!gl) throw new Error("this browser has no WebGL2");
-  if (!(state.method in kMethods)) throw new Error(`no method ${state.method}`);
-  for (const [name, , , , , start] of kSliders) state[name] = Number(query.get(name) ?? start);
+  for (const name of [state.method, state.other]) if (!(name in METHODS)) throw new Error(`no method ${name}`);
+  renderer = new Renderer(gl, $("steradian").textContent, $("light-shader").textContent);
   if (query.has("test")) dump(query.get("test"));
-  else interact();
+  else {
+    add_controls();
+    add_hands();
+    refresh();
+  }
 } catch (e) {
   fail(e);
 }
