@@ -58,6 +58,12 @@ add_test(NAME Layers.NoInclusionRunsUpward COMMAND ${layers})
 add_test(NAME Layers.AnInclusionUpwardIsFound COMMAND ${layers} --test)
 add_test(NAME Layers.ThePictureIsCurrent COMMAND ${layers} --check ${PROJECT_SOURCE_DIR}/docs/images/layers.svg)
 
+# Instructions of shaders, as docs/performance.md has them: a shader made up is counted rightly, and every pipeline has its loops.
+set(shader_counts Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/shader_counts.py)
+add_test(NAME Shaders.InstructionsAreCounted COMMAND ${shader_counts} --test)
+add_test(NAME Shaders.EveryPipelineIsCounted COMMAND ${shader_counts})
+set_tests_properties(Shaders.InstructionsAreCounted Shaders.EveryPipelineIsCounted PROPERTIES SKIP_RETURN_CODE 77)
+
 # The public headers: each alone, by this compiler and by clang where there is one; and steradian.h is all of them.
 add_test(NAME Packaging.HeadersCompileAlone
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/headers_test.py ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/kernels
