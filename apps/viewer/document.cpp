@@ -21,6 +21,37 @@ const Json* Document::find(const std::string& pointer) const {
   return file_.json.contains(at) ? &file_.json.at(at) : nullptr;
 }
 
+double Document::number(const std::string& pointer, double otherwise) const {
+  const Json* found = find(pointer);
+  return found != nullptr && found->is_number() ? found->get<double>() : otherwise;
+}
+
+int Document::index(const std::string& pointer) const {
+  const Json* found = find(pointer);
+  return found != nullptr && found->is_number_integer() ? found->get<int>() : -1;
+}
+
+std::string Document::text(const std::string& pointer, const std::string& otherwise) const {
+  const Json* found = find(pointer);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+bool Document::flag(const std::string& pointer) const {
+  const Json* found = find(pointer);
+  return found != nullptr && found->is_boolean() && found->get<bool>();
+}
+
+std::vector<double> Document::numbers(const std::string& pointer, std::size_t count) const {
+  const Json* found = find(pointer);
+  std::vector<double> result;
+  if (found == nullptr || !found->is_array() || found->size() != count) return result;
+  for (const Json& element : *found) {
+    if (!element.is_number()) return {};
+    result.push_back(element.get<double>());
+  }
+  return result;
+}
+
 std::size_t Document::count(const std::string& array) const {
   const Json* found = find(array);
   return found != nullptr && found->is_array() ? found->size() : 0;

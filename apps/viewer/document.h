@@ -23,6 +23,12 @@ class Document {
   const scene::GltfFile& file() const { return file_; }
   const Json& json() const { return file_.json; }
   const Json* find(const std::string& pointer) const;  // null where nothing is
+  // What is there, or `otherwise` where nothing is or something of another kind: a file may say anything.
+  double number(const std::string& pointer, double otherwise) const;
+  int index(const std::string& pointer) const;  // -1
+  std::string text(const std::string& pointer, const std::string& otherwise) const;
+  bool flag(const std::string& pointer) const;
+  std::vector<double> numbers(const std::string& pointer, std::size_t count) const;  // of that many; empty
 
   // Puts a value, and makes the objects that are missing on the way there; an array's next index appends.
   void set(const std::string& pointer, Json value);

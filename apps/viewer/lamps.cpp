@@ -32,18 +32,10 @@ std::string values_pointer(const Lamp& lamp) {
   return std::string("/extensions/") + extension_of(lamp.kind) + "/lights/" + std::to_string(lamp.light);
 }
 
-double number(const Document& document, const std::string& pointer, double otherwise) {
-  const Json* found = document.find(pointer);
-  return found != nullptr && found->is_number() ? found->get<double>() : otherwise;
-}
-std::string text(const Document& document, const std::string& pointer, const std::string& otherwise) {
-  const Json* found = document.find(pointer);
-  return found != nullptr && found->is_string() ? found->get<std::string>() : otherwise;
-}
 Vec3d color(const Document& document, const std::string& pointer, Vec3d otherwise) {
-  const Json* found = document.find(pointer);
-  if (found == nullptr || !found->is_array() || found->size() < 3) return otherwise;
-  return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
+  for (const std::size_t count : {std::size_t{3}, std::size_t{4}})
+    if (const auto c = document.numbers(pointer, count); !c.empty()) return {c[0], c[1], c[2]};
+  return otherwise;
 }
 
 // Written where it differs from what is there, or from what its absence means.
@@ -68,16 +60,16 @@ bool shines(const Document& document, int material) {
 }
 
 void add_mesh_lamps(const Document& document, int node, std::vector<Lamp>& lamps) {
-  const int mesh = static_cast<int>(number(document, node_pointer(node) + "/mesh", -1));
+  const int mesh = document.index(node_pointer(node) + "/mesh");
   const Json* primitives = mesh < 0 ? nullptr : document.find("/meshes/" + std::to_string(mesh) + "/primitives");
   if (primitives == nullptr) return;
   std::vector<int> seen;
   for (const Json& primitive : *primitives) {
-    if (!primitive.is_object() || !primitive.contains("material")) continue;
+    if (!primitive.is_object() || !primitive.contains("material") || !primitive["material"].is_number_integer()) continue;
     const int material = primitive["material"].get<int>();
     if (std::find(seen.begin(), seen.end(), material) != seen.end() || !shines(document, material)) continue;
     seen.push_back(material);
-    const std::string name = text(document, node_pointer(node) + "/name", text(document, material_pointer(material) + "/name", "mesh"));
+    const std::string name = document.text(node_pointer(node) + "/name", document.text(material_pointer(material) + "/name", "mesh"));
     lamps.push_back({LampKind::mesh, node, material, name, "mesh"});
   }
 }
@@ -89,12 +81,12 @@ std::vector<Lamp> lamps_of(const Document& document, const NodeTree& tree) {
   for (const scene::GltfNode& visible : tree.visible()) {
     const std::string node = node_pointer(visible.index);
     for (const LampKind kind : {LampKind::area, LampKind::punctual, LampKind::profile}) {
-      const Json* light = document.find(node + "/extensions/" + extension_of(kind) + "/light");
-      if (light == nullptr || !light->is_number_integer()) continue;
-      Lamp lamp{kind, visible.index, light->get<int>(), "", "profile"};
+      const int light = document.index(node + "/extensions/" + extension_of(kind) + "/light");
+      if (light < 0) continue;
+      Lamp lamp{kind, visible.index, light, "", "profile"};
       const std::string definition = std::string("/extensions/") + extension_of(kind) + "/lights/" + std::to_string(lamp.light);
-      lamp.name = text(document, definition + "/name", text(document, node + "/name", "light " + std::to_string(lamp.light)));
-      if (kind != LampKind::profile) lamp.type = text(document, definition + "/type", "");
+      lamp.name = document.text(definition + "/name", document.text(node + "/name", "light " + std::to_string(lamp.light)));
+      if (kind != LampKind::profile) lamp.type = document.text(definition + "/type", "");
       lamps.push_back(std::move(lamp));
     }
     add_mesh_lamps(document, visible.index, lamps);
@@ -107,26 +99,22 @@ LampValues values_of(const Document& document, const Lamp& lamp) {
   LampValues v;
   if (lamp.kind == LampKind::mesh) {
     v.color = color(document, at + "/emissiveFactor", {});
-    v.intensity = number(document, at + kStrength + "/emissiveStrength", 1);
-    const Json* both = document.find(at + "/doubleSided");
-    v.two_sided = both != nullptr && both->is_boolean() && both->get<bool>();
+    v.intensity = document.number(at + kStrength + "/emissiveStrength", 1);
+    v.two_sided = document.flag(at + "/doubleSided");
     return v;
   }
   v.color = color(document, at + "/color", {1, 1, 1});
-  v.intensity = number(document, at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"), 1);
+  v.intensity = document.number(at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"), 1);
   if (lamp.kind == LampKind::punctual && lamp.type == "spot") {
-    v.inner_angle = number(document, at + "/spot/innerConeAngle", 0);
-    v.outer_angle = number(document, at + "/spot/outerConeAngle", kPi / 4);
+    v.inner_angle = document.number(at + "/spot/innerConeAngle", 0);
+    v.outer_angle = document.number(at + "/spot/outerConeAngle", kPi / 4);
   }
   if (lamp.kind != LampKind::area) return v;
   v.type = lamp.type;
-  v.size = number(document, at + "/size", 1);
-  if (lamp.type == "rect") v.aspect = number(document, at + "/rect/aspect", 1);
-  if (lamp.type == "capsule") v.length = number(document, at + "/capsule/length", 1);
-  if (lamp.type == "rect" || lamp.type == "disk") {
-    const Json* both = document.find(at + "/extras/steradian/two_sided");
-    v.two_sided = both != nullptr && both->is_boolean() && both->get<bool>();
-  }
+  v.size = document.number(at + "/size", 1);
+  if (lamp.type == "rect") v.aspect = document.number(at + "/rect/aspect", 1);
+  if (lamp.type == "capsule") v.length = document.number(at + "/capsule/length", 1);
+  if (lamp.type == "rect" || lamp.type == "disk") v.two_sided = document.flag(at + "/extras/steradian/two_sided");
   return v;
 }
 
@@ -172,7 +160,7 @@ int add_area_light(Document& document, const std::string& type, Vec3d position, 
   set_pose(document, static_cast<int>(node), pose);
   // A file with scenes lists its nodes; one without shows all.
   if (document.count("/scenes") > 0) {
-    const std::string list = "/scenes/" + std::to_string(static_cast<int>(number(document, "/scene", 0))) + "/nodes";
+    const std::string list = "/scenes/" + std::to_string(static_cast<int>(document.number("/scene", 0))) + "/nodes";
     document.set(list + "/" + std::to_string(document.count(list)), node);
   }
   return static_cast<int>(node);
@@ -190,8 +178,8 @@ void remove_lamp(Document& document, const Lamp& lamp) {
 
 MaterialValues material_values(const Document& document, int material) {
   const std::string at = material_pointer(material), pbr = at + "/pbrMetallicRoughness";
-  return {text(document, at + "/name", "material " + std::to_string(material)), color(document, pbr + "/baseColorFactor", {1, 1, 1}),
-          number(document, pbr + "/metallicFactor", 1), number(document, pbr + "/roughnessFactor", 1)};
+  return {document.text(at + "/name", "material " + std::to_string(material)), color(document, pbr + "/baseColorFactor", {1, 1, 1}),
+          document.number(pbr + "/metallicFactor", 1), document.number(pbr + "/roughnessFactor", 1)};
 }
 
 void set_material_values(Document& document, int material, const MaterialValues& values) {

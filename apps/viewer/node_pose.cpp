@@ -1,5 +1,6 @@
 #include "node_pose.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/budget.h"
@@ -66,20 +67,15 @@ Affine inverse(const Affine& a) {
 
 NodePose pose_of(const Document& document, int node) {
   NodePose pose;
-  const auto numbers = [&](const char* key, std::size_t count) {
-    const Json* found = document.find(node_pointer(node, key));
-    return found != nullptr && found->is_array() && found->size() == count ? found : nullptr;
-  };
-  if (const Json* m = numbers("matrix", 16)) {
-    const auto column = [&](std::size_t c) { return Vec3d{m->at(4 * c), m->at(4 * c + 1), m->at(4 * c + 2)}; };
+  if (const auto m = document.numbers(node_pointer(node, "matrix"), 16); !m.empty()) {
+    const auto column = [&](std::size_t c) { return Vec3d{m[4 * c], m[4 * c + 1], m[4 * c + 2]}; };
     pose.is_matrix = true;
     pose.matrix = {column(0), column(1), column(2), column(3)};
     return pose;
   }
-  if (const Json* t = numbers("translation", 3)) pose.translation = {t->at(0), t->at(1), t->at(2)};
-  if (const Json* s = numbers("scale", 3)) pose.scale = {s->at(0), s->at(1), s->at(2)};
-  if (const Json* r = numbers("rotation", 4))
-    for (std::size_t i = 0; i < 4; ++i) pose.rotation[i] = r->at(i);
+  if (const auto t = document.numbers(node_pointer(node, "translation"), 3); !t.empty()) pose.translation = {t[0], t[1], t[2]};
+  if (const auto s = document.numbers(node_pointer(node, "scale"), 3); !s.empty()) pose.scale = {s[0], s[1], s[2]};
+  if (const auto r = document.numbers(node_pointer(node, "rotation"), 4); !r.empty()) std::copy(r.begin(), r.end(), pose.rotation.begin());
   return pose;
 }
 

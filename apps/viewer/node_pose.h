@@ -15,6 +15,7 @@ using scene::Affine;
 // The transforms of all nodes of a document as it stands.
 class NodeTree {
  public:
+  NodeTree() = default;  // of no nodes
   explicit NodeTree(const Document& document) : NodeTree(document.json(), document.file().path) {}
   NodeTree(const Json& json, const std::string& path);  // throws Error as load_scene does
   const Affine& world(int node) const { return nodes_.world[static_cast<std::size_t>(node)]; }

@@ -77,7 +77,7 @@ void material_controls(Session& s, int material) {
 
 void selected_controls(Session& s) {
   const Selection selected = s.selection();
-  if (selected.node < 0) {
+  if (!s.tree().contains(selected.node)) {
     ImGui::TextDisabled("click on a light or a thing");
     return;
   }

@@ -45,9 +45,11 @@ Json Session::shown_json() const {
 // ---- pictures
 
 void Session::submit() {
+  const bool same = submitted_ == wanted_ && submitted_moving_;
+  submitted_ = wanted_;
   RenderRequest request{document_->file(), base_revision_ + document_->revision(), source_, {}, options_, other_, moving_};
   request.file.json = shown_json();
-  request.refine = submitted_ == wanted_ && submitted_moving_ && !moving_ && frame_.request == request_;
+  request.refine = same && !moving_ && frame_.request == request_;
   if (camera_) {
     request.camera = as_read(camera_->camera());
     request.file = with_camera(std::move(request.file), camera_->camera());
@@ -55,7 +57,6 @@ void Session::submit() {
     if (request.other) request.other->camera.clear();
   }
   request_ = worker_.submit(std::move(request));
-  submitted_ = wanted_;
   submitted_moving_ = moving_;
   settled_ = false;
 }
@@ -77,7 +78,13 @@ bool Session::update() {
       }
     }
   }
-  if (submitted_ != wanted_ || (submitted_moving_ && !moving_)) submit();
+  if (submitted_ != wanted_ || (submitted_moving_ && !moving_)) try {
+      submit();
+    } catch (const std::exception& e) {  // a file so broken that no camera can be put into it
+      say(e.what());
+      submitted_moving_ = moving_;
+      settled_ = true;
+    }
   return fresh;
 }
 
@@ -106,7 +113,11 @@ void Session::set_moving(bool moving) {
 
 const NodeTree& Session::tree() const {
   const std::uint64_t now = base_revision_ + document_->revision();
-  if (!tree_ || tree_revision_ != now) tree_.emplace(shown_json(), path());
+  if (!tree_ || tree_revision_ != now) try {
+      tree_.emplace(shown_json(), path());
+    } catch (const std::exception&) {
+      tree_.emplace();  // of a broken file, which message() says when it is read
+    }
   tree_revision_ = now;
   return *tree_;
 }
@@ -115,13 +126,8 @@ const NodeTree& Session::tree() const {
 
 std::optional<Gizmo> Session::gizmo() const {
   if (!camera_ || selection_.node < 0) return {};
-  try {
-    const NodeTree& nodes = tree();
-    if (!nodes.contains(selection_.node)) return {};
-    return gizmo_at(gizmo_mode, nodes.world(selection_.node), camera_->camera());
-  } catch (const Error&) {
-    return {};  // the scene is broken by an edit, which message() says
-  }
+  if (!tree().contains(selection_.node)) return {};
+  return gizmo_at(gizmo_mode, tree().world(selection_.node), camera_->camera());
 }
 
 Handle Session::handle_under(Vec2d at) const {
@@ -202,7 +208,7 @@ void Session::click(Vec2d at) {
   // Lamps without an extent are marks in the picture.
   constexpr double kMark = 10;
   const NodeTree& nodes = tree();
-  for (const Lamp& lamp : lamps_of(*document_, nodes)) {
+  for (const Lamp& lamp : lamps()) {
     if (lamp.kind != LampKind::punctual && lamp.kind != LampKind::profile) continue;
     const auto mark = project(camera_->camera(), nodes.world(lamp.node).t, size().x, size().y);
     if (mark && length(*mark - at) <= kMark) {
@@ -214,6 +220,7 @@ void Session::click(Vec2d at) {
   const auto hit = pick(loaded.scene, ray(at));
   selection_ = {};
   if (!hit || hit->mesh >= loaded.mesh_nodes.size()) return;
+  if (!tree().contains(loaded.mesh_nodes[hit->mesh])) return;  // the picture is older than the file
   selection_.node = loaded.mesh_nodes[hit->mesh];
   const Mesh& mesh = loaded.scene.meshes[hit->mesh];
   if (!mesh.is_light_shape && static_cast<std::size_t>(mesh.material) < document_->count("/materials")) selection_.material = mesh.material;

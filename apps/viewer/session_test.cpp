@@ -225,6 +225,47 @@ TEST(ViewSession, ADragIsAnsweredBySmallPicturesAndEndsInTheWholeOne) {
   EXPECT_EQ(s.frame().picture.width, 640);
 }
 
+// Whatever a file says when it is read again, the window lives on and says what is wrong.
+TEST(ViewSession, SurvivesFilesThatBreakWhileTheyAreOpen) {
+  const std::string path = scene::test_path("breaks.gltf");
+  const scene::GltfFile good = scene::read_gltf_file(room());
+  write_gltf_file(good, path);
+  Session s(path, small());
+  s.wait_until_settled();
+  s.select_named("panel");
+  const Json wrong[] = {nullptr, "x", 7, -1, 1e300, Json::array(), Json::object(), Json::array({"a", "b", "c"}), Json::array({nullptr})};
+  int said = 0, refused = 0;
+  for (const char* place : {"/nodes", "/nodes/0", "/nodes/1/extensions", "/nodes/1/extensions/EXT_lights_area/light", "/nodes/1/matrix",
+                            "/cameras", "/cameras/0", "/scenes", "/scenes/0/nodes", "/scene", "/materials/0/pbrMetallicRoughness",
+                            "/meshes/0/primitives", "/extensions/EXT_lights_area/lights/0", "/extensions/EXT_lights_area/lights/0/color",
+                            "/nodes/0/children", "/nodes/0/mesh", "/animations"})
+    for (const Json& value : wrong) {
+      scene::GltfFile broken = good;
+      broken.json[Json::json_pointer(place)] = value;
+      write_gltf_file(broken, path);
+      try {
+        s.reload();
+      } catch (const std::exception&) {
+        ++refused;
+        continue;
+      }
+      s.wait_until_settled();
+      said += s.message().empty() ? 0 : 1;
+      s.gizmo();
+      for (const Lamp& lamp : s.lamps()) values_of(s.document(), lamp);
+      material_values(s.document(), 0);
+      pose_of(s.document(), 0);
+      s.press(PointerButton::left, false, {80, 45});
+      s.release({80, 45});
+    }
+  write_gltf_file(good, path);
+  s.reload();
+  s.wait_until_settled();
+  EXPECT_EQ(s.message(), "");
+  std::printf("%d files refused, %d said to be wrong\n", refused, said);
+  EXPECT_GT(refused + said, 50);
+}
+
 // What is answered leaves nothing behind: by the memory of the process, in pages.
 TEST(ViewSession, ManyFramesLeaveMemoryWhereItWas) {
   RenderOptions tiny = small();

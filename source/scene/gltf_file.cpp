@@ -82,14 +82,26 @@ void make_relative_to(Json& json, const std::filesystem::path& from, const std::
 
 }  // namespace
 
-GltfFile read_gltf_file(const std::string& path, const Limits& limits) {
-  Budget budget(limits);
-  const Bytes bytes = read_file(path, path, budget);
+namespace {
+
+GltfFile taken_apart(std::span<const std::uint8_t> bytes, const std::string& path, Budget& budget) {
   const GltfDocument checked = read_gltf(bytes, path, budget);
   const GltfContainer container = gltf_container(bytes, path);
   GltfFile file{path, Json::parse(container.json), {}};
   if (container.binary) file.binary = std::make_shared<const Bytes>(container.binary->begin(), container.binary->end());
   return file;
+}
+
+}  // namespace
+
+GltfFile read_gltf_file(const std::string& path, const Limits& limits) {
+  Budget budget(limits);
+  return taken_apart(read_file(path, path, budget), path, budget);
+}
+
+GltfFile gltf_file_from_memory(std::string_view bytes, const std::string& path, const Limits& limits) {
+  Budget budget(limits);
+  return taken_apart({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, budget);
 }
 
 std::string glb_bytes(const GltfFile& file) {

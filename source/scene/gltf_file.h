@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,9 @@ struct GltfFile {
 
 // Throws Error as load_scene does, for what is no glTF file and for other files that are not there.
 GltfFile read_gltf_file(const std::string& path, const Limits& limits = {});
+
+// The same for the bytes of such a file. path: for messages, and the place that other files are relative to.
+GltfFile gltf_file_from_memory(std::string_view bytes, const std::string& path, const Limits& limits = {});
 
 // As load_scene_from_memory takes it, with file.path for the files beside it.
 std::string glb_bytes(const GltfFile& file);
