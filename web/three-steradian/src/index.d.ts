@@ -10,18 +10,22 @@ export class AreaLight extends Object3D {
 
 /** A flat light of any simple outline. */
 export class PolygonAreaLight extends AreaLight {
-	/** outline: points of the local plane z = 0, in either order. */
-	constructor( color: ColorRepresentation, intensity: number, outline: Vector2[] );
+	/** outline, holes: points of the local plane z = 0, in either order. */
+	constructor( color: ColorRepresentation, intensity: number, outline: Vector2[], holes?: Vector2[][] );
 	readonly isPolygonAreaLight: true;
 	/** Read when an AreaLightSet is made into a program. */
 	twoSided: boolean;
 	outline: Vector2[];
+	holes: Vector2[][];
+	/** Both in walk order, as one outline with cuts. */
+	readonly corners: Vector2[];
 }
 
 /** A disk, or an ellipse. */
 export class DiskAreaLight extends AreaLight {
 	constructor( color?: ColorRepresentation, intensity?: number, radiusX?: number, radiusY?: number );
 	readonly isDiskAreaLight: true;
+	twoSided: boolean;
 	radiusX: number;
 	radiusY: number;
 }
@@ -31,6 +35,23 @@ export class SphereAreaLight extends AreaLight {
 	constructor( color?: ColorRepresentation, intensity?: number, radius?: number );
 	readonly isSphereAreaLight: true;
 	radius: number;
+}
+
+/** A tube with round ends along its local x. */
+export class TubeAreaLight extends AreaLight {
+	/** length: from one end's centre to the other's. */
+	constructor( color?: ColorRepresentation, intensity?: number, length?: number, radius?: number );
+	readonly isTubeAreaLight: true;
+	length: number;
+	radius: number;
+}
+
+/** EXT_lights_area for GLTFLoader; gltf.userData.areaLights lists what it made. */
+export class GLTFAreaLights {
+	constructor( parser: unknown );
+	readonly name: 'EXT_lights_area';
+	createNodeAttachment( nodeIndex: number ): Promise<AreaLight | null>;
+	afterRoot( result: { userData: Record<string, unknown> } ): Promise<void>;
 }
 
 /** The lights that patched materials see, besides three's RectAreaLights. Its members may move; which they are is fixed. */

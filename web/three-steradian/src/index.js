@@ -1,83 +1,14 @@
 // Area lights for three.js (WebGLRenderer) in closed form. README.md is the manual.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-import { Color, DataTexture, DataUtils, ClampToEdgeWrapping, FloatType, HalfFloatType, LinearFilter, NearestFilter, Object3D, RGBAFormat,
-	UniformsLib, UVMapping, Vector3 } from 'three';
+import { DataTexture, DataUtils, ClampToEdgeWrapping, FloatType, HalfFloatType, LinearFilter, NearestFilter, RGBAFormat, UniformsLib,
+	UVMapping, Vector3 } from 'three';
 import { LIBRARY } from './library.js';
+import { placeLight, vectorsOf } from './lights.js';
 import { SHADER } from './shader.js';
 import { ltcTables } from './tables.js';
 
-const X = new Vector3( 1, 0, 0 ), Y = new Vector3( 0, 1, 0 );
-
-/** What the lights of this package have in common. They shine along their local -z, as RectAreaLight does. */
-export class AreaLight extends Object3D {
-
-	constructor( color = 0xffffff, intensity = 1 ) {
-
-		super();
-		this.color = new Color( color );
-		this.intensity = intensity; // radiance: nits or W/(m2 sr)
-
-	}
-
-}
-
-/** A flat light of any simple outline: points of the local plane z = 0, in either order. */
-export class PolygonAreaLight extends AreaLight {
-
-	constructor( color, intensity, outline ) {
-
-		super( color, intensity );
-		if ( ! outline || outline.length < 3 ) throw new Error( 'PolygonAreaLight: an outline has at least three points' );
-		this.isPolygonAreaLight = true;
-		this.twoSided = false;
-		let area = 0;
-		outline.forEach( ( p, i ) => {
-
-			const q = outline[ ( i + 1 ) % outline.length ];
-			area += p.x * q.y - q.x * p.y;
-
-		} );
-		// Walk order: clockwise as seen from the lit side, which is -z.
-		this.outline = area > 0 ? [ ...outline ] : [ ...outline ].reverse();
-
-	}
-
-}
-
-/** A disk, or an ellipse. */
-export class DiskAreaLight extends AreaLight {
-
-	constructor( color, intensity, radiusX = 1, radiusY = radiusX ) {
-
-		super( color, intensity );
-		this.isDiskAreaLight = true;
-		this.radiusX = radiusX;
-		this.radiusY = radiusY;
-
-	}
-
-}
-
-/** A ball that shines to all sides; scaled unevenly, it stays round, with the x scale. */
-export class SphereAreaLight extends AreaLight {
-
-	constructor( color, intensity, radius = 1 ) {
-
-		super( color, intensity );
-		this.isSphereAreaLight = true;
-		this.radius = radius;
-
-	}
-
-}
-
-// What a light's place in the uniforms needs: vectors of the world.
-function vectorsOf( light ) {
-
-	if ( light.isPolygonAreaLight ) return light.outline.length;
-	return light.isDiskAreaLight ? 3 : 2;
-
-}
+export { AreaLight, DiskAreaLight, PolygonAreaLight, SphereAreaLight, TubeAreaLight } from './lights.js';
+export { GLTFAreaLights } from './gltf.js';
 
 /** The lights that patched materials see, besides three's RectAreaLights. Its members may move; which they are is fixed. */
 export class AreaLightSet {
@@ -98,27 +29,8 @@ export class AreaLightSet {
 		this.lights.forEach( ( light, i ) => {
 
 			light.updateWorldMatrix( true, false );
-			const place = this.vectors.value;
-			if ( light.isPolygonAreaLight ) {
-
-				for ( const p of light.outline ) place[ at ++ ].set( p.x, p.y, 0 ).applyMatrix4( light.matrixWorld );
-
-			} else {
-
-				const center = place[ at ++ ].setFromMatrixPosition( light.matrixWorld );
-				if ( light.isDiskAreaLight ) {
-
-					place[ at ++ ].copy( X ).multiplyScalar( light.radiusX ).applyMatrix4( light.matrixWorld ).sub( center );
-					place[ at ++ ].copy( Y ).multiplyScalar( light.radiusY ).applyMatrix4( light.matrixWorld ).sub( center );
-
-				} else {
-
-					place[ at ++ ].copy( X ).multiplyScalar( light.radius ).applyMatrix4( light.matrixWorld ).sub( center );
-
-				}
-
-			}
-
+			placeLight( light, this.vectors.value, at );
+			at += vectorsOf( light );
 			this.radiances.value[ i ].set( light.color.r, light.color.g, light.color.b ).multiplyScalar( light.intensity );
 
 		} );
@@ -128,8 +40,8 @@ export class AreaLightSet {
 	/** What a program is made for: kinds, corners, sides. */
 	key() {
 
-		return this.lights.map( ( light ) => light.isPolygonAreaLight ? `p${light.outline.length}${light.twoSided ? 't' : ''}` :
-			light.isDiskAreaLight ? 'd' : 's' ).join( ',' );
+		const kind = ( light ) => light.isPolygonAreaLight ? `p${light.corners.length}` : light.isDiskAreaLight ? 'd' : light.isTubeAreaLight ? 't' : 's';
+		return this.lights.map( ( light ) => kind( light ) + ( light.twoSided ? '2' : '' ) ).join( ',' );
 
 	}
 
@@ -146,7 +58,7 @@ export class AreaLightSet {
 			const vector = ( k ) => `( viewMatrix * vec4( steradianVectors[ ${first + k} ], 0.0 ) ).xyz`;
 			if ( light.isPolygonAreaLight ) {
 
-				const n = light.outline.length;
+				const n = light.corners.length;
 				return `{
 	SteradianOutline light;
 	light.count = ${n};
@@ -163,7 +75,11 @@ export class AreaLightSet {
 
 			if ( light.isDiskAreaLight ) return `{
 	vec3 center = ${point( 0 )}, x = ${vector( 1 )}, y = ${vector( 2 )};
+	${light.twoSided ? 'if ( dot( cross( x, y ), center ) < 0.0 ) y = - y;' : ''}
 	if ( dot( cross( x, y ), center ) > 0.0 ) steradian_three_add_ellipse( center, x, y, steradianRadiances[ ${i} ], ${seen} );
+}`;
+			if ( light.isTubeAreaLight ) return `{
+	steradian_three_add_tube( ${point( 0 )}, ${point( 1 )}, length( steradianVectors[ ${first + 2} ] ), steradianRadiances[ ${i} ], ${seen} );
 }`;
 			return `{
 	vec3 center = ${point( 0 )};
@@ -192,7 +108,7 @@ export function useSteradian( material, options = {} ) {
 	const { method = 'compact', lights = new AreaLightSet(), rects = true } = options;
 	if ( method !== 'compact' && method !== 'closed-form' ) throw new Error( `useSteradian: no method ${method}; compact or closed-form` );
 	if ( ! material.isMeshStandardMaterial ) throw new Error( 'useSteradian: wants a MeshStandardMaterial or a MeshPhysicalMaterial' );
-	const corners = Math.max( 12, ...lights.lights.map( ( light ) => light.isPolygonAreaLight ? light.outline.length : 0 ) );
+	const corners = Math.max( 12, ...lights.lights.map( ( light ) => light.isPolygonAreaLight ? light.corners.length : 0 ) );
 	const before = { compile: material.onBeforeCompile, render: material.onBeforeRender, key: material.customProgramCacheKey };
 
 	material.onBeforeCompile = function ( shader, renderer ) {

@@ -18,11 +18,13 @@ import urllib.parse
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(PACKAGE.parent))
+sys.dont_write_bytecode = True
+import browser  # noqa: E402
+
 THREE = "three@0.187.0"
 WIDTH, HEIGHT, FOV = 64, 48, 50
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-         "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-         "--virtual-time-budget=60000"]
+FLAGS = [*browser.FLAGS, "--virtual-time-budget=60000"]
 
 
 def skip(why):
@@ -53,18 +55,59 @@ def three_from_npm(scratch):
     return folder
 
 
+def snippets():
+    """The JavaScript of README.md, each piece as a module, with what its page would have; it ends by drawing a frame."""
+    pieces = re.findall(r"```js\n(.*?)```", (PACKAGE / "README.md").read_text(), re.DOTALL)
+    assert len(pieces) >= 2, "README.md has lost its JavaScript"
+    before = """
+const outline = [ [ 0, 1 ], [ - 1, - 1 ], [ 1, - 1 ] ].map( ( p ) => new THREE.Vector2( ...p ) );
+const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera( 50, 1, 0.1, 100 );
+const otherMaterial = new THREE.MeshPhysicalMaterial(), file = JSON.stringify( %s );
+camera.position.z = 3;
+""" % json.dumps(gltf_of(LIGHTS_OF_A_FILE))
+    after = """
+if ( typeof renderer === 'undefined' ) {
+
+	const gl = new THREE.WebGLRenderer();
+	gl.debug.onShaderError = ( c, program, vertex, fragment ) => { throw new Error( c.getShaderInfoLog( fragment ) ); };
+	const used = typeof material === 'undefined' ? otherMaterial : material;
+	for ( const m of [ used, otherMaterial ] ) scene.add( new THREE.Mesh( new THREE.SphereGeometry( 1 ), m ) );
+	gl.render( scene, camera );
+
+}
+
+document.getElementById( 'answer' ).textContent = 'pixels:snippet:';
+"""
+    three = "import * as THREE from 'three';\n"
+    return [(("" if "'three';" in piece else three) + before + piece + after).encode() for piece in pieces]
+
+
 class Files(http.server.SimpleHTTPRequestHandler):
     """/package/... is this package, /three/... is three, /test/... are the pages of this folder."""
 
     extensions_map = {".js": "text/javascript", ".html": "text/html", "": "application/octet-stream"}
 
-    def __init__(self, *arguments, three, **keys):
+    def __init__(self, *arguments, three, snippets=None, **keys):
+        self.snippets = [] if snippets is None else snippets
         self.roots = {"package": PACKAGE, "three": three, "test": PACKAGE / "test"}
         super().__init__(*arguments, **keys)
 
     def translate_path(self, path):
         parts = [p for p in urllib.parse.urlparse(path).path.split("/") if p not in ("", "..")]
         return str(self.roots.get(parts[0] if parts else "", PACKAGE / "nothing").joinpath(*parts[1:]))
+
+    def do_GET(self):
+        found = re.match(r"/snippet/(\d+)\.(js|html)", self.path)
+        if not found:
+            return super().do_GET()
+        i, kind = int(found.group(1)), found.group(2)
+        page = (PACKAGE / "test" / "page.html").read_text().replace('src="page.js"', f'src="/snippet/{i}.js"').encode()
+        body = self.snippets[i] if kind == "js" else page
+        self.send_response(200)
+        self.send_header("Content-Type", self.extensions_map["." + kind])
+        self.end_headers()
+        self.wfile.write(body)
+        return None
 
     def log_message(self, *_):
         pass
@@ -91,8 +134,19 @@ ELL = {"type": "polygon", "place": placed([-0.9, 0.9, 0], [0.5, -1, 0.2]), "outl
        "radiance": [6, 5, 4]}
 DISK = {"type": "disk", "place": placed([0.9, 0.8, -0.5], [-0.3, -1, 0.3]), "radius": 0.35, "radiance": [4, 5, 6]}
 BALL = {"type": "sphere", "place": placed([0.2, 0.5, 0.4], [0, -1, 0.1]), "radius": 0.15, "radiance": [9, 8, 7]}
+TUBE = {"type": "tube", "place": placed([-0.4, 0.5, 0.2], [0, -1, 0.3]), "length": 0.9, "radius": 0.06, "radiance": [8, 8, 6]}
+FRAME = {"type": "polygon", "place": placed([0.1, 1.0, -0.4], [0, -1, 0.4]), "outline": [[-0.8, -0.5], [0.8, -0.5], [0.8, 0.5], [-0.8, 0.5]],
+         "holes": [[[-0.6, -0.3], [-0.1, -0.3], [-0.1, 0.3], [-0.6, 0.3]], [[0.2, -0.3], [0.6, -0.3], [0.4, 0.3]]], "radiance": [5, 5, 4]}
+# Of a glTF file: -z shines, size is a height or a diameter; the frame's holes are no part of the extension.
+LIGHTS_OF_A_FILE = [({"type": "rect", "size": 0.5, "rect": {"aspect": 2}, "color": [1, 0.8, 0.6], "intensity": 6}, rect([-0.7, 1, -0.4], [0.3, -1, 0.3], 1, 0.5, [6, 4.8, 3.6])),
+                    ({"type": "disk", "size": 0.7, "intensity": 5, "extras": {"steradian": {"two_sided": True}}}, {**DISK, "radiance": [5, 5, 5]}),
+                    ({"type": "sphere", "size": 0.3, "color": [0.9, 0.8, 0.7], "intensity": 10}, BALL),
+                    ({"type": "capsule", "size": 0.12, "capsule": {"length": 0.9}, "color": [1, 1, 0.75], "intensity": 8}, TUBE)]
+AWAY = {**DISK, "place": placed([0.9, 0.8, -0.5], [-0.3, 1, 0.3]), "two_sided": True}  # its back to the floor
 GOLD = {"color": [0.9, 0.6, 0.3], "metalness": 1}
 PLASTIC = {"color": [0.5, 0.4, 0.3], "metalness": 0}
+VELVET = {"color": [0.3, 0.05, 0.1], "metalness": 0, "sheen": [0.8, 0.5, 0.6], "sheenRoughness": 0.4}
+BRUSHED = {"color": [0.9, 0.8, 0.7], "metalness": 1, "anisotropy": 0.6}
 CASES = [  # name, lights, material, roughness
     ("panel on gold", [PANEL], GOLD, 0.25),
     ("panel on plastic", [PANEL], PLASTIC, 0.5),
@@ -100,10 +154,22 @@ CASES = [  # name, lights, material, roughness
     ("polygon, gold", [ELL], GOLD, 0.3),
     ("disk and ball, gold", [DISK, BALL], GOLD, 0.4),
     ("all, plastic", [PANEL, ELL, DISK, BALL], PLASTIC, 0.3),
+    ("tube, gold", [TUBE], GOLD, 0.35),
+    ("polygon with two holes, gold", [FRAME], GOLD, 0.25),
+    ("disk from behind, plastic", [AWAY], PLASTIC, 0.4),
+    ("lights of a glTF file, plastic", [light for _, light in LIGHTS_OF_A_FILE], PLASTIC, 0.35),
+    ("panel on velvet", [PANEL, BALL], VELVET, 0.6),
+    ("panel on brushed metal", [PANEL], BRUSHED, 0.4),
 ]
 WITH_THREE_S_OWN = ("panel on gold", "half below, gold")
 # Of each method: how far the mean may be off, and by how much of white the pixels that are not among the best 99.5 %.
 BOUNDS = {"closed-form": (0.005, 2 / 255), "compact": (0.03, 0.06)}
+
+
+def gltf_of(lights):
+    nodes = [{"matrix": matrix_of(light["place"]), "extensions": {"EXT_lights_area": {"light": i}}} for i, (_, light) in enumerate(lights)]
+    return {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_lights_area"], "extensions": {"EXT_lights_area": {"lights": [d for d, _ in lights]}},
+            "nodes": nodes, "scenes": [{"nodes": list(range(len(nodes)))}], "scene": 0}
 
 
 def eval_light(light):
@@ -112,11 +178,14 @@ def eval_light(light):
     if light["type"] == "rect":  # lit along -z: x cross y is -z
         return {**found, "type": "rect", "center": center, "x": -x * light["width"] / 2, "y": y * light["height"] / 2}
     if light["type"] == "disk":
-        return {**found, "type": "disk", "center": center, "x": -x * light["radius"], "y": y * light["radius"]}
+        return {**found, "type": "disk", "center": center, "x": -x * light["radius"], "y": y * light["radius"], "two_sided": light.get("two_sided", False)}
     if light["type"] == "sphere":
         return {**found, "type": "sphere", "center": center, "radius": light["radius"]}
-    corners = [center + x * u + y * v for u, v in light["outline"]]
-    return {**found, "type": "polygon", "vertices": [c.tolist() for c in reversed(corners)]}  # the outlines here run counter-clockwise
+    if light["type"] == "tube":
+        half = x * light["length"] / 2
+        return {**found, "type": "capsule", "ends": [(center - half).tolist(), (center + half).tolist()], "radius": light["radius"]}
+    placed_at = lambda points: [(center + x * u + y * v).tolist() for u, v in reversed(points)]
+    return {**found, "type": "polygon", "vertices": placed_at(light["outline"]), "holes": [placed_at(h) for h in light.get("holes", [])]}  # the outlines here run counter-clockwise
 
 
 def judged(lights, material, roughness, eye):
@@ -132,30 +201,49 @@ def judged(lights, material, roughness, eye):
     assert (ray[..., 1] < 0).all(), "the camera sees above the horizon"
     point = eye - ray * (eye[1] / ray[..., 1])[..., None]
     color, metal = np.array(material["color"]), material["metalness"]
-    lobes = [{"brdf": "ggx", "roughness": roughness, "f0": color * metal + 0.04 * (1 - metal), "f90": 1}]
+    alpha = roughness ** 2
+    wide = alpha + (1 - alpha) * material.get("anisotropy", 0) ** 2  # along the tangent: as three widens it
+    lobes = [{"brdf": "ggx", "alpha_x": wide, "alpha_y": alpha, "tangent": [1, 0, 0], "f0": color * metal + 0.04 * (1 - metal), "f90": 1}]
     if metal < 1:
         lobes.append({"brdf": "lambert", "albedo": color * (1 - metal)})
-    return sum(steradian.radiance([eval_light(light) for light in lights], point, [0, 1, 0], -ray, lobe, quality="high") for lobe in lobes)
+    seen = [eval_light(light) for light in lights]
+    below = sum(steradian.radiance(seen, point, [0, 1, 0], -ray, lobe, quality="high") for lobe in lobes)
+    if "sheen" not in material:
+        return below
+    cloth = {"brdf": "charlie", "alpha": material["sheenRoughness"] ** 2}
+    fibres = steradian.radiance(seen, point, [0, 1, 0], -ray, cloth)
+    # What fibres of colour 1 reflect of a sky of radiance 1, all but the last degree above the horizon.
+    sky = {"type": "rect", "center": [0, 1, 0], "x": [60, 0, 0], "y": [0, 0, 60], "radiance": 1}
+    cosines = np.linspace(0.05, 1, 60)
+    at = [steradian.radiance([sky], [0, 0, 0], [0, 1, 0], [math.sqrt(1 - c * c), c, 0], cloth).flatten()[0] for c in cosines]
+    albedo = np.interp((-ray / np.linalg.norm(ray, axis=-1, keepdims=True))[..., 1], cosines, at)
+    return below * (1 - max(material["sheen"]) * albedo)[..., None] + fibres * np.array(material["sheen"])
 
 
-def browser_pixels(browser, port, case):
-    query = urllib.parse.quote(json.dumps(case))
+def page_words(chromium, url):
     with tempfile.TemporaryDirectory() as profile:
-        done = subprocess.run([browser, *FLAGS, f"--user-data-dir={profile}", "--dump-dom", f"http://127.0.0.1:{port}/test/page.html?case={query}"],
-                              capture_output=True, text=True, timeout=300)
+        done = subprocess.run([chromium, *FLAGS, f"--user-data-dir={profile}", "--dump-dom", url], capture_output=True, text=True, timeout=300)
     found = re.search(r"(pixels|failed):([^:]*(?::[^<]*)?):", done.stdout, re.DOTALL)
     if not found or found.group(1) == "failed":
-        sys.exit(f"the page gave no pixels: {found.group(2) if found else done.stdout[-500:] + done.stderr[-1500:]}")
-    return [np.frombuffer(base64.b64decode(p), np.float32).reshape(HEIGHT, WIDTH, 4)[..., :3] for p in found.group(2).split(" ")]
+        sys.exit(f"{url[:60]} gave no pixels: {found.group(2) if found else done.stdout[-500:] + done.stderr[-1500:]}")
+    return found.group(2)
+
+
+def browser_pixels(chromium, port, case):
+    words = page_words(chromium, f"http://127.0.0.1:{port}/test/page.html?case={urllib.parse.quote(json.dumps(case))}")
+    return [np.frombuffer(base64.b64decode(p), np.float32).reshape(HEIGHT, WIDTH, 4)[..., :3] for p in words.split(" ")]
 
 
 def main():
-    browser = next((b for b in ("chromium", "chromium-browser", "google-chrome") if shutil.which(b)), None)
-    if browser is None:
+    chromium = browser.find()
+    if chromium is None:
         skip("there is no Chromium here (apt-get install chromium)")
     three = three_from_npm(Path(sys.argv[1]))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, three=three))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, three=three, snippets=snippets()))
     threading.Thread(target=server.serve_forever, daemon=True).start()
+    for i in range(len(snippets())):
+        assert page_words(chromium, f"http://127.0.0.1:{server.server_address[1]}/snippet/{i}.html") == "snippet"
+    print(f"README.md: {len(snippets())} pieces run")
     eye, failed, errors = [0, 1.6, 2.6], False, {}
     for name, lights, material, roughness in CASES:
         want = judged(lights, material, roughness, eye)
@@ -165,7 +253,9 @@ def main():
             methods += ["tables", "three"]
         case = {"methods": methods, "eye": eye, "fov": FOV, "width": WIDTH, "height": HEIGHT, "roughness": roughness, **material,
                 "lights": [{**{k: v for k, v in light.items() if k != "place"}, "matrix": matrix_of(light["place"])} for light in lights]}
-        for method, got in zip(methods, browser_pixels(browser, server.server_address[1], case)):
+        if "glTF" in name:
+            case |= {"lights": [], "gltf": gltf_of(LIGHTS_OF_A_FILE)}
+        for method, got in zip(methods, browser_pixels(chromium, server.server_address[1], case)):
             off = np.abs(got - want).max(axis=-1) / white
             mean, rms = got.mean() / want.mean(), np.sqrt(((got - want) ** 2).mean()) / np.sqrt((want ** 2).mean())
             errors.setdefault(method, []).append(rms)
