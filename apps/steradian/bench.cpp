@@ -47,7 +47,8 @@ std::vector<BenchResult> run(const Options& options) {
   const BenchList list = bench::all_benches({options.backend == "vulkan" ? Backend::vulkan : Backend::cpu, options.device});
   std::vector<const BenchList::Entry*> chosen;
   for (const auto& entry : list.entries())
-    if (entry.name.starts_with(options.filter)) chosen.push_back(&entry);
+    if (options.filter.ends_with('$') ? entry.name + "$" == options.filter : entry.name.starts_with(options.filter))
+      chosen.push_back(&entry);
   if (chosen.empty()) {
     std::string names;
     for (const auto& entry : list.entries()) names += " " + entry.name;
@@ -138,7 +139,10 @@ void add_bench(CLI::App& app, Exit& exit) {
   CLI::App* verb = app.add_subcommand("bench", "Time the integrals on this machine");
   verb->group("This machine");
   auto options = std::make_shared<Options>();
-  verb->add_option("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert")->group("What")->default_str("");
+  verb->add_option("--filter", options->filter,
+                   "Only benches whose name begins so, e.g. kernel/lambert; with a $ behind it: the one of that name")
+      ->group("What")
+      ->default_str("");
   verb->add_option("--simd", options->simd, "Instruction set of the benches that do not name one")
       ->group("What")
       ->check(CLI::IsMember({"sse2", "avx2", "avx512"}))

@@ -23,6 +23,7 @@ class FrameSurfaces {
   FrameSurfaces(const Scene& scene, const RenderOptions& options);
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
+  int tiles_across() const { return tiles_x_; }
   TileArea area(int index) const;
   const CameraRays& camera() const { return camera_; }
   const RayScene& rays() const { return rays_; }

@@ -20,7 +20,6 @@
 #include "render/cpu/monte_carlo.h"
 #include "render/cpu/pass_clock.h"
 #include "render/cpu/tile_lighting.h"
-#include "render/lights/many_lights.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -61,13 +60,26 @@ class Renderer {
     std::vector<int> pairs(state.done.size(), options_.spp);
     steps_ = static_cast<std::uint64_t>(tile_count());
     if (method_.kind == MethodKind::reference) pairs = plan_pairs();
-    each_tile([&](int index) {
-      const auto tile = static_cast<std::size_t>(index);
-      if (state.done[tile] != 0) return take_surfaces(index);
-      render_tile(index, pairs[tile], state.picture);
-      // Asked to stop on its way, it has left out samples: what it has is of no use.
-      stopped() ? clear_tile(index, state.picture) : void(state.done[tile] = 1);
-    });
+    if (in_blocks()) {
+      each_block([&](const std::vector<int>& tiles) {
+        // A block is done as a whole or not at all.
+        const auto done = [&](int index) -> std::uint8_t& { return state.done[static_cast<std::size_t>(index)]; };
+        if (std::all_of(tiles.begin(), tiles.end(), done)) {
+          for (const int index : tiles) take_surfaces(index);
+          return;
+        }
+        render_block(tiles, state.picture);
+        for (const int index : tiles) stopped() ? clear_tile(index, state.picture) : void(done(index) = 1);
+      });
+    } else {
+      each_tile([&](int index) {
+        const auto tile = static_cast<std::size_t>(index);
+        if (state.done[tile] != 0) return take_surfaces(index);
+        render_tile(index, pairs[tile], state.picture);
+        // Asked to stop on its way, it has left out samples: what it has is of no use.
+        stopped() ? clear_tile(index, state.picture) : void(state.done[tile] = 1);
+      });
+    }
     Picture picture = options_.stop != nullptr ? state.picture : std::move(state.picture);  // who cannot stop it needs no copy
     if (indirect_ && !stopped()) arena_.execute([&] { indirect_->add_to(picture); });
     return picture;
@@ -79,7 +91,7 @@ class Renderer {
     stats.passes = {{"build", build_ms_},
                     surfaces_.rays_time(threads_),
                     surfaces_.gbuffer_time(threads_),
-                    lighting_.direct_time(threads_),
+                    {"direct", lighting_.direct_time(threads_).ms + block_clock_.time(threads_).ms},
                     lighting_.specular_time(threads_)};
     if (method_.estimates()) stats.passes.push_back(sampling_clock_.time(threads_));
     if (environment() != nullptr) {
@@ -89,13 +101,7 @@ class Renderer {
       stats.environment_spots = environment()->share_of_spots();
       stats.diffuse_residual = environment()->diffuse_residual();
     }
-    if (many_lights_) {
-      stats.light_tree = true;
-      const lights::Counts all = lighting_.light_counts();
-      const double points = std::max(static_cast<double>(all.points), 1.0);
-      stats.light_elements = static_cast<double>(all.elements) / points;
-      stats.light_outlines = static_cast<double>(all.outlines) / points;
-    }
+    if (many_lights_) many_lights_->report(stats);
     if (lighting_.has_shadows()) {
       stats.passes.push_back(lighting_.shadow_time(threads_));
       stats.shadow_fallback = lighting_.shadow_fallback();
@@ -119,11 +125,11 @@ class Renderer {
     return pointers;
   }
 
-  std::unique_ptr<const lights::ManyLights> prepare_many_lights() {
+  std::unique_ptr<ManyLightPass> prepare_many_lights() {
     constexpr std::size_t kMany = 64;  // from here on automatic takes the tree
     const bool wanted = options_.lights == LightSum::tree || (options_.lights == LightSum::automatic && lights_.size() >= kMany);
     if (!wanted || method_.estimates()) return nullptr;
-    return std::make_unique<const lights::ManyLights>(lights_, surfaces_.camera().origin(), static_cast<float>(options_.light_error));
+    return std::make_unique<ManyLightPass>(lights_, surfaces_.camera().origin(), static_cast<float>(options_.light_error));
   }
 
   const environment::EnvironmentLight* environment() const { return surfaces_.environment(); }
@@ -172,6 +178,26 @@ class Renderer {
         const FlushDenormals flush;
         work(index);
         if (options_.progress) options_.progress(++done_, steps_);
+      });
+    });
+  }
+
+  // Squares of tiles.
+  template <class Work>
+  void each_block(Work work) {
+    constexpr int kSide = 4;
+    const int across = surfaces_.tiles_across(), down = tile_count() / std::max(across, 1);
+    const int blocks_across = (across + kSide - 1) / kSide, blocks_down = (down + kSide - 1) / kSide;
+    arena_.execute([&] {
+      tbb::parallel_for(0, blocks_across * blocks_down, [&](int block) {
+        if (stopped()) return;
+        const FlushDenormals flush;
+        std::vector<int> tiles;
+        const int x = block % blocks_across * kSide, y = block / blocks_across * kSide;
+        for (int j = y; j < std::min(y + kSide, down); ++j)
+          for (int i = x; i < std::min(x + kSide, across); ++i) tiles.push_back(j * across + i);
+        work(tiles);
+        for (std::size_t k = 0; k < tiles.size() && options_.progress; ++k) options_.progress(++done_, steps_);
       });
     });
   }
@@ -236,16 +262,29 @@ class Renderer {
     return pairs;
   }
 
-  // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
-  void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture) {
-    const float weight = 1.0f / static_cast<float>(options_.aa);
-    TileVector* bounds = many_lights_ ? &lighting_.bounds() : nullptr;
-    std::vector<Vec3f>* bound_layer = many_lights_ ? &picture.layers.at("light_bound") : nullptr;
-    if (bounds != nullptr) *bounds = {};
+  // Whether blocks of tiles are to be lit together.
+  bool in_blocks() const { return many_lights_ && !lighting_.has_shadows() && method_.exact_diffuse; }
+
+  // All light of a tile but the diffuse one of many lights, for which its block takes it. Whether there is any.
+  bool light_tile_of_block(SurfaceTile& tile, TileArea a) {
+    if (tile.any_diffuse) block_clock_.run([&] { many_lights_->take(tile, a, options_.width); });
     const bool diffuse_alone = !(tile.any_specular || tile.any_sheen || tile.any_coat || tile.any_override);
-    if (many_lights_ && !lighting_.has_shadows() && diffuse_alone) {
-      lighting_.add(tile, light_pointers_);  // it finds out by itself whom they reach
+    if (diffuse_alone && many_lights_->serves_all()) return false;
+    const auto reaching = lights_reaching(light_pointers_, tile);
+    many_lights_->bound() = {};
+    if (!reaching.lights.empty()) lighting_.add_beside_block(tile, reaching.lights);
+    return true;
+  }
+
+  enum class Sum { tile, block };
+  // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
+  void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture, Sum sum) {
+    const float weight = 1.0f / static_cast<float>(options_.aa);
+    bool bounded = many_lights_ != nullptr;
+    if (sum == Sum::block) {
+      bounded = light_tile_of_block(tile, a);
     } else {
+      if (bounded) many_lights_->bound() = {};
       const auto reaching = lights_reaching(light_pointers_, tile);
       if (lighting_.has_shadows()) {
         lighting_.add_shadowed(tile, reaching.lights);
@@ -268,24 +307,35 @@ class Renderer {
         });
       });
     add_to_picture(tile.radiance, a, shares, weight, picture.pixels, options_.width);
-    if (bounds != nullptr) add_to_picture(*bounds, a, shares, weight, *bound_layer, options_.width);
+    if (bounded) add_to_picture(many_lights_->bound(), a, shares, weight, picture.layers.at("light_bound"), options_.width);
   }
 
   void render_tile(int index, int pairs, Picture& picture) {
+    for (int s = 0; s < options_.aa; ++s) render_sample(index, s, pairs, picture, Sum::tile);
+  }
+
+  void render_block(const std::vector<int>& tiles, Picture& picture) {
+    for (int s = 0; s < options_.aa; ++s) {
+      many_lights_->clear_block();
+      for (const int index : tiles) render_sample(index, s, 0, picture, Sum::block);
+      block_clock_.run([&] { many_lights_->add_block(1.0f / static_cast<float>(options_.aa), picture); });
+    }
+  }
+
+  // One primary sample of a tile's pixels.
+  void render_sample(int index, int s, int pairs, Picture& picture, Sum sum) {
     SurfaceTile* tile = workspace();
     const TileArea a = area(index);
-    for (int s = 0; s < options_.aa; ++s) {
-      TilePlane behind = surfaces_.fill(index, s, *tile);
-      if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
-      light_tile(*tile, a, s, 0, pairs, nullptr, picture);
-      if (!tile->any_passing) continue;
-      TileVector shares;
-      for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
-      for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
-        look_through(*tile, shares, behind);
-        behind = surfaces_.fill(index, s, *tile, &behind);
-        light_tile(*tile, a, s, layer, pairs, &shares, picture);
-      }
+    TilePlane behind = surfaces_.fill(index, s, *tile);
+    if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
+    light_tile(*tile, a, s, 0, pairs, nullptr, picture, sum);
+    if (!tile->any_passing) return;
+    TileVector shares;
+    for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
+    for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
+      look_through(*tile, shares, behind);
+      behind = surfaces_.fill(index, s, *tile, &behind);
+      light_tile(*tile, a, s, layer, pairs, &shares, picture, Sum::tile);
     }
   }
 
@@ -297,14 +347,14 @@ class Renderer {
   FrameSurfaces surfaces_;
   const std::vector<PackLight> lights_;
   const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
-  const std::unique_ptr<const lights::ManyLights> many_lights_;  // null where each light is done by itself
+  const std::unique_ptr<ManyLightPass> many_lights_;  // null where each light is done by itself
   TileLighting lighting_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
   double build_ms_ = 0;
-  PassClock sampling_clock_{"sampling"}, capture_clock_{"indirect: surfaces"};
+  PassClock sampling_clock_{"sampling"}, block_clock_{"block"}, capture_clock_{"indirect: surfaces"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
 };

@@ -29,15 +29,12 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
       lights_(lights),
       mesh_(shadow::build_edges(scene)),
       tree_(mesh_),
-      ellipse_(std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_of_ellipse(kRoundCorners))) {
+      ellipse_(std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_of_ellipse(kRoundCorners))),
+      open_(lights, mesh_, cut_outs_) {
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != AlphaMode::mask) continue;
-    Box box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (const Vec3f p : mesh.positions) {
-      const auto q = static_cast<Vec3d>(p);
-      box.low = {std::min(box.low.x, q.x), std::min(box.low.y, q.y), std::min(box.low.z, q.z)};
-      box.high = {std::max(box.high.x, q.x), std::max(box.high.y, q.y), std::max(box.high.z, q.z)};
-    }
+    shadow::Box box;
+    for (const Vec3f p : mesh.positions) box.add(static_cast<Vec3d>(p));
     cut_outs_.push_back(box);
   }
   for (const PackLight& light : lights) {
@@ -185,7 +182,7 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
 }
 
 bool ShadowPass::meets_cut_outs(const Shaft& shaft) const {
-  return std::any_of(cut_outs_.begin(), cut_outs_.end(), [&](const Box& b) { return shaft.may_meet_box(b.low, b.high); });
+  return std::any_of(cut_outs_.begin(), cut_outs_.end(), [&](const shadow::Box& b) { return shaft.may_meet_box(b.low, b.high); });
 }
 
 }  // namespace steradian

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/cpu/light_list.h"
+#include "render/cpu/open_lights.h"
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/shadow_side.h"
 #include "render/cpu/shadow_tile.h"
@@ -29,6 +30,10 @@ class ShadowPass {
   // Keeps references.
   ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const RayScene& rays, Shadows mode);
 
+  // Lights before which nothing stands, for all of a tile: they are seen whole, and find() would tell no more.
+  void find_open(const TilePoints& points, const std::vector<const PackLight*>& lights, OpenLights::Work& work) const {
+    open_.find(points, lights, work);
+  }
   void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
 
  private:
@@ -62,12 +67,10 @@ class ShadowPass {
   const std::vector<PackLight>& lights_;
   shadow::EdgeMesh mesh_;
   shadow::EdgeTree tree_;
-  struct Box {
-    Vec3d low, high;
-  };
-  std::vector<Box> cut_outs_;                                    // of meshes whose material has holes
+  std::vector<shadow::Box> cut_outs_;                            // of meshes whose material has holes
   std::shared_ptr<const std::vector<shadow::Segment>> ellipse_;  // outline of the polygons that stand for ellipsoids
   std::vector<Flat> flats_;                                      // one a light; without frames where it is not flat
+  OpenLights open_;
 };
 
 }  // namespace steradian

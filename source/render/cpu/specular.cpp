@@ -232,8 +232,11 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
   const lights::LobeElementTable& elements = lobe_element_table_for(active_simd());
   lights::LobeSums sums = {};
   std::vector<std::uint64_t> left(numbers.size(), 0);
-  (method_.ggx == Method::ltc ? elements.classic : elements.compact)(far.lights, numbers.data(), numbers.size(), points, tables_, far.error,
-                                                                     sums, left.data());
+  if (method_.ggx == Method::closed_form)
+    ggx_element_table_for(active_simd()).ggx(far.lights, numbers.data(), numbers.size(), points, far.error, sums, left.data());
+  else
+    (method_.ggx == Method::ltc ? elements.classic : elements.compact)(far.lights, numbers.data(), numbers.size(), points, tables_,
+                                                                       far.error, sums, left.data());
   const auto reflected = [&](std::size_t i, Vec3f plain, Vec3f fresnel) {
     return get(lobe.f0, i) * (plain - fresnel) + get(lobe.f90, i) * fresnel;
   };
@@ -243,8 +246,8 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
   }
 
   const LtcPackTable& outlines = ltc_pack_table_for(active_simd());
-  TileVector position, normal, view;
-  alignas(64) TilePlane alpha, plain, fresnel;
+  TileVector position, normal, view, tangent;
+  alignas(64) TilePlane alpha_x, alpha_y, plain, fresnel;
   std::array<std::size_t, kTilePixels> slots;
   for (std::size_t n = 0; n < together.size(); ++n) {
     Points some;
@@ -261,15 +264,24 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
       view.x[k] = tile.view.x[i];
       view.y[k] = tile.view.y[i];
       view.z[k] = tile.view.z[i];
-      alpha[k] = lobe.alpha_x[i];
+      tangent.x[k] = tile.tangent.x[i];
+      tangent.y[k] = tile.tangent.y[i];
+      tangent.z[k] = tile.tangent.z[i];
+      alpha_x[k] = lobe.alpha_x[i];
+      alpha_y[k] = lobe.alpha_y[i];
     }
     if (some.count == 0) continue;
     some.position = arrays_of(position);
     some.normal = arrays_of(normal);
     some.view = arrays_of(view);
-    some.alpha_x = some.alpha_y = alpha.data();
-    const LtcSums one = {nullptr, plain.data(), fresnel.data()};
-    (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(*together[n], some, tables_, one);
+    some.tangent = arrays_of(tangent);
+    some.alpha_x = alpha_x.data();
+    some.alpha_y = alpha_y.data();
+    if (method_.ggx == Method::closed_form)
+      closed_form_table_for(active_simd()).ggx(*together[n], some, method_.quality, plain.data(), fresnel.data());
+    else
+      (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(*together[n], some, tables_,
+                                                                         {nullptr, plain.data(), fresnel.data()});
     const Vec3f light = together[n]->radiance;
     for (std::size_t k = 0; k < some.count; ++k) add_to(tile.radiance, slots[k], reflected(slots[k], light * plain[k], light * fresnel[k]));
   }
@@ -357,8 +369,8 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk, const Far* far) const {
   // The lobe times (1 - v.h)^5 of quality high has a table of its own, and no elements.
-  const bool elements =
-      far != nullptr && (method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact) && tables_.fresnel_matrix.size == 0;
+  const bool elements = far != nullptr && tables_.fresnel_matrix.size == 0 &&
+                        (method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact || method_.ggx == Method::closed_form);
   const auto add_lobe = [&](const Lobe& lobe) {
     if (elements)
       add_far_ggx(tile, lobe, lights, *far);

@@ -22,6 +22,7 @@ void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
 struct TileLighting::Work {
   TileShadow shadow;
   ShadowCounts counts;
+  OpenLights::Work open;
   PackLight pieces;                  // what slots see of a light
   std::vector<std::uint32_t> slots;  // in `some`, side by side
   SurfaceTile some;
@@ -30,7 +31,7 @@ struct TileLighting::Work {
 };
 
 TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
-                           const std::vector<PackLight>& lights, const RayScene& rays, const lights::ManyLights* many_lights)
+                           const std::vector<PackLight>& lights, const RayScene& rays, ManyLightPass* many_lights)
     : options_(options),
       method_(method),
       many_lights_(many_lights),
@@ -40,24 +41,25 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, rays, options.shadows);
 }
 
-// The diffuse light of those far off together.
-void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-  if (method_.exact_diffuse && tile.any_diffuse)
+// plain: of which the diffuse light is still to be done.
+void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain) {
+  if (method_.exact_diffuse && tile.any_diffuse && !plain.empty())
     direct_clock_.run([&] {
-      std::vector<const PackLight*> together, plain;
-      for (const PackLight* light : lights) (many_lights_->serves(*light) ? together : plain).push_back(light);
-      many_lights_->add_diffuse(tile, together, *light_bounds_.local(), *light_work_.local());
       const std::vector<const PackLight*> untextured = without_textured(plain);
       if (!untextured.empty()) direct_.add_diffuse(tile, untextured.data(), untextured.size());
       if (untextured.size() < plain.size()) add_diffuse_from_textured(tile, plain);
     });
-  const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), *light_bounds_.local()};
+  const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), many_lights_->bound()};
   specular_clock_.run([&] { specular_.add(tile, lights, SpecularPass::Walk::specular_alone, &far); });
 }
 
 void TileLighting::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
   constexpr std::size_t kFew = 8;  // are done before cells are
-  if (many_lights_ != nullptr && lights.size() > kFew) return add_many(tile, lights);
+  if (many_lights_ != nullptr && lights.size() > kFew) {
+    std::vector<const PackLight*> plain;
+    if (method_.exact_diffuse && tile.any_diffuse) direct_clock_.run([&] { plain = many_lights_->add_to_tile(tile, lights); });
+    return add_many(tile, lights, plain);
+  }
   if (method_.exact_diffuse && tile.any_diffuse)
     direct_clock_.run([&] {
       std::vector<const PackLight*> plain = without_textured(lights);
@@ -98,9 +100,16 @@ std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const 
 // evaluated side by side.
 std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work) {
   TilePoints points;
-  shadow_clock_.run([&] { points = points_for_shadows(tile, options_.terminator); });
+  shadow_clock_.run([&] {
+    points = points_for_shadows(tile, options_.terminator);
+    shadows_->find_open(points, lights, work.open);
+  });
   std::vector<const PackLight*> plain;
   for (const PackLight* light : lights) {
+    if (work.open.open[light->index] != 0) {
+      plain.push_back(light);
+      continue;
+    }
     shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts); });
     if (work.shadow.is_plain()) {
       plain.push_back(light);
@@ -171,12 +180,6 @@ void TileLighting::light_pieces(const SurfaceTile& tile, packed::Pieces& pieces,
   std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
   use(light_slots(tile, work.pieces, work));
   std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
-}
-
-lights::Counts TileLighting::light_counts() const {
-  lights::Counts all;
-  for (const auto& work : light_work_) all += lights::ManyLights::counts(*work);
-  return all;
 }
 
 double TileLighting::shadow_fallback() const {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "render/cpu/light_list.h"
+#include "render/cpu/many_light_pass.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/pass_clock.h"
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/shadow_pass.h"
 #include "render/cpu/specular.h"
-#include "render/lights/many_lights.h"
 #include "steradian/render.h"
 
 namespace steradian {
@@ -24,21 +24,21 @@ class TileLighting {
  public:
   // All must stay; lights: of prepare_lights. many_lights: null where each light is done by itself.
   TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const std::vector<PackLight>& lights,
-               const RayScene& rays, const lights::ManyLights* many_lights);
+               const RayScene& rays, ManyLightPass* many_lights);
 
   bool has_shadows() const { return shadows_.has_value(); }
 
-  // Adds the light of lights before which nothing stands to tile.radiance. Under many lights the thread's bounds() grow.
+  // Adds the light of lights before which nothing stands to tile.radiance. Under many lights their bound() grows.
   void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // ... of which many lights' diffuse light is done elsewhere: for a block of tiles.
+  void add_beside_block(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+    add_many(tile, lights, many_lights_->others(lights));
+  }
   // ... of lights before which something may stand.
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
   // ... of those of them before which something does stand, and returns the others. Coats with a normal of their own are done with for
   // good: they weigh nothing in the tile then.
   std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
-
-  // How far the many lights that this thread has added may be off.
-  TileVector& bounds() { return *light_bounds_.local(); }
-  lights::Counts light_counts() const;
 
   PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
   PassTime specular_time(int threads) const { return specular_clock_.time(threads); }
@@ -48,7 +48,7 @@ class TileLighting {
 
  private:
   struct Work;
-  void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain);
   std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work);
   void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
@@ -59,12 +59,10 @@ class TileLighting {
 
   const RenderOptions& options_;
   const DirectMethod& method_;
-  const lights::ManyLights* const many_lights_;
+  ManyLightPass* const many_lights_;
   const DirectTable& direct_;
   const SpecularPass specular_;
   std::optional<ShadowPass> shadows_;
-  tbb::enumerable_thread_specific<lights::ManyLights::WorkPointer> light_work_{[] { return lights::ManyLights::make_work(); }};
-  tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> light_bounds_{[] { return std::make_unique<TileVector>(); }};
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
   PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
 };

@@ -50,14 +50,6 @@ struct Judged {
   float *plain, *grazing;
 };
 
-// One element and the light's radiance.
-struct Element {
-  Vec3f center, area;  // area: unit normal to the side that shines here, times area; (area, 0, 0) of a ball
-  Vec3f radiance;
-};
-struct FourElements {
-  Vec3f center, reach_a, reach_b, area, radiance;
-};
 struct Elements {
   std::vector<Element> ones, balls;
   std::vector<FourElements> fours;

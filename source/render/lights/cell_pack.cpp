@@ -150,10 +150,15 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const auto one_at_points = at_points(with_one), four_at_points = at_points(with_four);
   const Mask smooth = apart && lit && above;
   const Mask clear = apart && above;
-  Verdict v = {code(Share::exact), zero, zero};
+  // What it sends about the cell's centre, of the most that it could: faint lights may err by less, down to a fifth.
+  const PackReal facing = select(flat, abs(height) * inverse, one);
+  const PackReal allowed = j.error * clamp(facing * (up * inverse + j.turn), 0.2, 1.0);
+  // An element of a point is the point.
+  const Mask is_point = radius <= zero && area > zero;
+  Verdict v = {select(is_point, code(Share::one_at_points), code(Share::exact)), zero, zero};
   // From the dearest to the cheapest.
   const auto offer = [&](const Mask& possible, const Vec2<PackReal>& e, Share share) {
-    const Mask takes = possible && e.x + j.loss * e.y < j.error;
+    const Mask takes = possible && e.x + j.loss * e.y < allowed;
     v = {select(takes, code(share), v.share), select(takes, weight * e.x, v.plain), select(takes, weight * e.y, v.grazing)};
   };
   offer(clear && flat, four_at_points, Share::four_at_points);

@@ -8,6 +8,15 @@
 namespace steradian::lights {
 namespace {
 
+// A point is a ball so small that what it hides of the sky does not count.
+constexpr float kPointArea = 1e-8f;
+
+// Points that send the same everywhere.
+bool is_plain_point(const PackLight& light) {
+  const auto* p = std::get_if<packed::Punctual>(&light.shape);
+  return p != nullptr && p->kind == PunctualKind::point && p->inverse_range2 == 0 && p->profile == nullptr;
+}
+
 struct One {
   Vec3f center, normal, reach_a, reach_b;
   float area = 0, radius = 0, spread = 0, deviation2 = 0, third = 0, fourth = 0;
@@ -90,7 +99,10 @@ struct Prepare {
     one.area = std::numbers::pi_v<float> * e.ball.radius * e.ball.radius;
   }
   void operator()(const packed::Capsule& c) const { bound(c, one); }
-  void operator()(const packed::Punctual&) const {}
+  void operator()(const packed::Punctual& p) const {
+    one.center = static_cast<Vec3f>(p.position);
+    one.area = kPointArea;
+  }
   void operator()(const packed::Pieces&) const {}
 };
 
@@ -109,6 +121,9 @@ FarLights prepare_far_lights(const std::vector<PackLight>& lights) {
     add(far.reach_a, one.reach_a);
     add(far.reach_b, one.reach_b);
     add(far.radiance, radiance);
+    const Vec3f area = one.is_flat ? one.normal * one.area : Vec3f{one.area, 0, 0};
+    far.elements.push_back({one.center, area, radiance});
+    far.fours.push_back({one.center, one.reach_a, one.reach_b, area * 0.25f, radiance});
     far.area.push_back(one.area);
     // Single precision rounds what it is compared with.
     far.radius.push_back(one.radius * (1 + 1e-6f));
@@ -121,13 +136,13 @@ FarLights prepare_far_lights(const std::vector<PackLight>& lights) {
     far.is_flat.push_back(one.is_flat ? 1.0f : 0.0f);
   };
   for (const PackLight& light : lights) {
-    if (!light.is_area() || light.is_pieces() || light.textured != nullptr) {
+    if (!(light.is_area() || is_plain_point(light)) || light.is_pieces() || light.textured != nullptr) {
       far.number_of.push_back(-1);
       continue;
     }
     One one;
     std::visit(Prepare{one}, light.shape);
-    push(one, light.radiance);
+    push(one, light.is_area() ? light.radiance : light.radiance / kPointArea);
     far.number_of.push_back(static_cast<std::int32_t>(far.lights.size()));
     far.lights.push_back(&light);
   }

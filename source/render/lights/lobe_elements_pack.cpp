@@ -1,8 +1,5 @@
-#include "render/lights/lobe_elements.h"
+#include "render/lights/lobe_elements_loop.h"
 
-#include <array>
-
-#include "core/pack.h"
 #include "render/cpu/table_pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -12,8 +9,6 @@ using namespace lights;
 using K = PackKernels;
 using Mask = K::mask;
 
-STERADIAN_INLINE PackVec3 vector_at(const VectorArrays& v, std::size_t i) { return {load(v.x + i), load(v.y + i), load(v.z + i)}; }
-
 // A pack of points and their lobe. Under M^-1, as a map from the world, a lobe is a clamped cosine: an element of the light, brought under
 // it, sends what far_element_vector says, along z, and errs by as much as is said there.
 struct LobePoints {
@@ -21,6 +16,22 @@ struct LobePoints {
   PackReal determinant, stretch2, area_stretch;    // squares of its largest singular value; the product of the largest two
   PackReal n_a, f_a;
   Mask sees;
+
+  struct Answer {
+    PackReal value, error;
+    Mask serves;
+  };
+  STERADIAN_INLINE Answer answer(const Light& light, const PackReal& allowed) const;
+
+  struct Sum : RadianceSum {
+    STERADIAN_INLINE void add(const PackVec3& radiance, const Answer& a) { RadianceSum::add(radiance, a.value, a.error); }
+    STERADIAN_INLINE void put(const LobePoints& at, LobeSums& sums, std::size_t i) const {
+      add_to(sums.specular, i, value * at.n_a);
+      add_to(sums.grazing, i, value * at.f_a);
+      add_to(sums.specular_error, i, error * at.n_a);
+      add_to(sums.grazing_error, i, error * at.f_a);
+    }
+  };
 };
 
 template <class Decode>
@@ -52,35 +63,6 @@ STERADIAN_INLINE LobePoints lobe_points(const Points& points, const LtcPackTable
   return at;
 }
 
-// One light, at a pack of points.
-struct Answer {
-  PackReal value, error;
-  Mask serves;
-};
-
-struct Light {
-  PackVec3 center, normal, reach_a, reach_b;
-  PackReal area, radius, spread, deviation2, third, fourth;
-  bool symmetric, two_sided;
-
-  STERADIAN_INLINE Light(const FarLights& far, std::size_t i) {
-    const auto number = [i](const Plane& plane) { return broadcast(plane.data()[i]); };
-    const auto vector = [&](const Planes& p) { return PackVec3(number(p.x), number(p.y), number(p.z)); };
-    center = vector(far.center);
-    normal = vector(far.normal);
-    reach_a = vector(far.reach_a);
-    reach_b = vector(far.reach_b);
-    area = number(far.area);
-    radius = number(far.radius);
-    spread = number(far.spread);
-    deviation2 = number(far.deviation2);
-    third = number(far.third);
-    fourth = number(far.fourth);
-    symmetric = far.symmetric.data()[i] > 0;
-    two_sided = far.two_sided.data()[i] > 0;
-  }
-};
-
 // The clamped cosine of an element at r, over pi and for the area 1.
 STERADIAN_INLINE PackReal element(const LobePoints& at, const Light& light, const PackVec3& r, const PackReal& side) {
   const PackVec3 y(dot(at.row_x, r), dot(at.row_y, r), dot(at.row_z, r));
@@ -88,8 +70,9 @@ STERADIAN_INLINE PackReal element(const LobePoints& at, const Light& light, cons
   return (max(y.z, PackReal(0.0)) * inverse2) * (max(side * dot(light.normal, r), PackReal(0.0)) * inverse2);
 }
 
-STERADIAN_INLINE Answer answer(const LobePoints& at, const Light& light, const PackReal& allowed) {
+STERADIAN_INLINE LobePoints::Answer LobePoints::answer(const Light& light, const PackReal& allowed) const {
   K k;
+  const LobePoints& at = *this;
   const PackReal zero(0.0), one(1.0);
   const PackVec3 r = light.center - at.position;
   const PackReal r2 = max(dot(r, r), PackReal(1e-12));
@@ -132,55 +115,10 @@ STERADIAN_INLINE Answer answer(const LobePoints& at, const Light& light, const P
   return a;
 }
 
-constexpr std::size_t kBlock = 16, kPacks = kBlock / kLanes;
-
-struct Sum {
-  PackVec3 value{0.0, 0.0, 0.0}, error{0.0, 0.0, 0.0};
-};
-
 template <class Decode>
 STERADIAN_INLINE void add(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,
                           const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left, Decode decode) {
-  for (std::size_t first = 0; first < points.count; first += kBlock) {
-    LobePoints at[kPacks];
-    Sum sum[kPacks];
-    for (std::size_t k = 0; k < kPacks; ++k) at[k] = lobe_points(points, tables, first + k * kLanes, decode);
-    const std::uint64_t bit = std::uint64_t{1} << first / kBlock;
-    bool any = false;
-    for (std::size_t k = 0; k < kPacks; ++k) any = any || any_lane(at[k].sees);
-    if (!any) continue;
-    for (std::size_t n = 0; n < count; ++n) {
-      const Light light(far, numbers[n]);
-      Answer answers[kPacks];
-      bool serves = true;
-      for (std::size_t k = 0; k < kPacks; ++k) {
-        answers[k] = answer(at[k], light, broadcast(error));
-        serves = serves && all_lanes(answers[k].serves);
-      }
-      if (!serves) {
-        left[n] |= bit;
-        continue;
-      }
-      const PackVec3 radiance(broadcast(far.radiance.x.data()[numbers[n]]), broadcast(far.radiance.y.data()[numbers[n]]),
-                              broadcast(far.radiance.z.data()[numbers[n]]));
-      for (std::size_t k = 0; k < kPacks; ++k) {
-        sum[k].value = sum[k].value + radiance * answers[k].value;
-        sum[k].error = sum[k].error + radiance * answers[k].error;
-      }
-    }
-    for (std::size_t k = 0; k < kPacks; ++k) {
-      const std::size_t i = first + k * kLanes;
-      const auto put = [&](TileVector& to, const PackVec3& a, const PackReal& factor) {
-        store(to.x.data() + i, load(to.x.data() + i) + a.x * factor);
-        store(to.y.data() + i, load(to.y.data() + i) + a.y * factor);
-        store(to.z.data() + i, load(to.z.data() + i) + a.z * factor);
-      };
-      put(sums.specular, sum[k].value, at[k].n_a);
-      put(sums.grazing, sum[k].value, at[k].f_a);
-      put(sums.specular_error, sum[k].error, at[k].n_a);
-      put(sums.grazing_error, sum[k].error, at[k].f_a);
-    }
-  }
+  add_elements_of(far, numbers, count, points, error, sums, left, [&](std::size_t i) { return lobe_points(points, tables, i, decode); });
 }
 
 __attribute__((flatten)) void classic(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,

@@ -18,17 +18,10 @@ void put(TileVector& v, std::size_t i, Vec3f a) {
 
 // What work costs, in nanoseconds of one core with AVX-512: a light's element and outline at a point, a light that a half of a cell
 // judges and takes into its polynomial, and a half itself. They decide what is quicker, and nothing else.
-constexpr double kElement = 1, kFour = 3, kOutline = 8, kJudge = 60, kHalf = 15000;
+constexpr double kElement = 1, kFour = 3, kOutline = 8, kJudge = 60, kHalf = 60000;
 constexpr std::size_t kFewest = 64;  // points that are not divided further
 
 }  // namespace
-
-// Lights by number; null: all.
-struct ManyLights::Numbers {
-  const std::uint32_t* numbers;
-  std::size_t count;
-  std::uint32_t operator[](std::size_t i) const { return numbers != nullptr ? numbers[i] : static_cast<std::uint32_t>(i); }
-};
 
 // By channel.
 struct ManyLights::Bound {
@@ -51,13 +44,15 @@ struct ManyLights::Work {
   struct Level {
     std::vector<Share> share;
     std::vector<float> plain, grazing;
-    std::vector<std::uint32_t> left;
+    std::vector<std::uint32_t> left, exact;
     Elements elements;
     Polynomial polynomial;
   };
   std::deque<Level> levels;
   std::vector<std::uint32_t> numbers;
-  std::array<std::uint32_t, kTilePixels> slots;
+  ReceiverSet of_tile;
+  const Receiver* first = nullptr;  // of the set, whose results are
+  Received* received = nullptr;     // here
   Receivers receivers;
   Counts counts;
 
@@ -79,34 +74,46 @@ ManyLights::ManyLights(const std::vector<PackLight>& lights, Vec3f eye, float er
       outlines_(irradiance_table_for(active_simd())) {}
 
 void ManyLights::add_diffuse(SurfaceTile& tile, const std::vector<const PackLight*>& lights, TileVector& bound, Work& work) const {
-  std::size_t count = 0;
-  for (std::uint32_t i = 0; i < kTilePixels; ++i)
-    if (tile.material[i] != nullptr && tile.albedo.x[i] + tile.albedo.y[i] + tile.albedo.z[i] > 0) work.slots[count++] = i;
-  if (count == 0 || lights.empty()) return;
-  Numbers numbers{nullptr, far_.count};
+  ReceiverSet& set = work.of_tile;
+  set.points.clear();
+  set.add(tile, [](std::uint32_t slot) { return slot; });
   if (lights.size() < far_.count) {
     work.numbers.clear();
     for (const PackLight* light : lights) work.numbers.push_back(static_cast<std::uint32_t>(far_.number_of[light->index]));
-    numbers = {work.numbers.data(), work.numbers.size()};
+    add_diffuse(set, {work.numbers.data(), work.numbers.size()}, work);
+  } else {
+    add_diffuse(set, work);
   }
-  work.counts.points += count;
-  add_in_order(tile, Slots(work.slots).first(count), numbers, bound, work);
+  for (std::size_t k = 0; k < set.points.size(); ++k) {
+    const std::uint32_t i = set.points[k].place;
+    put(tile.radiance, i, get(tile.radiance, i) + set.received[k].radiance);
+    put(bound, i, get(bound, i) + set.received[k].bound);
+  }
+}
+
+void ManyLights::add_diffuse(ReceiverSet& set, Numbers numbers, Work& work) const {
+  set.received.assign(set.points.size(), {});
+  if (set.points.empty() || numbers.count == 0) return;
+  work.first = set.points.data();
+  work.received = set.received.data();
+  work.counts.points += set.points.size();
+  add_in_order(set.points, numbers, work);
 }
 
 // Points of several surfaces are told apart first.
-void ManyLights::add_in_order(SurfaceTile& tile, Slots slots, Numbers numbers, TileVector& bound, Work& work) const {
-  if (slots.empty()) return;
-  Cell cell = cell_about(tile, slots, eye_);
-  const Disorder disorder = disorder_of(tile, slots, cell);
+void ManyLights::add_in_order(ReceiverSpan points, Numbers numbers, Work& work) const {
+  if (points.empty()) return;
+  Cell cell = cell_about(points, eye_);
+  const Disorder disorder = disorder_of(points, cell);
   if (disorder != Disorder::none) {
-    const auto [front, back] = disorder == Disorder::normals ? divided_by_normals(tile, slots) : divided_by_place(tile, slots, cell);
+    const auto [front, back] = disorder == Disorder::normals ? divided_by_normals(points) : divided_by_place(points, cell);
     if (!front.empty() && !back.empty()) {
-      add_in_order(tile, front, numbers, bound, work);
-      return add_in_order(tile, back, numbers, bound, work);
+      add_in_order(front, numbers, work);
+      return add_in_order(back, numbers, work);
     }
   }
   cell.grid = grid_for(cell.half, distance_of_lights(cell, numbers), error_);
-  add_to_cell(tile, slots, cell, numbers, {}, 0, bound, work);
+  add_to_cell(points, cell, numbers, {}, 0, work);
 }
 
 // The harmonic mean over some of them, each by what it can send: half as near are most that count.
@@ -123,23 +130,21 @@ float ManyLights::distance_of_lights(const Cell& cell, Numbers numbers) const {
   return sum > 0 ? weights / sum / 2 : cell.radius + 1e-6f;
 }
 
-// As all of the cell sees it, if it sees one side.
-Element ManyLights::element_of(std::uint32_t i, const Cell& cell) const {
-  const Vec3f center = at(far_.center, i), normal = at(far_.normal, i), radiance = at(far_.radiance, i);
-  if (!(far_.is_flat[i] > 0)) return {center, {far_.area[i], 0, 0}, radiance};
-  const bool behind = far_.two_sided[i] > 0 && dot(cell.center - center, normal) < 0;
-  return {center, normal * (behind ? -far_.area[i] : far_.area[i]), radiance};
+// side: -1 for the light of the other.
+void ManyLights::add_element(std::uint32_t i, bool four, float side, Elements& elements) const {
+  if (four) {
+    elements.fours.push_back(far_.fours[i]);
+    if (side < 0) elements.fours.back().area = -elements.fours.back().area;
+  } else if (far_.is_flat[i] > 0) {
+    elements.ones.push_back(far_.elements[i]);
+    if (side < 0) elements.ones.back().area = -elements.ones.back().area;
+  } else {
+    elements.balls.push_back(far_.elements[i]);
+  }
 }
 
-void ManyLights::add_element(std::uint32_t i, const Element& e, bool four, Elements& elements) const {
-  if (four)
-    elements.fours.push_back({e.center, at(far_.reach_a, i), at(far_.reach_b, i), e.area * 0.25f, e.radiance});
-  else
-    (far_.is_flat[i] > 0 ? elements.ones : elements.balls).push_back(e);
-}
-
-void ManyLights::add_to_cell(SurfaceTile& tile, Slots slots, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
-                             TileVector& bound, Work& work) const {
+void ManyLights::add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+                             Work& work) const {
   Work::Level& level = work.level(depth);
   const std::size_t room = (numbers.count + 15) / 16 * 16;
   level.share.resize(room);
@@ -160,9 +165,9 @@ void ManyLights::add_to_cell(SurfaceTile& tile, Slots slots, const Cell& cell, N
       ++(share == Share::exact ? exact : share == Share::four_at_points ? fours : ones);
       continue;
     }
-    const Element e = element_of(i, cell);
-    add_element(i, e, share == Share::four, level.elements);
-    inner.bound.add(e.radiance, level.plain[k], level.grazing[k]);
+    const bool behind = far_.two_sided[i] > 0 && dot(cell.center - far_.elements[i].center, at(far_.normal, i)) < 0;
+    add_element(i, share == Share::four, behind ? -1.0f : 1.0f, level.elements);
+    inner.bound.add(far_.elements[i].radiance, level.plain[k], level.grazing[k]);
   }
   if (!level.elements.empty()) {
     packs_.fit(level.elements, cell, outer.polynomial, outer.cell, level.polynomial);
@@ -170,66 +175,68 @@ void ManyLights::add_to_cell(SurfaceTile& tile, Slots slots, const Cell& cell, N
     inner.polynomial = &level.polynomial;
   }
 
-  const auto points = static_cast<double>(slots.size());
-  const double here = points * (ones * kElement + fours * kFour + exact * kOutline);
+  const auto count = static_cast<double>(points.size());
+  const double here = count * (ones * kElement + fours * kFour + exact * kOutline);
   const double halves = 2 * (kHalf + static_cast<double>(level.left.size()) * kJudge);
   const Numbers left{level.left.data(), level.left.size()};
-  if (slots.size() >= 2 * kFewest && here > halves && depth < 16) {
-    const auto [front, back] = divided_by_place(tile, slots, cell);
+  if (points.size() >= 2 * kFewest && here > halves && depth < 16) {
+    const auto [front, back] = divided_by_place(points, cell);
     if (!front.empty() && !back.empty()) {
-      for (const Slots part : {front, back}) {
-        Cell half = cell_about(tile, part, cell.axes, eye_);
+      for (const ReceiverSpan part : {front, back}) {
+        Cell half = cell_about(part, cell.axes, eye_);
         half.grid = cell.grid;
-        add_to_cell(tile, part, half, left, inner, depth + 1, bound, work);
+        add_to_cell(part, half, left, inner, depth + 1, work);
       }
       return;
     }
   }
-  add_to_points(tile, slots, cell, numbers, inner, depth, bound, work);
+  add_to_points(points, cell, numbers, inner, depth, work);
 }
 
-void ManyLights::add_to_points(SurfaceTile& tile, Slots slots, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
-                               TileVector& bound, Work& work) const {
+void ManyLights::add_to_points(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+                               Work& work) const {
   Work::Level& level = work.level(depth);
-  Receivers& receivers = work.receivers;
-  receivers.count = slots.size();
-  receivers.filled = (slots.size() + 15) / 16 * 16;
-  for (std::size_t k = 0; k < receivers.filled; ++k) {
-    const std::uint32_t i = slots[std::min(k, slots.size() - 1)];
-    put(receivers.position, k, get(tile.position, i));
-    put(receivers.normal, k, get(tile.normal, i));
-    put(receivers.view, k, get(tile.view, i));
-    receivers.loss[k] = tile.fresnel_loss[i];
-    put(receivers.irradiance, k, {});
-  }
-  if (outer.polynomial != nullptr) packs_.add_polynomial(*outer.polynomial, *outer.cell, receivers);
-
-  Bound error = outer.bound;
+  Outer inner = outer;
+  level.exact.clear();
   level.elements.clear();
   for (std::size_t k = 0; k < numbers.count; ++k) {
     const std::uint32_t i = numbers[k];
-    if (level.share[k] == Share::exact) {
-      add_outline(*far_.lights[i], cell, receivers);
-      work.counts.outlines += slots.size();
-    }
+    if (level.share[k] == Share::exact) level.exact.push_back(i);
     const bool four = level.share[k] == Share::four_at_points;
     if (!four && level.share[k] != Share::one_at_points) continue;
-    Element e = element_of(i, cell);
-    add_element(i, e, four, level.elements);
-    if (far_.two_sided[i] > 0) {  // each point sees one of its sides
-      e.area = -e.area;
-      add_element(i, e, four, level.elements);
-    }
-    error.add(e.radiance, level.plain[k], level.grazing[k]);
-    work.counts.elements += slots.size();
+    add_element(i, four, 1, level.elements);
+    if (far_.two_sided[i] > 0) add_element(i, four, -1, level.elements);  // each point sees one of its sides
+    inner.bound.add(far_.elements[i].radiance, level.plain[k], level.grazing[k]);
+    work.counts.elements += points.size();
   }
-  if (!level.elements.empty()) packs_.add_elements(level.elements, receivers);
+  work.counts.outlines += points.size() * level.exact.size();
+  for (std::size_t first = 0; first < points.size(); first += kTilePixels)
+    add_to_some(points.subspan(first, std::min(kTilePixels, points.size() - first)), cell, {level.exact.data(), level.exact.size()},
+                level.elements, inner, work);
+}
 
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    const std::uint32_t i = slots[k];
-    const Vec3f lobe = get(tile.albedo, i) * std::numbers::inv_pi_v<float>;
-    put(tile.radiance, i, get(tile.radiance, i) + lobe * get(receivers.irradiance, k));
-    put(bound, i, get(bound, i) + lobe * (error.plain + error.grazing * receivers.loss[k]));
+// As many points as there is room for.
+void ManyLights::add_to_some(ReceiverSpan points, const Cell& cell, Numbers exact, const Elements& elements, const Outer& outer,
+                             Work& work) const {
+  Receivers& receivers = work.receivers;
+  receivers.count = points.size();
+  receivers.filled = (points.size() + 15) / 16 * 16;
+  for (std::size_t k = 0; k < receivers.filled; ++k) {
+    const Receiver& q = points[std::min(k, points.size() - 1)];
+    put(receivers.position, k, q.position);
+    put(receivers.normal, k, q.normal);
+    receivers.loss[k] = q.loss;
+    put(receivers.irradiance, k, {});
+  }
+  if (cell.loss > 0)
+    for (std::size_t k = 0; k < receivers.filled; ++k) put(receivers.view, k, normalized(eye_ - get(receivers.position, k)));
+  if (outer.polynomial != nullptr) packs_.add_polynomial(*outer.polynomial, *outer.cell, receivers);
+  for (std::size_t k = 0; k < exact.count; ++k) add_outline(*far_.lights[exact[k]], cell, receivers);
+  if (!elements.empty()) packs_.add_elements(elements, receivers);
+  Received* received = work.received + (points.data() - work.first);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vec3f lobe = points[k].albedo * std::numbers::inv_pi_v<float>;
+    received[k] = {lobe * get(receivers.irradiance, k), lobe * (outer.bound.plain + outer.bound.grazing * receivers.loss[k])};
   }
 }
 

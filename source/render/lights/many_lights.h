@@ -1,4 +1,4 @@
-// ManyLights: the diffuse light of any number of area lights on a tile, with a bound of what it is off.
+// ManyLights: the diffuse light of any number of area lights on surface points, with a bound of what it is off.
 //
 // Receivers are gathered in cells: boxes about points of one surface. A light far from a cell is an element at the cell's nodes, and
 // one polynomial through them stands for all such lights, at every point and for every normal there. What is nearer goes to the two
@@ -13,10 +13,11 @@
 #include "render/cpu/light_list.h"
 #include "render/lights/cell.h"
 #include "render/lights/receiver_cells.h"
+#include "render/lights/receiver_set.h"
 
 namespace steradian::lights {
 
-// What was done, over all tiles.
+// What was done, over all points.
 struct Counts {
   std::uint64_t points = 0;    // that many lights lit
   std::uint64_t elements = 0;  // pairs of a point and a light: elements at the point
@@ -46,25 +47,30 @@ class ManyLights {
   using WorkPointer = std::unique_ptr<Work, DeleteWork>;
   static WorkPointer make_work();
 
-  // Adds the radiance of the diffuse lobe under some lights, all of which it serves, to tile.radiance, and to `bound` how far each
-  // channel may be off.
+  // The radiance of the diffuse lobe under all lights that it serves, into `set`, and how far each channel may be off.
+  void add_diffuse(ReceiverSet& set, Work& work) const { add_diffuse(set, {nullptr, far_.count}, work); }
+  // Of a tile, under some of them: to tile.radiance and to `bound`.
   void add_diffuse(SurfaceTile& tile, const std::vector<const PackLight*>& lights, TileVector& bound, Work& work) const;
 
   static const Counts& counts(const Work& work);
 
  private:
-  struct Numbers;
+  // Lights by number; null: all.
+  struct Numbers {
+    const std::uint32_t* numbers;
+    std::size_t count;
+    std::uint32_t operator[](std::size_t i) const { return numbers != nullptr ? numbers[i] : static_cast<std::uint32_t>(i); }
+  };
   struct Bound;
   struct Outer;
-  void add_in_order(SurfaceTile& tile, Slots slots, Numbers numbers, TileVector& bound, Work& work) const;
-  void add_to_cell(SurfaceTile& tile, Slots slots, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
-                   TileVector& bound, Work& work) const;
-  void add_to_points(SurfaceTile& tile, Slots slots, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
-                     TileVector& bound, Work& work) const;
+  void add_diffuse(ReceiverSet& set, Numbers numbers, Work& work) const;
+  void add_in_order(ReceiverSpan points, Numbers numbers, Work& work) const;
+  void add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
+  void add_to_points(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
+  void add_to_some(ReceiverSpan points, const Cell& cell, Numbers exact, const Elements& elements, const Outer& outer, Work& work) const;
   void add_outline(const PackLight& light, const Cell& cell, Receivers& receivers) const;
   float distance_of_lights(const Cell& cell, Numbers numbers) const;
-  void add_element(std::uint32_t number, const Element& element, bool four, Elements& elements) const;
-  Element element_of(std::uint32_t number, const Cell& cell) const;
+  void add_element(std::uint32_t number, bool four, float side, Elements& elements) const;
 
   const FarLights far_;
   const Vec3f eye_;

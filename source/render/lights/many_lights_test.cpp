@@ -132,10 +132,11 @@ RenderOptions options(LightSum lights, double error) {
 struct Difference {
   double worst = 0;  // of |difference| - bound, over the picture's mean
   double over_bound = 0, rms = 0, mean_bound = 0;
+  double wide = 0;  // share of the channels that are not nearly black whose bound is above 5 times the error asked for of them
 };
 
 // rounding: what single precision may add: edges seen at a hundred times their length lose 6e-8 a hundredfold each, of two pictures.
-Difference difference(const Picture& all, const Picture& tree, float rounding = 2e-5f) {
+Difference difference(const Picture& all, const Picture& tree, double error, float rounding = 2e-5f) {
   const std::vector<Vec3f>& bounds = tree.layers.at("light_bound");
   Difference d;
   double sum = 0, squares = 0;
@@ -151,6 +152,15 @@ Difference difference(const Picture& all, const Picture& tree, float rounding = 
     }
   const auto count = static_cast<double>(3 * all.pixels.size());
   const double mean = sum / count;
+  double wide = 0, lit = 0;
+  for (std::size_t i = 0; i < all.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = [c](Vec3f v) { return static_cast<double>(c == 0 ? v.x : c == 1 ? v.y : v.z); };
+      if (!(channel(all.pixels[i]) > 0.01 * mean)) continue;
+      lit += 1;
+      wide += channel(bounds[i]) > 5 * error * channel(all.pixels[i]) ? 1 : 0;
+    }
+  d.wide = wide / lit;
   d.worst /= mean;
   d.rms = std::sqrt(squares / count) / mean;
   d.mean_bound /= sum;
@@ -158,7 +168,7 @@ Difference difference(const Picture& all, const Picture& tree, float rounding = 
 }
 
 Difference compare(const Scene& scene, double error, float rounding = 2e-5f) {
-  return difference(render(scene, options(LightSum::all, error)), render(scene, options(LightSum::tree, error)), rounding);
+  return difference(render(scene, options(LightSum::all, error)), render(scene, options(LightSum::tree, error)), error, rounding);
 }
 
 struct Case {
@@ -237,6 +247,21 @@ std::vector<Case> cases() {
     scene.area_lights.assign(1000, mixed_light(random, 0.2));
     return scene;
   });
+  // A thousand equal numbers, one after the other, round the same way: by up to half of 1000 times 6e-8.
+  list.back().rounding = 5e-5f;
+  for (const bool loss : {false, true})
+    add(loss ? "points under Fresnel" : "points", [loss] {
+      Scene scene = hall(loss ? painted() : diffuse());
+      scene.meshes.push_back(ball({-1, 1.2f, 5}, 1.1f));
+      Random random(12);
+      for (int i = 0; i < 150; ++i) {
+        PunctualLight lamp;
+        lamp.position = {uniform(random, -kX, kX), uniform(random, 0.1, kY), uniform(random, -kZ, kZ)};
+        lamp.intensity = color(random);
+        scene.punctual_lights.push_back(lamp);
+      }
+      return scene;
+    });
   add("points, suns, no area", [] {
     Scene scene = hall(diffuse());
     add_lights(scene, 80, 9, [](Random& random) { return mixed_light(random, 0.2); });
@@ -261,8 +286,8 @@ TEST(ManyLights, EveryPixelIsWithinItsBound) {
     for (const double error : {1e-1, 1e-2, 1e-3}) {
       if (error > 0.05 && c.name.find("Fresnel") == std::string::npos) continue;
       const Difference d = compare(scene, error, c.rounding);
-      std::printf("%-42s error %g: rms %.1e, largest over bound %.3f, mean bound %.1e\n", c.name.c_str(), error, d.rms, d.over_bound,
-                  d.mean_bound);
+      std::printf("%-42s error %g: rms %.1e, largest over bound %.3f, mean bound %.1e, above 5 errors %.4f\n", c.name.c_str(), error, d.rms,
+                  d.over_bound, d.mean_bound, d.wide);
       EXPECT_LE(d.worst, 0) << c.name << ", error " << error;
       EXPECT_LT(d.rms, error / 5) << c.name;  // lights that the horizon cuts err one way
       // A share of what the lights would send head-on; in these halls a tenth of that arrives, or more.
@@ -271,11 +296,13 @@ TEST(ManyLights, EveryPixelIsWithinItsBound) {
   }
 }
 
-// Lobes of transformed cosines under flat lights: elements, too. Under the map an edge is seen at a hundred times its length, more often
-// than from the surface: hence the greater rounding.
+// Glossy lobes under flat lights: elements, too. Under the map of transformed cosines an edge is seen at a hundred times its length, more
+// often than from the surface: hence the greater rounding. The closed form is itself off by a cubature of shadowing: by up to 2.5 % of dim
+// lights (docs/ggx.md), which an element is not.
 TEST(ManyLights, LobesAreWithinTheirBound) {
-  for (const char* method : {"ltc", "ltc-compact"})
+  for (const char* method : {"ltc", "ltc-compact", "closed-form"})
     for (const float roughness : {0.25f, 0.5f, 0.9f}) {
+      const bool closed_form = std::string(method) == "closed-form";
       SurfaceMaterial material = painted();
       material.metallic = roughness < 0.8f ? 1 : 0;
       material.roughness = roughness;
@@ -285,7 +312,8 @@ TEST(ManyLights, LobesAreWithinTheirBound) {
       for (const double error : {1e-1, 1e-2}) {
         RenderOptions all = options(LightSum::all, error), tree = options(LightSum::tree, error);
         all.method = tree.method = method;
-        const Difference d = difference(render(scene, all), render(scene, tree), 1e-4f);
+        const Picture one_by_one = render(scene, all);
+        const Difference d = difference(one_by_one, render(scene, tree), error, closed_form ? 0.01f : 1e-4f);
         std::printf("%s, roughness %.2f, error %g: rms %.1e, largest over bound %.3f, mean bound %.1e\n", method,
                     static_cast<double>(roughness), error, d.rms, d.over_bound, d.mean_bound);
         EXPECT_LE(d.worst, 0) << method << ", roughness " << roughness << ", error " << error;
@@ -340,7 +368,7 @@ TEST(ManyLights, ShadowsStayWhereTheyAre) {
   scene.meshes.push_back(ball({0, 1, 4}, 0.8f));
   RenderOptions all = options(LightSum::all, 1e-2), tree = options(LightSum::tree, 1e-2);
   all.shadows = tree.shadows = Shadows::on;
-  const Difference d = difference(render(scene, all), render(scene, tree));
+  const Difference d = difference(render(scene, all), render(scene, tree), 1e-2);
   EXPECT_LE(d.worst, 0);
   EXPECT_GT(d.mean_bound, 0);
 }

@@ -8,12 +8,10 @@
 namespace steradian::lights {
 namespace {
 
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
-
-Vec3f mean_normal(const SurfaceTile& tile, Slots slots) {
+Vec3f mean_normal(ReceiverSpan points) {
   Vec3f sum{};
-  for (const std::uint32_t i : slots) sum = sum + get(tile.normal, i);
-  return dot(sum, sum) > 1e-12f ? normalized(sum) : get(tile.normal, slots.front());
+  for (const Receiver& q : points) sum = sum + q.normal;
+  return dot(sum, sum) > 1e-12f ? normalized(sum) : points.front().normal;
 }
 
 struct Range {
@@ -27,10 +25,10 @@ struct Range {
 };
 
 template <class Key>
-std::pair<Slots, Slots> divided(Slots slots, float at, Key key) {
-  const auto middle = std::partition(slots.begin(), slots.end(), [&](std::uint32_t i) { return key(i) < at; });
-  const auto count = static_cast<std::size_t>(middle - slots.begin());
-  return {slots.first(count), slots.subspan(count)};
+std::pair<ReceiverSpan, ReceiverSpan> divided(ReceiverSpan points, float at, Key key) {
+  const auto middle = std::partition(points.begin(), points.end(), [&](const Receiver& q) { return key(q) < at; });
+  const auto count = static_cast<std::size_t>(middle - points.begin());
+  return {points.first(count), points.subspan(count)};
 }
 
 constexpr float kTurn = 0.6f;        // of a cone that is worth a cell [rad, as a chord]
@@ -39,19 +37,19 @@ constexpr std::size_t kWorthy = 64;  // fewer points than that are not divided f
 
 }  // namespace
 
-Cell cell_about(const SurfaceTile& tile, Slots slots, const std::array<Vec3f, 3>& axes, Vec3f eye) {
+Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye) {
   Cell cell;
   cell.axes = axes;
-  cell.normal = mean_normal(tile, slots);
+  cell.normal = mean_normal(points);
   cell.eye = eye;
   // About the first point: products of coordinates far from the origin would lose digits.
-  const Vec3f origin = get(tile.position, slots.front());
+  const Vec3f origin = points.front().position;
   std::array<Range, 3> along;
-  for (const std::uint32_t i : slots) {
-    const Vec3f p = get(tile.position, i) - origin, off = get(tile.normal, i) - cell.normal;
+  for (const Receiver& q : points) {
+    const Vec3f p = q.position - origin, off = q.normal - cell.normal;
     for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(p, axes[k]));
     cell.turn = std::max(cell.turn, dot(off, off));
-    cell.loss = std::max(cell.loss, tile.fresnel_loss[i]);
+    cell.loss = std::max(cell.loss, q.loss);
   }
   cell.turn = std::sqrt(cell.turn) + 1e-6f;
   cell.center = origin;
@@ -63,14 +61,14 @@ Cell cell_about(const SurfaceTile& tile, Slots slots, const std::array<Vec3f, 3>
   return cell;
 }
 
-Cell cell_about(const SurfaceTile& tile, Slots slots, Vec3f eye) {
-  const Vec3f normal = mean_normal(tile, slots), origin = get(tile.position, slots.front());
+Cell cell_about(ReceiverSpan points, Vec3f eye) {
+  const Vec3f normal = mean_normal(points), origin = points.front().position;
   const Vec3f aside = std::abs(normal.x) < 0.7f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0};
   const Vec3f x = normalized(cross(aside, normal)), y = cross(normal, x);
   // Covariances in the plane, and the angle of their longer axis.
   float sx = 0, sy = 0, xx = 0, xy = 0, yy = 0;
-  for (const std::uint32_t i : slots) {
-    const Vec3f p = get(tile.position, i) - origin;
+  for (const Receiver& q : points) {
+    const Vec3f p = q.position - origin;
     const float a = dot(p, x), b = dot(p, y);
     sx += a;
     sy += b;
@@ -78,37 +76,37 @@ Cell cell_about(const SurfaceTile& tile, Slots slots, Vec3f eye) {
     xy += a * b;
     yy += b * b;
   }
-  const auto count = static_cast<float>(slots.size());
+  const auto count = static_cast<float>(points.size());
   xx -= sx * sx / count;
   xy -= sx * sy / count;
   yy -= sy * sy / count;
   const float angle = std::atan2(2 * xy, xx - yy) / 2, c = std::cos(angle), s = std::sin(angle);
-  return cell_about(tile, slots, {x * c + y * s, y * c - x * s, normal}, eye);
+  return cell_about(points, {x * c + y * s, y * c - x * s, normal}, eye);
 }
 
-Disorder disorder_of(const SurfaceTile& tile, Slots slots, const Cell& cell) {
-  if (slots.size() < kWorthy) return Disorder::none;
-  if (cell.turn > kTurn && divided_by_normals(tile, slots).first.size() > 0) return Disorder::normals;
+Disorder disorder_of(ReceiverSpan points, const Cell& cell) {
+  if (points.size() < kWorthy) return Disorder::none;
+  if (cell.turn > kTurn && divided_by_normals(points).first.size() > 0) return Disorder::normals;
   if (cell.half.z > kThick * std::max(cell.half.x, cell.half.y)) return Disorder::places;
   return Disorder::none;
 }
 
-std::pair<Slots, Slots> divided_by_normals(const SurfaceTile& tile, Slots slots) {
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_normals(ReceiverSpan points) {
   Range x, y, z;
-  for (const std::uint32_t i : slots) {
-    x.add(tile.normal.x[i]);
-    y.add(tile.normal.y[i]);
-    z.add(tile.normal.z[i]);
+  for (const Receiver& q : points) {
+    x.add(q.normal.x);
+    y.add(q.normal.y);
+    z.add(q.normal.z);
   }
   const bool by_x = x.half() >= y.half() && x.half() >= z.half(), by_y = !by_x && y.half() >= z.half();
-  const TilePlane& plane = by_x ? tile.normal.x : by_y ? tile.normal.y : tile.normal.z;
-  return divided(slots, (by_x ? x : by_y ? y : z).middle(), [&](std::uint32_t i) { return plane[i]; });
+  const auto key = [&](const Receiver& q) { return by_x ? q.normal.x : by_y ? q.normal.y : q.normal.z; };
+  return divided(points, (by_x ? x : by_y ? y : z).middle(), key);
 }
 
-std::pair<Slots, Slots> divided_by_place(const SurfaceTile& tile, Slots slots, const Cell& cell) {
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const Cell& cell) {
   const bool by_x = cell.half.x >= cell.half.y && cell.half.x >= cell.half.z, by_y = !by_x && cell.half.y >= cell.half.z;
   const Vec3f axis = cell.axes[by_x ? 0 : by_y ? 1 : 2];
-  return divided(slots, 0, [&](std::uint32_t i) { return dot(get(tile.position, i) - cell.center, axis); });
+  return divided(points, 0, [&](const Receiver& q) { return dot(q.position - cell.center, axis); });
 }
 
 NodeGrid grid_for(Vec3f half, float distance, float error) {
