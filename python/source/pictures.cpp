@@ -40,7 +40,7 @@ LightUnits light_units(const std::string& name) {
 
 LoadedScene load(const std::string& path, const py::dict& o) {
   LoadOptions options;
-  options.max_lights = o["max_lights"].cast<int>();
+  if (!o["max_lights"].is_none()) options.max_lights = o["max_lights"].cast<int>();
   options.environment = o["environment"].cast<std::string>();
   options.light_units = light_units(o["light_units"].cast<std::string>());
   options.aspect = o["aspect"].cast<double>();
@@ -156,6 +156,13 @@ Terminator terminator_of(const std::string& name) {
   throw Error("terminator", "'" + name + "' is not known", "strict or smooth");
 }
 
+LightSum light_sum(const std::string& name) {
+  if (name == "auto") return LightSum::automatic;
+  if (name == "all") return LightSum::all;
+  if (name == "tree") return LightSum::tree;
+  throw Error("lights", "'" + name + "' is not known", "auto, all or tree");
+}
+
 py::tuple render_scene(LoadedScene& loaded, const py::dict& o, const py::object& progress) {
   RenderOptions options;
   const auto number = [&](const char* key, int low) {
@@ -171,6 +178,8 @@ py::tuple render_scene(LoadedScene& loaded, const py::dict& o, const py::object&
   options.quality = quality_of(o["quality"].cast<std::string>());
   options.shadows = shadows_of(o["shadows"].cast<std::string>());
   options.terminator = terminator_of(o["terminator"].cast<std::string>());
+  options.lights = light_sum(o["lights"].cast<std::string>());
+  options.light_error = o["light_error"].cast<double>();
   options.background = o["background"].cast<bool>();
   options.aa = number("aa", 1);
   options.spp = number("spp", 1);
@@ -195,6 +204,7 @@ py::tuple render_scene(LoadedScene& loaded, const py::dict& o, const py::object&
   told["lights"] = stats.lights;
   told["triangles"] = stats.triangles;
   told["threads"] = stats.threads;
+  told["light_tree"] = stats.light_tree;
   told["shadow_fallback"] = stats.shadow_fallback;
   told["total_ms"] = stats.total_ms;
   py::dict passes;

@@ -30,11 +30,11 @@ class Fit(NamedTuple):
     largest_error: float
 
 
-def load_scene(path: Path, *, max_lights: int = 256, environment: str = "", lights: Sequence[str] = (), light_units: str = "auto",
+def load_scene(path: Path, *, max_lights: Optional[int] = None, environment: str = "", lights: Sequence[str] = (), light_units: str = "auto",
                aspect: float = 16 / 9, max_memory: int = 4_000_000_000, max_work: int = 2_000_000_000) -> _core.Scene:
     """Reads a glTF 2.0 file (.gltf or .glb).
 
-    max_lights   area lights kept, strongest first
+    max_lights   area lights kept, strongest first; None: 256, and each mesh and single light
     environment  light from all around: a map's path, "white" or "sky"; empty: the file's own
     lights       beside the file's: "default", "none", "sun", "studio"
     light_units  of punctual lights beside emission: "auto", "candela" or "watt"
@@ -48,15 +48,16 @@ def load_scene(path: Path, *, max_lights: int = 256, environment: str = "", ligh
 
 
 def render(scene: Union[_core.Scene, Path], width: int = 1280, height: int = 720, *, camera: str = "", method: str = "auto",
-           quality: str = "normal", shadows: str = "on", terminator: str = "strict", indirect: str = "off",
-           multiple_scattering: bool = False, background: bool = True, aa: int = 1, spp: int = 16, target_error: float = 0.01,
-           table: Path = "", seed: int = 1, threads: int = 0, progress: Optional[Callable[[int, int], Any]] = None,
+           quality: str = "normal", shadows: str = "on", terminator: str = "strict", lights: str = "auto", light_error: float = 0.01,
+           indirect: str = "off", multiple_scattering: bool = False, background: bool = True, aa: int = 1, spp: int = 16,
+           target_error: float = 0.01, table: Path = "", seed: int = 1, threads: int = 0, progress: Optional[Callable[[int, int], Any]] = None,
            stats: bool = False) -> Union[Picture, Tuple[Picture, Dict[str, Any]]]:
     """A scene as a picture of linear radiance, (height, width, 3) float32, the top row first.
 
     scene     what load_scene returned, or a path
     method    of the specular lobe: a name of `steradian render --help`
     shadows   "on", "exact" (never by rays) or "off"
+    lights    "all" one by one, "tree": far ones together, each within light_error of its light, or "auto": the tree from 64 on
     indirect  one bounce: "off", "ltc", "ggx" or "path"
     progress  called as progress(done, total) from any thread; what it raises ends the render
     stats     True: returns the picture and a dictionary of times, counts, warnings and further layers
@@ -65,8 +66,8 @@ def render(scene: Union[_core.Scene, Path], width: int = 1280, height: int = 720
     """
     loaded = scene if isinstance(scene, _core.Scene) else load_scene(scene, aspect=width / max(height, 1))
     options = dict(width=width, height=height, camera=camera, method=method, quality=quality, shadows=shadows, terminator=terminator,
-                   indirect=indirect, multiple_scattering=multiple_scattering, background=background, aa=aa, spp=spp,
-                   target_error=target_error, table=os.fspath(table), seed=seed, threads=threads)
+                   lights=lights, light_error=light_error, indirect=indirect, multiple_scattering=multiple_scattering,
+                   background=background, aa=aa, spp=spp, target_error=target_error, table=os.fspath(table), seed=seed, threads=threads)
     picture, told = _core.render(loaded, options, progress)
     return (picture, told) if stats else picture
 

@@ -40,6 +40,15 @@ class Pictures(unittest.TestCase):
         self.assertIn("total_ms", told)
         self.assertEqual(picture.shape, (24, 32, 3))
 
+    def test_lights_one_by_one_or_together(self):
+        alone, told = steradian.render(PLANE, 32, 24, stats=True, lights="all")
+        self.assertFalse(told["light_tree"])
+        together, told = steradian.render(PLANE, 32, 24, stats=True, lights="tree", light_error=1e-3)
+        self.assertTrue(told["light_tree"])
+        np.testing.assert_allclose(together, alone, atol=1e-3 * alone.max())
+        with self.assertRaisesRegex(steradian.Error, "auto, all or tree"):
+            steradian.render(PLANE, 32, 24, lights="some")
+
     def test_progress_is_told_and_may_end_it(self):
         seen = []
         steradian.render(PLANE, 64, 64, progress=lambda done, total: seen.append((done, total)))
