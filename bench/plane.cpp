@@ -70,6 +70,7 @@ Bench on_device(const LightField& field, const std::string& device) {
                                   {"upload", s.upload_ms},
                                   {"device", s.device_ms},
                                   {"resolve", s.resolve_ms},
+                                  {"device: lists", s.making_lists_ms},
                                   {"device: round lights", s.disks_ms},
                                   {"device: edges", s.cuts_ms}};
   };

@@ -10,6 +10,9 @@ layout(std430, binding = 0) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 1) readonly buffer Pairs { uint pairs[]; };
 layout(std430, binding = 2) readonly buffer Vertices { vec4 vertices[]; };  // x and y, each as a float and what that leaves
 layout(std430, binding = 3) buffer Sums { float sums[]; };
+#if KIND == PLANE_LISTED
+layout(std430, binding = 4) readonly buffer Masks { uint masks[]; };
+#endif
 layout(push_constant) uniform Push { uint first_job; };
 
 #include "prelude/prelude.glsl"
@@ -28,7 +31,7 @@ vec2 eye;  // the pixel, from the tile's centre
 
 #include "plane_cut.glsl"
 #include "plane_disk.glsl"
-#if KIND == PLANE_DISKS
+#if KIND == PLANE_DISKS || KIND == PLANE_LISTED
 #include "plane_events.glsl"
 #else
 #include "plane_blockers.glsl"
@@ -54,9 +57,14 @@ void main() {
     eye = (vec2(float(x), float(y)) - 7.5) * pixel_step;
 
     too_many = false;
+    turns = 0;
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < count; i++) {
-#if KIND == PLANE_DISKS
+        ++turns;
+#if KIND == PLANE_LISTED
+        sum += listed_light(at, center);
+        at += uint(kListedLight);
+#elif KIND == PLANE_DISKS
         sum += event_light(at, center);
         at += uint(kDiskLight) + lists[at + 7u];
 #else
@@ -75,5 +83,5 @@ void main() {
         uint to = slot + uint(c * kPixels);
         sums[to] = (fresh ? 0.0 : sums[to]) + sum[c];
     }
-    if (too_many) sums[tile * uint(kTileSums) + uint(kToCpu)] = 1.0;
+    if (too_many || turns > kMostTurns) sums[tile * uint(kTileSums) + uint(kToCpu)] = 1.0;
 }

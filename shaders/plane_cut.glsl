@@ -10,6 +10,7 @@ float begins[kIntervals];  // sorted, apart from each other
 float ends[kIntervals];
 int taken;
 bool too_many;
+int turns;  // of loops, at least as many as there were
 
 void open_cut(float from, float to) {
     low = from;
@@ -18,6 +19,7 @@ void open_cut(float from, float to) {
 }
 
 void keep_interval(float from, float to) {
+    turns += 3 * taken + 3;
     int first = 0;
     while (first < taken && ends[first] < from) ++first;
     int last = first;

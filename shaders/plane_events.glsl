@@ -60,6 +60,7 @@ void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
     float from = 1.0e6;
     float to = -1.0e6;
     uint count = kind >> 8;
+    turns += int(count);
     for (uint k = 0u; k < count; k++) {
         vec2 v = vertex_at(first + k, center);
         vec2 from_eye = v - eye;
@@ -89,6 +90,7 @@ void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
     uint count = kind >> 8;
     uint k = chain & 255u;
     uint more = (chain >> 8) & 255u;
+    turns += int(more);
     for (; more > 0u; more--) {
         vec2 v = vertex_at(first + k, center);
         float place = place_on_light(v - light, v - eye);
@@ -98,27 +100,24 @@ void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
     }
 }
 
-vec3 event_light(uint at, vec4 center) {
-    vec2 light = pair_of_numbers(at);
-    DiskView view = disk_view(light, number(at + 2u), number(at + 3u));
-    uint count = lists[at + 7u];
-    float slack = number(2u);
-    vec2 p = eye - light;
-    open_cut(-view.reach, view.reach);
-    for (uint i = 0u; i < count && low < high; i++) {
-        uint pair = lists[at + uint(kDiskLight) + i] * uint(kPair);
-        float separator = pair_line(pair, 2, p);
-        if (pair_line(pair, 0, p) < -slack || pair_line(pair, 1, p) < -slack || separator < -slack) continue;
-        bool beyond = separator > slack && pair_line(pair, 5, p) > slack;
-        bool from_low = beyond && pair_line(pair, 3, p) > slack;
-        bool to_high = beyond && pair_line(pair, 4, p) > slack;
-        if (from_low && to_high)
-            high = low;
-        else if (from_low || to_high)
-            take_end(pair, from_low, p, light, center);
-        else
-            take_within(pair, p, light, center);
-    }
+// What one pair takes, by the lines that the pixel is clear of.
+void take_pair(uint pair, vec2 p, vec2 light, vec4 center, float slack) {
+    ++turns;
+    float separator = pair_line(pair, 2, p);
+    if (pair_line(pair, 0, p) < -slack || pair_line(pair, 1, p) < -slack || separator < -slack) return;
+    bool beyond = separator > slack && pair_line(pair, 5, p) > slack;
+    bool from_low = beyond && pair_line(pair, 3, p) > slack;
+    bool to_high = beyond && pair_line(pair, 4, p) > slack;
+    if (from_low && to_high)
+        high = low;
+    else if (from_low || to_high)
+        take_end(pair, from_low, p, light, center);
+    else
+        take_within(pair, p, light, center);
+}
+
+// Of what is left of a light.
+float share_left(DiskView view) {
     float sum = 0.0;
     float from = max(low, -view.reach);
     high = min(high, view.reach);
@@ -127,5 +126,44 @@ vec3 event_light(uint at, vec4 center) {
         if (to > from) sum += disk_share(view, disk_slope(view, from), disk_slope(view, to));
         from = after_gap(k, from);
     }
-    return vec3(number(at + 4u), number(at + 5u), number(at + 6u)) * (max(sum, 0.0) * kInverseTurn);
+    turns += taken + 1;
+    return max(sum, 0.0) * kInverseTurn;
 }
+
+#if KIND == PLANE_DISKS
+
+vec3 event_light(uint at, vec4 center) {
+    vec2 light = pair_of_numbers(at);
+    DiskView view = disk_view(light, number(at + 2u), number(at + 3u));
+    uint count = lists[at + 7u];
+    open_cut(-view.reach, view.reach);
+    for (uint i = 0u; i < count && low < high; i++)
+        take_pair(lists[at + uint(kDiskLight) + i] * uint(kPair), eye - light, light, center, number(2u));
+    return colour_at(at + 4u) * share_left(view);
+}
+
+#else
+
+// By the lists that shaders/plane_lists.comp has made.
+vec3 listed_light(uint at, vec4 center) {
+    uint disk = lists[at];
+    uint mask_at = lists[at + 1u];
+    if (masks[mask_at] == 1u) return vec3(0.0);  // hidden from all of the tile
+    vec2 light = vec2((number(disk) - center.x) + (number(disk + 1u) - center.y), (number(disk + 2u) - center.z) + (number(disk + 3u) - center.w));
+    DiskView view = disk_view(light, number(disk + 4u), number(disk + 5u));
+    uint first = lists[disk + uint(kDiskFirstPair)];
+    uint words = (lists[disk + uint(kDiskPairs)] + 31u) / 32u;
+    open_cut(-view.reach, view.reach);
+    for (uint w = 0u; w < words && low < high; w++) {
+        uint left = masks[mask_at + 1u + w];
+        ++turns;
+        while (left != 0u && low < high) {
+            uint i = 32u * w + uint(findLSB(left));
+            left &= left - 1u;
+            take_pair((first + i) * uint(kPair), eye - light, light, center, number(2u));
+        }
+    }
+    return colour_at(disk + 6u) * share_left(view);
+}
+
+#endif

@@ -3,3 +3,4 @@
 #define PLANE_DISKS 0
 #define PLANE_CUTS 1
 #define PLANE_ARCS 2
+#define PLANE_LISTED 3

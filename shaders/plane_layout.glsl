@@ -19,6 +19,22 @@ const int kPairFirst = 19;
 const int kPairKind = 20;   // kind, count
 const int kPairChain = 21;  // end_first, ends, begin_first, begins
 
+// A light whose lists the device makes: where its disk stands, where its mask of the tile.
+const int kListedLight = 2;
+// A disk: x and y, each as a float and what that leaves, radius, 1 / range, red, green, blue; x and y from the picture's corner; its first
+// pair, how many there are; tiles that it reaches: the first one's column and row, how many across and down; where its masks begin. A mask:
+// 1 where one blocker hides the light from all of the tile, then a bit a pair.
+const int kDisk = 20;
+const int kDiskCorner = 9;
+const int kDiskFirstPair = 11;
+const int kDiskPairs = 12;
+const int kDiskTiles = 13;
+const int kDiskMasks = 17;
+const int kDiskHeader = 3;  // in the header: where the disks begin
+
+// Turns that a thread's loops may take in all: a software device ends them at 65,535 without a word.
+const int kMostTurns = 60000;
+
 // A light by the general rules: words, then its lists in the order of their counts.
 const int kLightKind = 0;  // TileKind
 const int kLightX = 1;

@@ -100,10 +100,11 @@ void render_plane_scene(const PlaneRender& job) {
     const PlaneDeviceStats& d = device->stats();
     const std::pair<const char*, double> parts[] = {{"frame: lists", d.lists_ms},         {"frame: upload", d.upload_ms},
                                                     {"frame: device", d.device_ms},       {"frame: resolve", d.resolve_ms},
-                                                    {"device: round lights", d.disks_ms}, {"device: edges", d.cuts_ms},
-                                                    {"device: arcs", d.arcs_ms}};
+                                                    {"device: lists", d.making_lists_ms}, {"device: round lights", d.disks_ms},
+                                                    {"device: edges", d.cuts_ms},         {"device: arcs", d.arcs_ms}};
     for (const auto& [name, ms] : parts) json["passes"].push_back({{"name", name}, {"ms", ms}});
-    json["tiles"] = {{"on_device", d.tiles - d.tiles_of_cpu}, {"on_cpu", d.tiles_of_cpu}, {"bytes", d.bytes}};
+    json["tiles"] = {
+        {"on_device", d.tiles - d.tiles_of_cpu}, {"on_cpu", d.tiles_of_cpu}, {"lights_listed", d.lights_listed}, {"bytes", d.bytes}};
   }
   if (bounces) {
     const PlaneBounceStats& b = bounces->stats();

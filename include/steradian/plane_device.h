@@ -1,5 +1,5 @@
 // Frames of the plane on a Vulkan device: the light of every tile is added up there, a thread a pixel. The lists of lights and blockers
-// are the CPU's own. Needs the layer `plane_vulkan` (steradian::plane_vulkan).
+// are the CPU's own, but for those of most round lights, which the device makes. Needs the layer `plane_vulkan` (steradian::plane_vulkan).
 #pragma once
 
 #include <memory>
@@ -16,9 +16,11 @@ class Device;
 struct PlaneDeviceStats {
   double lists_ms = 0, upload_ms = 0, resolve_ms = 0;  // of the host: lists of tiles, their way to the device, sums into the picture
   double device_ms = 0;                                // all that was waited for
-  double disks_ms = 0, cuts_ms = 0, arcs_ms = 0;       // the device's own clock: round lights, disks and edges, arcs; 0 where it has none
+  double making_lists_ms = 0;                          // the device's own clock, 0 where it has none: lists of round lights,
+  double disks_ms = 0, cuts_ms = 0, arcs_ms = 0;       // round lights, disks and edges, arcs
   std::size_t tiles = 0;                               // that had light to add up
   std::size_t tiles_of_cpu = 0;                        // of these, drawn by the CPU: more intervals in a light than a thread keeps
+  std::size_t lights_listed = 0;                       // round lights whose lists the device made
   std::size_t bytes = 0;                               // of buffers on the device
 };
 

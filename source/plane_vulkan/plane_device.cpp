@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <span>
+#include <utility>
 
 #include "plane/frame/event_walk.h"
 #include "plane/frame/frame.h"
+#include "plane_vulkan/listed_disks.h"
 #include "plane_vulkan/recorded_tiles.h"
 #include "plane_vulkan/shaders.h"
 #include "render/vulkan/compute_program.h"
@@ -30,7 +33,8 @@ constexpr std::size_t kWordsOfBatch = std::size_t{4} << 20;
 constexpr std::size_t kTilesOfBatch = 8192;
 constexpr std::size_t kWordBytes = sizeof(std::uint32_t);
 constexpr std::size_t kHeader = kJob;  // pixel steps, slack: in the place of a job
-constexpr std::uint32_t kGroupsOfTile = 4;
+constexpr std::uint32_t kGroupsOfTile = 4, kThreads = 64;
+constexpr std::size_t kBuffers = 5, kMostOfDispatch = 65535;  // groups along one axis, as Vulkan promises
 
 static_assert(kPixels == kTilePixels);
 
@@ -61,8 +65,8 @@ namespace steradian {
 using namespace plane;
 
 struct PlaneDevice::Impl {
-  explicit Impl(std::shared_ptr<const vulkan::Device> d) : device(std::move(d)), program(usable(*device), plane_shaders(), 4) {
-    for (std::size_t g = 0; g < kLightGroups; ++g) pipelines[g] = program.pipeline(g);
+  explicit Impl(std::shared_ptr<const vulkan::Device> d) : device(std::move(d)), program(usable(*device), plane_shaders(), kBuffers) {
+    for (std::size_t g = 0; g < kPrograms; ++g) pipelines[g] = program.pipeline(g);
   }
 
   // One that holds so many bytes: made anew, with room for half as much again, where it is too small.
@@ -95,20 +99,29 @@ struct PlaneDevice::Impl {
 
   const std::shared_ptr<const vulkan::Device> device;
   vulkan::ComputeProgram program;
-  std::size_t pipelines[kLightGroups];
-  std::unique_ptr<Buffer> lists, pairs, vertices, sums;
+  static constexpr std::size_t kListed = kLightGroups, kLists = kLightGroups + 1, kPrograms = kLightGroups + 2;
+  std::size_t pipelines[kPrograms];
+  std::unique_ptr<Buffer> lists, pairs, vertices, sums, masks;
+  ListedDisks disks;
+  bool lists_made = false;  // of the disks, in this frame
   std::vector<RecordedTiles> squares;
-  struct Listed {
+  struct InBatch {
     const RecordedTiles* of;
     const RecordedTile* tile;
+    std::span<const ListedDisks::Entry> disks;
   };
-  std::vector<Listed> batch;
+  std::vector<InBatch> batch;
   std::vector<const RecordedTile*> for_cpu;
   PlaneDeviceStats stats;
 
  private:
   static const vulkan::Device& usable(const vulkan::Device& device) {
     vulkan::check_device(device.info());
+    if (device.info().storage_buffers < kBuffers)
+      throw Error("Vulkan device '" + device.info().name + "'",
+                  "lets a shader have " + std::to_string(device.info().storage_buffers) + " storage buffers, the plane needs " +
+                      std::to_string(kBuffers),
+                  "choose another --device, or --backend cpu");
     return device;
   }
 };
@@ -117,21 +130,62 @@ struct PlaneDevice::Impl {
 void PlaneDevice::Impl::run(const PixelGrid& grid, float slack, Picture& picture) {
   if (batch.empty()) return;
   auto start = Clock::now();
-  std::size_t jobs = 0, words = kHeader;
+  // The header, disks, jobs, and what they are about.
+  const std::size_t before_jobs = (kHeader + disks.records().size() + kJob - 1) / kJob * kJob;
+  std::size_t jobs = 0, words = before_jobs;
   int rounds = 0;
-  for (const Listed& l : batch) {
-    jobs += l.tile->jobs;
-    words += l.tile->jobs * kJob + l.tile->words;
+  for (const InBatch& l : batch) {
+    const std::size_t own = l.tile->jobs + (l.disks.empty() ? 0 : 1);
+    jobs += own;
+    words += own * kJob + l.tile->words + l.disks.size() * kListedLight;
     for (std::size_t k = 0; k < l.tile->jobs; ++k) rounds = std::max(rounds, l.of->jobs(*l.tile)[k].round + 1);
   }
   auto* to = static_cast<std::uint32_t*>(fitting(lists, words * kWordBytes, BufferUse::host_writes).mapped());
   to[0] = bits(static_cast<float>(grid.step.x));
   to[1] = bits(static_cast<float>(grid.step.y));
   to[2] = bits(slack);
-  std::uint32_t *job = to + kHeader, *free = job + jobs * kJob;
+  to[kDiskHeader] = kHeader;
+  std::copy(disks.records().begin(), disks.records().end(), to + kHeader);
+  std::uint32_t *job = to + before_jobs, *free = job + jobs * kJob;
   std::vector<bool> begun(batch.size(), false);
   std::vector<vulkan::ComputeProgram::Dispatch> dispatches;
   std::vector<double PlaneDeviceStats::*> clocks;
+  const auto put_job = [&](std::size_t i, std::uint32_t lights) {
+    const RecordedTile& tile = *batch[i].tile;
+    const Split x(tile.center.x), y(tile.center.y);
+    const std::uint32_t values[kJob] = {static_cast<std::uint32_t>(i),
+                                        static_cast<std::uint32_t>(free - to),
+                                        lights,
+                                        bits(x.most),
+                                        bits(x.rest),
+                                        bits(y.most),
+                                        bits(y.rest),
+                                        begun[i] ? 0u : 1u};
+    begun[i] = true;
+    job = std::copy(std::begin(values), std::end(values), job);
+  };
+  if (!std::exchange(lists_made, true))
+    for (std::size_t first = 0; first < disks.count(); first += kMostOfDispatch) {
+      dispatches.push_back({pipelines[kLists], static_cast<std::uint32_t>((disks.most_cells() + kThreads - 1) / kThreads),
+                            static_cast<std::uint32_t>(std::min(disks.count() - first, kMostOfDispatch)),
+                            static_cast<std::uint32_t>(first)});
+      clocks.push_back(&PlaneDeviceStats::making_lists_ms);
+    }
+  const auto first_listed = static_cast<std::uint32_t>((job - to) / kJob);
+  std::uint32_t listed = 0;
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (batch[i].disks.empty()) continue;
+    put_job(i, static_cast<std::uint32_t>(batch[i].disks.size()));
+    for (const ListedDisks::Entry& entry : batch[i].disks) {
+      *free++ = static_cast<std::uint32_t>(kHeader) + entry.disk * static_cast<std::uint32_t>(kDisk);
+      *free++ = entry.mask;
+    }
+    ++listed;
+  }
+  if (listed > 0) {
+    dispatches.push_back({pipelines[kListed], kGroupsOfTile, listed, first_listed});
+    clocks.push_back(&PlaneDeviceStats::disks_ms);
+  }
   for (const LightGroup group : {LightGroup::disks, LightGroup::cuts, LightGroup::arcs})
     for (int round = 0; round < rounds; ++round) {
       const auto first = static_cast<std::uint32_t>((job - to) / kJob);
@@ -141,17 +195,7 @@ void PlaneDevice::Impl::run(const PixelGrid& grid, float slack, Picture& picture
         const RecordedJob *begin = batch[i].of->jobs(tile), *end = begin + tile.jobs;
         const RecordedJob* one = std::find_if(begin, end, [&](const RecordedJob& j) { return j.group == group && j.round == round; });
         if (one == end) continue;
-        const Split x(tile.center.x), y(tile.center.y);
-        const std::uint32_t values[kJob] = {static_cast<std::uint32_t>(i),
-                                            static_cast<std::uint32_t>(free - to),
-                                            one->lights,
-                                            bits(x.most),
-                                            bits(x.rest),
-                                            bits(y.most),
-                                            bits(y.rest),
-                                            begun[i] ? 0u : 1u};
-        begun[i] = true;
-        job = std::copy(std::begin(values), std::end(values), job);
+        put_job(i, one->lights);
         free = std::copy_n(batch[i].of->words(group) + one->first, one->words, free);
         ++count;
       }
@@ -166,7 +210,7 @@ void PlaneDevice::Impl::run(const PixelGrid& grid, float slack, Picture& picture
   stats.upload_ms += ms_since(start);
 
   start = Clock::now();
-  const std::vector<double> ms = program.run({lists.get(), pairs.get(), vertices.get(), sums.get()}, dispatches);
+  const std::vector<double> ms = program.run({lists.get(), pairs.get(), vertices.get(), sums.get(), masks.get()}, dispatches);
   for (std::size_t i = 0; i < ms.size(); ++i) stats.*clocks[i] += ms[i];
   stats.device_ms += ms_since(start);
 
@@ -197,10 +241,14 @@ void PlaneDevice::Impl::fill(const FrameScene& frame, const PlaneFrameOptions& o
                              PlaneFrameStats& counts) {
   auto start = Clock::now();
   const std::size_t on_device = upload_pairs(frame);
+  disks.choose(frame, grid, on_device, kLargestBuffer / kWordBytes);
+  fitting(masks, disks.mask_words() * kWordBytes, BufferUse::host_writes);
+  lists_made = false;
+  stats.lights_listed += disks.count();
   stats.upload_ms += ms_since(start);
   start = Clock::now();
   if (squares.size() < squares_of(grid)) squares.resize(squares_of(grid));
-  for (RecordedTiles& square : squares) square.clear(on_device);
+  for (RecordedTiles& square : squares) square.clear(on_device, disks.is_listed());
   const ListsOfSquare lists_of = [&](std::size_t square) -> TileLists& { return squares[square]; };
   list_tiles(frame, options, grid, lists_of, picture, counts);
   stats.lists_ms += ms_since(start);
@@ -210,14 +258,18 @@ void PlaneDevice::Impl::fill(const FrameScene& frame, const PlaneFrameOptions& o
   std::size_t words = 0;
   for (const RecordedTiles& square : squares)
     for (const RecordedTile& tile : square.tiles()) {
-      const std::size_t more = tile.words + tile.jobs * kJob;
-      if (tile.for_cpu || (more + kHeader) * kWordBytes > kLargestBuffer) {
+      const std::span<const ListedDisks::Entry> of_disks =
+          tile.filled.all() ? std::span<const ListedDisks::Entry>() : disks.of_tile(tile.x / plane::kTileSide, tile.y / plane::kTileSide);
+      if (tile.words == 0 && of_disks.empty() && !tile.for_cpu) continue;
+      counts.tile_lights += of_disks.size();
+      const std::size_t more = tile.words + (tile.jobs + 1) * kJob + of_disks.size() * kListedLight;
+      if (tile.for_cpu || (more + 2 * kHeader + disks.records().size()) * kWordBytes > kLargestBuffer) {
         for_cpu.push_back(&tile);
         ++stats.tiles;
         continue;
       }
       if (words + more > kWordsOfBatch || batch.size() == kTilesOfBatch) run(grid, slack_of(frame), picture), words = 0;
-      batch.push_back({&square, &tile});
+      batch.push_back({&square, &tile, of_disks});
       words += more;
     }
   run(grid, slack_of(frame), picture);
@@ -257,7 +309,7 @@ void PlaneDevice::render_into(Picture& picture, const PlaneWorld& world, const P
   const FillTiles fill = [this](const FrameScene& frame, const PlaneFrameOptions& o, const PixelGrid& grid, Picture& to,
                                 PlaneFrameStats& counts) { impl_->fill(frame, o, grid, to, counts); };
   render_plane_with(fill, picture, world, options, stats);
-  for (const auto* buffer : {&impl_->lists, &impl_->pairs, &impl_->vertices, &impl_->sums})
+  for (const auto* buffer : {&impl_->lists, &impl_->pairs, &impl_->vertices, &impl_->sums, &impl_->masks})
     if (*buffer != nullptr) impl_->stats.bytes += (*buffer)->bytes();
 }
 

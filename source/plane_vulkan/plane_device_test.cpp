@@ -78,6 +78,7 @@ TEST_F(VulkanPlane, DrawsLightFieldsAsTheCpu) {
   field.width = 500;
   field.height = 300;
   expect_same("field", make_light_field(field, 3), sized(500, 300));
+  EXPECT_GT(device().stats().lights_listed, 0u);
 }
 
 // Every shape with every emission: edges, runs, arcs, spots.

@@ -92,7 +92,7 @@ void put_lists(Words& to, const TileLight& light) {
 }
 
 // Rounds of a thread's loops that a job may take, and those of one blocker: its place among the intervals, and what moves for it.
-constexpr std::size_t kMostSteps = 60000, kStepsOfBlocker = 2 + 2 * kIntervals, kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kMostSteps = kMostTurns, kStepsOfBlocker = 2 + 2 * kIntervals, kNone = static_cast<std::size_t>(-1);
 
 std::size_t steps_of(const TileLight& light) {
   const auto size = [](int count) { return static_cast<std::size_t>(count); };
@@ -111,8 +111,9 @@ std::size_t steps_of(const TileLight& light) {
 
 }  // namespace
 
-void RecordedTiles::clear(std::size_t pairs) {
+void RecordedTiles::clear(std::size_t pairs, const std::vector<char>& elsewhere) {
   pairs_ = pairs;
+  elsewhere_ = &elsewhere;
   tiles_.clear();
   jobs_.clear();
   for (Words& words : words_) words.clear();
@@ -177,7 +178,7 @@ void RecordedTiles::end_tile(const std::bitset<kTilePixels>& filled) {
   tile_.filled = filled;
   tile_.jobs = jobs_.size() - tile_.first_job;
   for (std::size_t i = tile_.first_job; i < jobs_.size(); ++i) tile_.words += jobs_[i].words;
-  if (tile_.words > 0 || tile_.for_cpu) tiles_.push_back(tile_);
+  tiles_.push_back(tile_);
 }
 
 }  // namespace steradian::plane

@@ -35,9 +35,10 @@ struct RecordedJob {
 
 class RecordedTiles final : public TileLists {
  public:
-  // Keeps its memory for the next frame. Of the frame's pairs the device has the first `pairs`.
-  void clear(std::size_t pairs);
+  // Keeps its memory for the next frame. Of the frame's pairs the device has the first `pairs`; elsewhere must stay.
+  void clear(std::size_t pairs, const std::vector<char>& elsewhere);
 
+  const std::vector<char>* elsewhere() const override { return elsewhere_; }
   void begin_tile(int x, int y, Vec2d center) override;
   void add(const TileLight& light) override;
   bool add(const EventLight& light, const int* pairs, int count) override;
@@ -58,6 +59,7 @@ class RecordedTiles final : public TileLists {
   RecordedTile tile_;
   std::size_t open_[kLightGroups] = {};  // the tile's last job of each group
   std::size_t pairs_ = 0;
+  const std::vector<char>* elsewhere_ = nullptr;
 };
 
 }  // namespace steradian::plane

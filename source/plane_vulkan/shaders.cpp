@@ -13,9 +13,15 @@ constexpr std::uint32_t kCuts[] =
 constexpr std::uint32_t kArcs[] =
 #include "plane_arcs.comp.inc"
     ;
+constexpr std::uint32_t kListed[] =
+#include "plane_listed.comp.inc"
+    ;
+constexpr std::uint32_t kLists[] =
+#include "plane_lists.comp.inc"
+    ;
 
 }  // namespace
 
-std::vector<std::span<const std::uint32_t>> plane_shaders() { return {kDisks, kCuts, kArcs}; }
+std::vector<std::span<const std::uint32_t>> plane_shaders() { return {kDisks, kCuts, kArcs, kListed, kLists}; }
 
 }  // namespace steradian::plane

@@ -55,6 +55,10 @@ EventWalk::EventWalk(const FrameScene& frame, const PixelGrid& grid, const TileS
     if (frame.emitters[e].kind == Emitter::Kind::disk && !frame.emitters[e].hidden) disks_.push_back(static_cast<int>(e));
 }
 
+void EventWalk::leave_out(const std::vector<char>& elsewhere) {
+  std::erase_if(disks_, [&](int e) { return elsewhere[static_cast<std::size_t>(e)] != 0; });
+}
+
 void EventWalk::enter_256(int x, int y, const TileArea& tile) {
   x_256_ = x;
   y_256_ = y;

@@ -21,6 +21,9 @@ class EventWalk {
   // Of what `store` keeps, only what has changed is worked out; null: everything is.
   EventWalk(const FrameScene& frame, const PixelGrid& grid, const TileSet* only, ShareStore* store);
 
+  // By emitter: lights that are added up elsewhere.
+  void leave_out(const std::vector<char>& elsewhere);
+
   // What follows is about the 256 pixels from (x, y) on, then about 64 of them, then about a tile.
   void enter_256(int x, int y, const TileArea& tile);
   void enter_64(int x, int y);

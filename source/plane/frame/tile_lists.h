@@ -3,6 +3,7 @@
 
 #include <bitset>
 #include <cstdint>
+#include <vector>
 
 #include "plane/frame/events.h"
 #include "plane/frame/tile.h"
@@ -13,6 +14,8 @@ namespace steradian::plane {
 class TileLists {
  public:
   virtual ~TileLists() = default;
+  // By emitter: round lights whose lists are made elsewhere, too; null: none.
+  virtual const std::vector<char>* elsewhere() const { return nullptr; }
   // The tile whose first pixel is (x, y): what follows, up to end_tile, is its light.
   virtual void begin_tile(int x, int y, Vec2d center) = 0;
   // What the light and its lists point to is gone afterwards.

@@ -78,6 +78,7 @@ class Worker {
         picture_(picture),
         leaf_(frame),
         events_(frame, grid, only, store) {
+    if (lists != nullptr && lists->elsewhere() != nullptr) events_.leave_out(*lists->elsewhere());
     std::fill(std::begin(inside_), std::end(inside_), kOutside);
     for (int y = 0; y < kTileSide; ++y)
       for (int x = 0; x < kTileSide; ++x) {

@@ -1,0 +1,8 @@
+// Round lights in the plane, by event lines and the lists that the device has made.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "plane_kinds.glsl"
+#define KIND PLANE_LISTED
+#include "plane.glsl"
