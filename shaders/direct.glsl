@@ -125,6 +125,6 @@ void main() {
         ++i;
     } while (i < count);
 
-    uint at = tile * uint(kSlots) + slot;
+    uint at = tile * uint(kRadiance) + slot;
     radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
 }

@@ -30,3 +30,11 @@ const int kEntry = 3;
 // Threads of a work group, and the groups that a tile makes.
 const int kGroup = 64;
 const int kGroupsOfTile = 16;
+
+// Radiance: kSlots vectors a tile, then kBounds for each of its groups: low and high corner of the box of positions, and of normals;
+// beside the first, as a sum, what is among them.
+const int kBounds = 4;
+const int kRadiance = 1088;  // kSlots + kGroupsOfTile * kBounds
+const int kAnySurface = 1;
+const int kAnyDiffuse = 2;
+const int kAnySpecular = 4;

@@ -174,9 +174,17 @@ ReachingLights lights_reaching(std::span<const PackLight* const> lights, const S
     normals.add({tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
     if (tile.coat[i] > 0) normals.add({tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]});
   }
+  const auto low = [](const Box& b) { return Vec3f{b.x.low, b.y.low, b.z.low}; };
+  const auto high = [](const Box& b) { return Vec3f{b.x.high, b.y.high, b.z.high}; };
+  return lights_reaching(lights, {low(positions), high(positions), low(normals), high(normals)});
+}
+
+ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceBounds& surfaces) {
+  const auto box = [](Vec3f low, Vec3f high) { return Box{{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}; };
+  const Box positions = box(surfaces.low, surfaces.high), normals = box(surfaces.normal_low, surfaces.normal_high);
   ReachingLights result;
-  result.low = {positions.x.low, positions.y.low, positions.z.low};
-  result.high = {positions.x.high, positions.y.high, positions.z.high};
+  result.low = surfaces.low;
+  result.high = surfaces.high;
   const auto low = static_cast<Vec3d>(result.low), high = static_cast<Vec3d>(result.high);
   for (const PackLight* light : lights) {
     if (!reaches(*light, positions, normals)) continue;

@@ -1,6 +1,7 @@
 // Lights as packs read them, and which of them can reach a tile.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,12 @@ PackLight prepare_light(const PreparedPolygon& polygon);
 // All lights of a scene, and area lights beside them, which must stay. Lights without area, power or volume are left out.
 std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLight> beside = {});
 
+// A box of surfaces' positions and one of their normals; low is above high without any.
+struct SurfaceBounds {
+  Vec3f low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  Vec3f normal_low{INFINITY, INFINITY, INFINITY}, normal_high{-INFINITY, -INFINITY, -INFINITY};
+};
+
 // Lights that may reach a surface of a tile.
 struct ReachingLights {
   std::vector<const PackLight*> lights;
@@ -55,7 +62,8 @@ struct ReachingLights {
   Vec3f low{}, high{};                          // box of the surfaces' positions; low is above high without any
 };
 
-// By conservative bounds of positions and normals against the light's plane and the surfaces' horizons.
+// By the bounds, against the lights' planes and the surfaces' horizons.
+ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceBounds& surfaces);
 ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceTile& tile);
 
 // The polygon with corners between those of its edges that points of the ball see under nearly half a turn: an edge whose ends are all but

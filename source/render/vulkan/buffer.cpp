@@ -37,15 +37,16 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
   checked(("make a buffer of " + readable_bytes(bytes)).c_str(), [&] {
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
-    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer;
-    if (form == BufferForm::texels) usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
+    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst;
+    if (form != BufferForm::storage) usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
     h.buffer = d.device.createBuffer({{}, bytes, usage});
     const auto needed = h.buffer.getMemoryRequirements();
     h.memory = d.device.allocateMemory({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});
     h.buffer.bindMemory(*h.memory, 0);
     h.mapped = h.memory.mapMemory(0, bytes);
-    if (form == BufferForm::texels)
-      h.texels = d.device.createBufferView({{}, *h.buffer, vk::Format::eR32G32B32A32Sfloat, 0, VK_WHOLE_SIZE});
+    if (form == BufferForm::storage) return;
+    const vk::Format format = form == BufferForm::texels ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR8G8B8A8Unorm;
+    h.texels = d.device.createBufferView({{}, *h.buffer, format, 0, VK_WHOLE_SIZE});
   });
 }
 

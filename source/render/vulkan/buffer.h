@@ -11,8 +11,8 @@ namespace steradian::vulkan {
 // What the host mostly does with it: memory near the device is slow for the host to read.
 enum class BufferUse { host_writes, host_reads };
 
-// How shaders see it: as a storage buffer, or also as texels of four floats, which devices fetch in one go.
-enum class BufferForm { storage, texels };
+// How shaders see it: as a storage buffer, or also as texels of four floats or four bytes (0 to 1), which devices fetch in one go.
+enum class BufferForm { storage, texels, colors };
 
 class Buffer {
  public:

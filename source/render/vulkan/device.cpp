@@ -35,10 +35,13 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
   return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application, layers, extensions));
 }
 
+// One that draws as well, where there is one.
 std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice& device) {
   const auto families = device.getQueueFamilyProperties();
-  for (std::uint32_t i = 0; i < families.size(); ++i)
-    if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return i;
+  const vk::QueueFlags compute = vk::QueueFlagBits::eCompute, both = compute | vk::QueueFlagBits::eGraphics;
+  for (const vk::QueueFlags wanted : {both, compute})
+    for (std::uint32_t i = 0; i < families.size(); ++i)
+      if ((families[i].queueFlags & wanted) == wanted) return i;
   return {};
 }
 
@@ -68,6 +71,10 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
   info.vulkan = version_text(properties.apiVersion);
   info.memory = own_memory(device);
   info.storage_buffer = properties.limits.maxStorageBufferRange;
+  info.graphics = static_cast<bool>(device.getQueueFamilyProperties()[queue_family].queueFlags & vk::QueueFlagBits::eGraphics);
+  info.picture =
+      std::min({properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight, properties.limits.maxViewportDimensions[0],
+                properties.limits.maxViewportDimensions[1], properties.limits.maxImageDimension2D});
   info.storage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
   info.texel_buffer = properties.limits.maxTexelBufferElements;
   info.subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;

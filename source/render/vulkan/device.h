@@ -16,6 +16,8 @@ struct DeviceInfo {
   std::string vulkan;              // version that it offers
   std::size_t memory = 0;          // bytes of its largest heap of its own
   std::size_t storage_buffer = 0;  // bytes of the largest that a shader reads
+  bool graphics = false;           // draws triangles, too
+  std::size_t picture = 0;         // pixels along the longer side of the largest that it draws
   unsigned storage_buffers = 0;    // that a shader may have
   std::size_t texel_buffer = 0;    // texels of the largest buffer of them
   unsigned subgroup = 0;           // threads that run in step

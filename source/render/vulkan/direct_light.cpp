@@ -24,6 +24,7 @@ constexpr auto bytes_of_planes(int planes) {
 }
 
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
+static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
 enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie };
 
@@ -124,7 +125,8 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
   fresnel_table_ = tables.fresnel_matrix.size > 0;
   fitting(tables_, nodes.size() * sizeof(float)).write(nodes.data(), nodes.size() * sizeof(float));
   fitting(surfaces_, tiles_ * bytes_of_planes(kPlanes));
-  radiance_ = std::make_unique<Buffer>(device, tiles_ * bytes_of_planes(1), BufferUse::host_reads, BufferForm::texels);
+  radiance_ = std::make_unique<Buffer>(device, tiles_ * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats), BufferUse::host_reads,
+                                       BufferForm::texels);
 }
 
 bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != kDiffuse; }
@@ -157,11 +159,11 @@ void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
   }
   if (tile.any_sheen) put_vector(planes, kSheen, tile.sheen, tile.sheen_alpha);
   if (tile.any_coat) put_vector(planes, kCoatNormal, tile.coat_normal, tile.coat_alpha);
-  put_vector(static_cast<Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kSlots), 0, tile.radiance, tile.coat);
+  put_vector(static_cast<Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance, tile.coat);
 }
 
 void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
-  const Vec4Floats* from = static_cast<const Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kSlots);
+  const Vec4Floats* from = static_cast<const Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kRadiance);
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     radiance.x[i] = from[i][0];
     radiance.y[i] = from[i][1];

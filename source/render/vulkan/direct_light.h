@@ -30,6 +30,10 @@ class DirectLight {
   // What the device needs of a tile, which is number `place` of the batch. Threads may put different places at the same time.
   void put(std::size_t place, const SurfaceTile& tile);
 
+  // Where others than put may write: planes of shaders/layout.glsl.
+  Buffer& surfaces() { return *surfaces_; }
+  Buffer& radiance() { return *radiance_; }
+
   // What of a tile the passes go by.
   struct Tile {
     ReachingLights lights;

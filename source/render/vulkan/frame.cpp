@@ -17,6 +17,7 @@
 #include "render/indirect/pipeline.h"
 #include "render/vulkan/bounce.h"
 #include "render/vulkan/direct_light.h"
+#include "render/vulkan/raster_surfaces.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -74,7 +75,7 @@ bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
 }
 
 struct Frame::Parts {
-  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d)
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by)
       : scene(s),
         options(o),
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
@@ -87,6 +88,11 @@ struct Frame::Parts {
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
     if (has_bounce() && !bounce_on_host(o.indirect)) bounce = std::make_unique<Bounce>(*device);
+    kept_on_host = keeps_surfaces_on_host();
+    if (by == SurfacesBy::device && !kept_on_host.empty())
+      throw UsageError("--backend vulkan", "the device cannot find the surfaces: there is " + kept_on_host);
+    if (by == SurfacesBy::device || (by == SurfacesBy::automatic && kept_on_host.empty() && !device->info().software))
+      raster = std::make_unique<RasterSurfaces>(*device, s, surfaces.camera(), o);
     build_ms = ms_since(start);
   }
 
@@ -174,7 +180,58 @@ struct Frame::Parts {
     return next;
   }
 
+  // What wants the surfaces there, or cannot be found on the device; empty: nothing.
+  std::string keeps_surfaces_on_host() const {
+    if (host.has_shadows()) return "shadows, which the host adds";
+    if (has_bounce()) return "the bounce, which begins at the host's surfaces";
+    if (!DirectLight::has(method)) return "a method of the host's alone";
+    if (!std::all_of(lights.begin(), lights.end(), shaders_have)) return "a light that the host adds";
+    if (static_cast<std::size_t>(std::max(options.width, options.height)) > device->info().picture)
+      return "a picture larger than the device draws";
+    return what_keeps_on_host(scene, device->info());
+  }
+
+  // Lights tiles whose surfaces the device finds, and adds them to the picture.
+  void light_found(int first, int end, Picture& picture) {
+    const auto count = static_cast<std::size_t>(end - first);
+    device_clock.run([&] { raster->find(first, end - first, direct.surfaces(), direct.radiance()); });
+    std::vector<DirectLight::Tile> tiles(count);
+    each(count, [&](std::size_t i) {
+      lists_clock.run([&] {
+        const RasterSurfaces::Found found = RasterSurfaces::found(direct.radiance(), i);
+        if (found.any_surface)
+          tiles[i] = {lights_reaching(light_pointers, found.bounds), found.any_diffuse, found.any_specular, false, false};
+      });
+    });
+    device_clock.run([&] { direct.run(tiles); });
+    const float weight = 1.0f / static_cast<float>(options.aa);
+    each(count, [&](std::size_t i) {
+      resolve_clock.run([&] {
+        TileVector& radiance = *radiances.local();
+        direct.take_radiance(i, radiance);
+        add_to_picture(radiance, surfaces.area(first + static_cast<int>(i)), nullptr, weight, picture.pixels, options.width);
+      });
+    });
+  }
+
+  Picture render_by_raster() {
+    Picture picture(options.width, options.height);
+    const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
+    std::uint64_t done = 0;
+    for (int sample = 0; sample < options.aa && !stopped(); ++sample) {
+      device_clock.run([&] { raster->look(sample); });
+      for (int first = 0; first < count && !stopped(); first += batch) {
+        const int end = std::min(first + batch, count);
+        light_found(first, end, picture);
+        done += static_cast<std::uint64_t>(end - first);
+        if (options.progress) options.progress(done, static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(options.aa));
+      }
+    }
+    return picture;
+  }
+
   Picture render() {
+    if (raster) return render_by_raster();
     Picture picture(options.width, options.height);
     if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce.get());
     const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
@@ -196,6 +253,8 @@ struct Frame::Parts {
   void report(RenderStats& stats) {
     stats.passes = {{"build", build_ms},        surfaces.rays_time(threads), surfaces.gbuffer_time(threads), lists_clock.time(threads),
                     upload_clock.time(threads), device_clock.time(1),        resolve_clock.time(threads)};
+    if (raster)
+      for (const auto& [name, ms] : raster->times()) stats.passes.push_back({"device: " + name, ms});
     for (const auto& [name, ms] : direct.times()) stats.passes.push_back({"device: " + name, ms});
     if (host.has_shadows()) {
       stats.passes.push_back(host.shadow_time(threads));
@@ -219,6 +278,7 @@ struct Frame::Parts {
     stats.method = method.name;
     stats.device = device->info().name;
     stats.warnings = lobes_under_means(scene, method);
+    if (!raster && !device->info().software) stats.warnings.push_back("the CPU finds the surfaces: there is " + kept_on_host);
     for (std::string& sentence : lit_by_host(scene, options, method)) stats.warnings.push_back(std::move(sentence));
   }
 
@@ -233,6 +293,8 @@ struct Frame::Parts {
   std::vector<const PackLight*> light_pointers;
   TileLighting host;
   DirectLight direct;
+  std::string kept_on_host;
+  std::unique_ptr<RasterSurfaces> raster;  // null where the host finds the surfaces
   std::unique_ptr<Bounce> bounce;
   std::optional<indirect::Pipeline> bounced;  // of one frame
   tbb::task_arena arena;
@@ -245,8 +307,8 @@ struct Frame::Parts {
   std::map<std::string, double> reported;  // milliseconds of passes up to the last report
 };
 
-Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device)
-    : parts_(std::make_unique<Parts>(scene, options, std::move(device))) {}
+Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces)) {}
 Frame::~Frame() = default;
 
 Picture Frame::render(RenderStats* stats) {

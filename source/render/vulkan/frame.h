@@ -12,12 +12,18 @@ namespace steradian::vulkan {
 // Whether the device would have nothing to do: estimates by samples, and many lights added up together.
 bool runs_on_host_alone(const Scene& scene, const RenderOptions& options);
 
+// Who finds what the pixels see. automatic: the device, unless it is software, slower at that than the host, or something keeps the host at
+// it.
+enum class SurfacesBy { automatic, host, device };
+
 // Buffers and pipelines are made once, for any number of frames of a scene.
 class Frame {
  public:
-  // Scene and options must stay. device: null for the one that the options name. Throws UsageError for what runs on the host
-  // alone, and for options that this back end does not have yet; Error where there is no such device.
-  Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr);
+  // Scene and options must stay. surfaces: `device` is a UsageError where something keeps the host at it. device: null for the one that the
+  // options name. Throws UsageError for what runs on the host alone, and for options that this back end does not have yet; Error where
+  // there is no such device.
+  Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
+        SurfacesBy surfaces = SurfacesBy::automatic);
   ~Frame();
 
   // Sets stats of this frame alone. Returns early, with what it has, when options.stop becomes true.

@@ -38,6 +38,16 @@ constexpr std::uint32_t kBounceResolve[] =
 #include "bounce_resolve.comp.inc"
     ;
 
+constexpr std::uint32_t kVisibilityVertex[] =
+#include "visibility.vert.inc"
+    ;
+constexpr std::uint32_t kVisibilityFragment[] =
+#include "visibility.frag.inc"
+    ;
+constexpr std::uint32_t kResolve[] =
+#include "resolve.comp.inc"
+    ;
+
 }  // namespace
 
 std::span<const std::uint32_t> diffuse_shader() { return kDiffuse; }
@@ -49,5 +59,8 @@ std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
 std::vector<std::span<const std::uint32_t>> bounce_shaders() {
   return {kBounceBoxes, kBounceCull, kBounceLight, kBounceFilter, kBounceResolve};
 }
+std::span<const std::uint32_t> visibility_vertex_shader() { return kVisibilityVertex; }
+std::span<const std::uint32_t> visibility_fragment_shader() { return kVisibilityFragment; }
+std::span<const std::uint32_t> resolve_shader() { return kResolve; }
 
 }  // namespace steradian::vulkan

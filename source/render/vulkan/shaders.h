@@ -17,5 +17,8 @@ std::span<const std::uint32_t> sheen_shader();
 // Of the bounce: lobes of virtual lights; boxes, culling, lighting, filter, resolve.
 std::span<const std::uint32_t> bounce_lobes_shader();
 std::vector<std::span<const std::uint32_t>> bounce_shaders();
+std::span<const std::uint32_t> visibility_vertex_shader();
+std::span<const std::uint32_t> visibility_fragment_shader();
+std::span<const std::uint32_t> resolve_shader();
 
 }  // namespace steradian::vulkan

@@ -1,0 +1,252 @@
+// What is at the pixels of tiles: the surfaces of the triangles that they see, as source/render/cpu/surface.h has them.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "layout.glsl"
+#include "surface_layout.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform samplerBuffer vertices;
+layout(binding = 1) uniform samplerBuffer triangles;  // numbers of three vertices and of the mesh
+layout(binding = 2) uniform samplerBuffer materials;  // and what they name
+layout(binding = 3) uniform samplerBuffer view;
+layout(binding = 4) uniform samplerBuffer texels;
+layout(std430, binding = 5) readonly buffer Seen { uint seen[]; };
+layout(std430, binding = 6) writeonly buffer Surfaces { vec4 surfaces[]; };
+layout(std430, binding = 7) writeonly buffer Radiance { vec4 radiance[]; };
+layout(push_constant) uniform Push { uint first_tile; };
+
+#include "prelude/prelude.glsl"
+#include "math/constants.glsl"
+#include "math/frame.glsl"
+#include "textures.glsl"
+
+float square_of(vec3 a) { return dot(a, a); }
+bool has_direction(vec3 a) { return square_of(a) > 1.0e-30 && square_of(a) < 1.0e30; }
+vec3 unit(vec3 a) { return has_direction(a) ? a * inversesqrt(square_of(a)) : vec3(0.0); }
+
+// Values at the corners of a triangle, blended.
+struct Corners {
+    ivec3 number;
+    vec3 weight;
+};
+vec4 blended(Corners at, int value) {
+    return texelFetch(vertices, at.number.x * kVertex + value) * at.weight.x + texelFetch(vertices, at.number.y * kVertex + value) * at.weight.y +
+           texelFetch(vertices, at.number.z * kVertex + value) * at.weight.z;
+}
+
+// How texture coordinates change with the weights of the second and third corner.
+vec4 change(Corners at, vec2 by) {
+    vec4 first = texelFetch(vertices, at.number.x * kVertex + kVertexTexcoords);
+    return (texelFetch(vertices, at.number.y * kVertex + kVertexTexcoords) - first) * by.x +
+           (texelFetch(vertices, at.number.z * kVertex + kVertexTexcoords) - first) * by.y;
+}
+
+// Of both sets of coordinates; sets that the mesh lacks are 0 all over.
+struct Coordinates {
+    vec4 at;
+    vec4 right;
+    vec4 down;
+    int sets;
+};
+vec4 texture_of(int use, Coordinates c) {
+    int set = int(texelFetch(materials, use).w);
+    Footprint f;
+    f.at = f.right = f.down = vec2(0.0);
+    if ((c.sets & (1 << set)) != 0) {
+        f.at = set == 0 ? c.at.xy : c.at.zw;
+        f.right = set == 0 ? c.right.xy : c.right.zw;
+        f.down = set == 0 ? c.down.xy : c.down.zw;
+    }
+    return sample_texture(use, f);
+}
+
+// A surface that is seen is seen from above: surface.cpp's turned_to.
+vec3 turned_to(vec3 n, vec3 to_view, float facing) {
+    float least = min(0.01, 0.5 * facing);
+    float c = dot(n, to_view);
+    return c >= least ? n : unit(n + to_view * (least - c));
+}
+
+struct Surface {
+    vec3 position;
+    vec3 normal;
+    vec3 tangent;
+    vec3 view;
+    vec3 emission;
+    vec3 albedo;
+    vec3 f0;
+    vec3 f90;
+    float fresnel_loss;
+    float alpha;
+    bool found;
+};
+
+Surface surface_of(uint triangle, vec3 direction) {
+    Surface s;
+    s.found = false;
+    vec4 numbers = texelFetch(triangles, int(triangle));
+    Corners at;
+    at.number = ivec3(numbers.xyz);
+    vec3 p0 = texelFetch(vertices, at.number.x * kVertex + kVertexPosition).xyz;
+    vec3 e1 = texelFetch(vertices, at.number.y * kVertex + kVertexPosition).xyz - p0;
+    vec3 e2 = texelFetch(vertices, at.number.z * kVertex + kVertexPosition).xyz - p0;
+    vec3 n = cross(e1, e2);
+
+    // Where the ray meets the triangle's plane, and the place next to it in the triangle: rasters round corners.
+    vec3 from = texelFetch(view, kViewOrigin).xyz - p0;
+    vec3 across = cross(direction, e2);
+    float determinant = dot(e1, across);
+    float area2 = dot(n, n);
+    if (determinant == 0.0 || !(area2 > 0.0)) return s;
+    vec3 q = cross(from, e1);
+    vec2 uv = clamp(vec2(dot(from, across), dot(direction, q)) / determinant, 0.0, 1.0);
+    uv /= max(1.0, uv.x + uv.y);
+    float distance = dot(e2, q) / determinant;
+    at.weight = vec3(1.0 - uv.x - uv.y, uv);
+
+    s.found = true;
+    s.position = blended(at, kVertexPosition).xyz;
+    s.view = -direction;
+    vec3 geometric = unit(n);
+    float towards = dot(geometric, s.view);
+    float side = towards < 0.0 ? -1.0 : 1.0;
+    vec3 up = unit(blended(at, kVertexNormal).xyz);
+    if (!(dot(up, up) > 0.5)) up = geometric;
+
+    vec4 mesh = texelFetch(materials, int(numbers.w));
+    int material = int(mesh.x);
+    int uses = material + kMaterialTextures;
+    Coordinates c;
+    c.sets = int(mesh.w);
+    if (c.sets != 0) {  // footprint_on
+        float depth = distance * dot(direction, texelFetch(view, kViewForward).xyz);
+        float facing = dot(n, direction);
+        vec3 right = texelFetch(view, kViewStepRight).xyz;
+        vec3 down = texelFetch(view, kViewStepDown).xyz;
+        right = (right - direction * (dot(n, right) / facing)) * (depth / area2);
+        down = (down - direction * (dot(n, down) / facing)) * (depth / area2);
+        c.at = blended(at, kVertexTexcoords);
+        c.right = change(at, vec2(dot(cross(right, e2), n), dot(cross(e1, right), n)));
+        c.down = change(at, vec2(dot(cross(down, e2), n), dot(cross(e1, down), n)));
+    }
+
+    // What surface_at does, in its order.
+    vec3 base = texelFetch(materials, material + kMaterialBase).xyz * texture_of(uses + kUse * kUseBase, c).xyz;
+    if (mesh.z > 0.5) base *= blended(at, kVertexColor).xyz;
+    vec4 emission = texelFetch(materials, material + kMaterialEmission);
+    s.emission = side > 0.0 || emission.w > 0.5 ? emission.xyz * texture_of(uses + kUse * kUseEmission, c).xyz : vec3(0.0);
+
+    vec3 x = frame_from_normal(up)[0];
+    float handed = 1.0;
+    if (mesh.y > 0.5) {
+        vec4 t = blended(at, kVertexTangent);
+        vec3 along = t.xyz - up * dot(up, t.xyz);
+        if (has_direction(along)) {
+            x = unit(along);
+            handed = t.w < 0.0 ? -1.0 : 1.0;
+        }
+    }
+    vec3 y = cross(up, x) * handed;
+    vec3 normal = up;
+    if (texelFetch(materials, uses + kUse * kUseNormal).x >= 0.0) {
+        vec3 map = 2.0 * texture_of(uses + kUse * kUseNormal, c).xyz - 1.0;
+        float scale = texelFetch(materials, uses + kUse * kUseNormal + 2).z;
+        vec3 bent = x * (map.x * scale) + y * (map.y * scale) + up * map.z;
+        if (has_direction(bent) && map.z > 0.0) normal = unit(bent);
+    }
+    s.normal = turned_to(normal * side, s.view, abs(towards));
+    vec3 along = x - s.normal * dot(s.normal, x);
+    if (dot(along, along) > 1.0e-10) {
+        along = unit(along);
+        s.tangent = unit(along - s.normal * dot(s.normal, along));
+    } else {
+        s.tangent = frame_from_normal(s.normal)[0];
+    }
+
+    vec4 rest = texelFetch(materials, material + kMaterialRest);
+    vec3 rough_metal = texture_of(uses + kUse * kUseMetallicRoughness, c).xyz;
+    float metallic = clamp(rest.x * rough_metal.z, 0.0, 1.0);
+    float roughness = rest.y * rough_metal.y;
+    s.alpha = clamp(roughness * roughness, 1.0e-4, 1.0);
+    vec4 colored = texelFetch(materials, material + kMaterialSpecularColor);
+    float specular = colored.w * texture_of(uses + kUse * kUseSpecular, c).w;
+    colored.xyz *= texture_of(uses + kUse * kUseSpecularColor, c).xyz;
+    vec3 dielectric = clamp(colored.xyz * rest.z, 0.0, 1.0) * specular;
+    float largest = max(dielectric.x, max(dielectric.y, dielectric.z));
+    s.albedo = base * ((1.0 - metallic) * (1.0 - largest));
+    s.fresnel_loss = largest < 1.0 ? (specular - largest) / (1.0 - largest) : 0.0;
+    s.f0 = mix(dielectric, base, metallic);
+    s.f90 = mix(vec3(specular), vec3(1.0), metallic);
+    return s;
+}
+
+shared vec3 positions_of_group[kGroup];
+shared vec3 normals_of_group[kGroup];
+shared int kinds_of_group[kGroup];
+
+void main() {
+    uint tile = gl_WorkGroupID.y;
+    uint slot = gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocationID.x;
+    vec4 origin = texelFetch(view, kViewOrigin);
+    vec4 corner = texelFetch(view, kViewCorner);
+    vec4 right = texelFetch(view, kViewRight);
+    vec4 down = texelFetch(view, kViewDown);
+    uint tiles_across = uint(right.w);
+    uint number = first_tile + tile;
+    // tile_slot's inverse.
+    uint block = slot / 16u;
+    uvec2 pixel = uvec2(number % tiles_across, number / tiles_across) * 32u + uvec2(block % 8u, block / 8u) * 4u + uvec2(slot % 4u, slot % 16u / 4u);
+    uint triangle_and_one = 0u;
+    if (pixel.x < uint(origin.w) && pixel.y < uint(corner.w)) triangle_and_one = seen[pixel.y * uint(origin.w) + pixel.x];
+
+    Surface s;
+    s.found = false;
+    if (triangle_and_one > 0u) {
+        vec2 place = vec2(pixel) + vec2(texelFetch(view, kViewStepRight).w, texelFetch(view, kViewStepDown).w);
+        s = surface_of(triangle_and_one - 1u, normalize(corner.xyz + right.xyz * place.x + down.xyz * place.y));
+    }
+
+    uint at = tile * uint(kPlanes * kSlots) + slot;
+    int kinds = 0;
+    if (s.found) {
+        surfaces[at + uint(kPosition * kSlots)] = vec4(s.position, s.alpha);
+        surfaces[at + uint(kNormal * kSlots)] = vec4(s.normal, s.alpha);
+        surfaces[at + uint(kView * kSlots)] = vec4(s.view, s.fresnel_loss);
+        surfaces[at + uint(kAlbedo * kSlots)] = vec4(s.albedo, 0.0);
+        surfaces[at + uint(kF0 * kSlots)] = vec4(s.f0, 0.0);
+        surfaces[at + uint(kF90 * kSlots)] = vec4(s.f90, 0.0);
+        surfaces[at + uint(kTangent * kSlots)] = vec4(s.tangent, 0.0);
+        kinds = kAnySurface;
+        if (any(greaterThan(s.albedo, vec3(0.0)))) kinds |= kAnyDiffuse;
+        if (any(greaterThan(max(s.f0, s.f90), vec3(0.0)))) kinds |= kAnySpecular;
+    } else {
+        surfaces[at + uint(kNormal * kSlots)] = vec4(0.0);
+    }
+    radiance[tile * uint(kRadiance) + slot] = s.found ? vec4(s.emission, 0.0) : vec4(0.0);
+
+    // The bounds of the group's surfaces, by which the host finds which lights reach the tile.
+    positions_of_group[gl_LocalInvocationID.x] = s.found ? s.position : vec3(0.0);
+    normals_of_group[gl_LocalInvocationID.x] = s.found ? s.normal : vec3(0.0);
+    kinds_of_group[gl_LocalInvocationID.x] = kinds;
+    barrier();
+    if (gl_LocalInvocationID.x != 0u) return;
+    vec3 low = vec3(3.0e38);
+    vec3 high = vec3(-3.0e38);
+    vec3 normal_low = low;
+    vec3 normal_high = high;
+    int all_kinds = 0;
+    for (int i = 0; i < kGroup; i++) {
+        if (kinds_of_group[i] == 0) continue;
+        all_kinds |= kinds_of_group[i];
+        low = min(low, positions_of_group[i]);
+        high = max(high, positions_of_group[i]);
+        normal_low = min(normal_low, normals_of_group[i]);
+        normal_high = max(normal_high, normals_of_group[i]);
+    }
+    uint bounds = tile * uint(kRadiance) + uint(kSlots) + gl_WorkGroupID.x * uint(kBounds);
+    radiance[bounds] = vec4(low, float(all_kinds));
+    radiance[bounds + 1u] = vec4(high, 0.0);
+    radiance[bounds + 2u] = vec4(normal_low, 0.0);
+    radiance[bounds + 3u] = vec4(normal_high, 0.0);
+}

@@ -1,0 +1,49 @@
+// Where the shaders that find surfaces read a scene (source/render/vulkan/scene_buffers.cpp). This text is C++ and GLSL at once.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Vertices: vectors of four each.
+const int kVertexPosition = 0;
+const int kVertexNormal = 1;
+const int kVertexTangent = 2;
+const int kVertexTexcoords = 3;  // of both sets
+const int kVertexColor = 4;
+const int kVertex = 5;
+
+// The view: where rays begin and which way they go, in pixels from the picture's upper left corner.
+const int kViewOrigin = 0;     // width of the picture
+const int kViewCorner = 1;     // height
+const int kViewRight = 2;      // tiles across
+const int kViewDown = 3;
+const int kViewStepRight = 4;  // to the next sample; x of the sample's place in its pixel
+const int kViewStepDown = 5;   // y of it
+const int kViewForward = 6;
+const int kViewVectors = 7;
+
+// Materials begin with what the 256 codes of sRGB are in linear light, four a vector.
+const int kCodes = 64;
+// Meshes: one vector each: number of its material's first vector, whether it has tangents, colours, sets of texture coordinates (1 + 2).
+// Materials:
+const int kMaterialBase = 0;           // rgba
+const int kMaterialEmission = 1;       // rgb, 1 where both sides emit
+const int kMaterialSpecularColor = 2;  // rgb, specular
+const int kMaterialRest = 3;           // metallic, roughness, F0 of its index
+const int kMaterialTextures = 4;
+
+// Uses of textures, kUse vectors each: number of its first level (below 0: none), how many levels, flags, set of coordinates; the
+// transform's numbers 0 to 3; 4 and 5 of them, scale.
+const int kUseBase = 0;
+const int kUseMetallicRoughness = 1;
+const int kUseNormal = 2;
+const int kUseEmission = 3;
+const int kUseSpecular = 4;
+const int kUseSpecularColor = 5;
+const int kUses = 6;
+const int kUse = 3;
+const int kMaterial = 22;  // kMaterialTextures + kUses * kUse
+
+// Flags: how u is wrapped (0 repeats, 1 mirrors, 2 stays at the edge), four times how v is, and these.
+const int kNearest = 16;
+const int kSrgb = 32;
+
+// Levels: one vector each: number of its first texel over kTexelRow, what is left of that, width, height.
+const int kTexelRow = 65536;

@@ -1,0 +1,246 @@
+// The CPU judges the surfaces that a device finds.
+#include "render/vulkan/raster_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "paths.h"
+#include "render/cpu/frame_surfaces.h"
+#include "render/vulkan/frame.h"
+#include "scene/test_meshes.h"
+#include "steradian/error.h"
+#include "steradian/load_scene.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/layout.glsl"
+
+using Vec4Floats = std::array<float, 4>;
+
+struct Pixel {
+  Vec3f position, normal, tangent, albedo, f0, f90, emission;
+  float alpha = 0, loss = 0;
+};
+
+// By pixel of the picture, with the number of what is seen there.
+struct Surfaces {
+  std::vector<Pixel> pixels;
+  std::vector<std::uint64_t> seen;
+};
+
+Surfaces by_cpu(const Scene& scene, const RenderOptions& o, int sample) {
+  FrameSurfaces frame(scene, o);
+  Surfaces s{std::vector<Pixel>(static_cast<std::size_t>(o.width * o.height)),
+             std::vector<std::uint64_t>(static_cast<std::size_t>(o.width * o.height))};
+  const auto tile = std::make_unique<SurfaceTile>();
+  const auto hits = std::make_unique<TileHits>();
+  for (int index = 0; index < frame.tile_count(); ++index) {
+    const TileArea a = frame.area(index);
+    frame.fill(index, sample, *tile);
+    trace_tile(frame.rays(), frame.camera(), a, pixel_place(sample, o.aa), *hits);
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        const std::size_t i = tile_slot(x, y), to = static_cast<std::size_t>((a.y + y) * o.width + a.x + x);
+        const auto at = [&](const TileVector& v) { return Vec3f{v.x[i], v.y[i], v.z[i]}; };
+        if (tile->material[i] == nullptr) continue;
+        s.pixels[to] = {at(tile->position), at(tile->normal),   at(tile->tangent), at(tile->albedo),     at(tile->f0),
+                        at(tile->f90),      at(tile->radiance), tile->alpha_x[i],  tile->fresnel_loss[i]};
+        s.seen[to] = (std::uint64_t{hits->geometry[i]} << 32 | hits->triangle[i]) + 1;
+      }
+  }
+  return s;
+}
+
+std::vector<Pixel> by_device(const Device& device, const Scene& scene, const RenderOptions& o, int sample) {
+  const CameraRays camera(find_camera(scene, ""), o.width, o.height);
+  const FrameSurfaces frame(scene, o);  // its tiles
+  RasterSurfaces raster(device, scene, camera, o);
+  const int count = frame.tile_count();
+  const auto tiles = static_cast<std::size_t>(count), slots = static_cast<std::size_t>(kSlots);
+  Buffer surfaces(device, tiles * slots * kPlanes * sizeof(Vec4Floats)), radiance(device, tiles * kRadiance * sizeof(Vec4Floats));
+  raster.look(sample);
+  raster.find(0, count, surfaces, radiance);
+  std::vector<Pixel> pixels(static_cast<std::size_t>(o.width * o.height));
+  for (int index = 0; index < count; ++index) {
+    const TileArea a = frame.area(index);
+    const auto* planes = static_cast<const Vec4Floats*>(surfaces.mapped()) + static_cast<std::size_t>(index) * slots * kPlanes;
+    const auto* shine = static_cast<const Vec4Floats*>(radiance.mapped()) + static_cast<std::size_t>(index) * kRadiance;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) {
+        const std::size_t i = tile_slot(x, y);
+        const auto plane = [&](int number) { return planes[static_cast<std::size_t>(number) * slots + i]; };
+        const auto at = [&](int number) { return Vec3f{plane(number)[0], plane(number)[1], plane(number)[2]}; };
+        if (at(kNormal) == Vec3f{}) continue;
+        pixels[static_cast<std::size_t>((a.y + y) * o.width + a.x + x)] = {
+            at(kPosition),       at(kNormal),    at(kTangent), at(kAlbedo), at(kF0), at(kF90), {shine[i][0], shine[i][1], shine[i][2]},
+            plane(kPosition)[3], plane(kView)[3]};
+      }
+  }
+  return pixels;
+}
+
+float difference(const Pixel& a, const Pixel& b) {
+  float largest = std::max(std::fabs(a.alpha - b.alpha), std::fabs(a.loss - b.loss));
+  for (const Vec3f d :
+       {a.normal - b.normal, a.tangent - b.tangent, a.albedo - b.albedo, a.f0 - b.f0, a.f90 - b.f90, a.emission - b.emission})
+    largest = std::max(largest, length(d));
+  return largest;
+}
+
+// Whether the CPU sees something else at a neighbour: rasters round corners to a 256th of a pixel, and depths at contacts.
+bool where_triangles_meet(const Surfaces& s, int x, int y, const RenderOptions& o) {
+  const auto seen = [&](int i, int j) { return s.seen[static_cast<std::size_t>(j * o.width + i)]; };
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, o.height - 1); ++j)
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, o.width - 1); ++i)
+      if (seen(i, j) != seen(x, y)) return true;
+  return false;
+}
+
+void expect_same(const std::string& name, const Scene& scene, RenderOptions o, double bound) {
+  const Device device;
+  ASSERT_EQ(what_keeps_on_host(scene, device.info()), "") << name;
+  const int sample = o.aa - 1;
+  const Surfaces cpu = by_cpu(scene, o, sample);
+  const std::vector<Pixel> found = by_device(device, scene, o, sample);
+  int outliers = 0, alone = 0;
+  double largest = 0, farthest = 0;
+  const Vec3f eye = static_cast<Vec3f>(scene.cameras[0].position);
+  for (int y = 0; y < o.height; ++y)
+    for (int x = 0; x < o.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * o.width + x);
+      const Pixel &a = cpu.pixels[i], &b = found[i];
+      const double off = static_cast<double>(length(a.position - b.position) / std::max(length(a.position - eye), 1e-3f)),
+                   change = static_cast<double>(difference(a, b));
+      if (off <= 1e-5 && change <= bound) {
+        farthest = std::max(farthest, off);
+        largest = std::max(largest, change);
+        continue;
+      }
+      ++outliers;
+      if (where_triangles_meet(cpu, x, y, o)) continue;
+      if (++alone <= 3)
+        ADD_FAILURE() << name << " (" << x << ", " << y << "): position off by " << off << " of its distance, the rest by " << change;
+    }
+  std::printf("%-14s positions off by at most %.1e of their distance, all else by %.1e; %d of %d pixels where triangles meet see another\n",
+              name.c_str(), farthest, largest, outliers, o.width * o.height);
+  EXPECT_LE(outliers, o.width * o.height / 200) << name;
+}
+
+RenderOptions small() {
+  RenderOptions options;
+  options.width = 200;
+  options.height = 120;
+  return options;
+}
+
+// Pictures of noise under every texture, wrap and filter, seen from the side, so that pixels cover many of their texels.
+Scene textured() {
+  Scene scene;
+  std::mt19937 random(1);
+  for (const auto& [width, height] : {std::pair{64, 64}, {37, 20}, {1, 5}, {256, 3}}) {
+    Image image{"noise", width, height, {}};
+    for (int i = 0; i < 4 * width * height; ++i) image.rgba.push_back(static_cast<std::uint8_t>(random()));
+    scene.images.push_back(image);
+  }
+  const auto use = [&](int image, ColorSpace space, Wrap u, Wrap v, Filter filter) {
+    TextureUse t;
+    t.image = image;
+    t.color_space = space;
+    t.wrap_u = u;
+    t.wrap_v = v;
+    t.filter = filter;
+    t.uv[0] = 2.5f;
+    t.uv[1] = 0.3f;
+    t.uv[2] = -0.7f;
+    t.uv[4] = 1.5f;
+    t.texcoord = image % 2;
+    return t;
+  };
+  SurfaceMaterial a, b;
+  a.name = "a";
+  a.base_color_texture = use(0, ColorSpace::srgb, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear);
+  a.metallic_roughness_texture = use(1, ColorSpace::linear, Wrap::clamp_to_edge, Wrap::repeat, Filter::linear);
+  a.normal_texture = use(2, ColorSpace::linear, Wrap::repeat, Wrap::repeat, Filter::linear);
+  a.normal_texture.scale = 0.3f;
+  b.name = "b";
+  b.base_color_texture = use(3, ColorSpace::srgb, Wrap::mirrored_repeat, Wrap::clamp_to_edge, Filter::nearest);
+  b.emissive = {1, 2, 3};
+  b.emissive_texture = use(0, ColorSpace::srgb, Wrap::repeat, Wrap::repeat, Filter::nearest);
+  b.specular_texture = use(1, ColorSpace::linear, Wrap::repeat, Wrap::repeat, Filter::linear);
+  b.specular_color_texture = use(0, ColorSpace::srgb, Wrap::repeat, Wrap::repeat, Filter::linear);
+  b.double_sided = true;
+  scene.materials = {a, b};
+  scene.meshes = {scene::quad_mesh({-4, 0, 4}, {4, 0, 4}, {4, 0, -40}, {-4, 0, -40}, 0),
+                  scene::quad_mesh({-3, 0.2f, -3}, {1, 0.2f, 1}, {1, 3, 1}, {-3, 3, -3}, 1),
+                  scene::quad_mesh({1, 0.2f, -1}, {3, 0.2f, 0}, {3, 3, 0}, {1, 3, -1}, 1)};
+  for (Mesh& mesh : scene.meshes) {
+    mesh.texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.texcoords[1] = {{0.1f, 0}, {3, 0.2f}, {2, 2}, {0, 1}};
+  }
+  scene.meshes[0].tangents.assign(4, {1, 0, 0, -1});
+  scene.meshes[2].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
+  Camera camera;
+  camera.position = {0, 1.5, 5};
+  scene.cameras = {camera};
+  return scene;
+}
+
+class VulkanSurfaces : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  }
+};
+
+}  // namespace
+
+// Where a ray meets a triangle is known to its distance times float's rounding over the cosine of the angle between them: 1e-5 of the
+// distance is that at a hundredth. Blended normals change by the place over the length of an edge, a hundred times as fast.
+TEST_F(VulkanSurfaces, AreTheCpusButWhereTrianglesMeet) {
+  for (const char* name : {"gallery", "ring", "tubes"})
+    expect_same(name, load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene, small(), 1e-3);
+  RenderOptions options = small();
+  options.aa = 3;
+  expect_same("textured", textured(), options, 2e-3);
+}
+
+TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
+  const DeviceInfo info = list_devices().front();
+  Scene scene = textured();
+  EXPECT_EQ(what_keeps_on_host(scene, info), "");
+  scene.materials[1].alpha_mode = AlphaMode::blend;
+  EXPECT_NE(what_keeps_on_host(scene, info).find("'b'"), std::string::npos);
+  scene.materials[1].alpha_mode = AlphaMode::opaque;
+  scene.materials[0].clearcoat = 1;
+  EXPECT_NE(what_keeps_on_host(scene, info).find("'a'"), std::string::npos);
+  RenderOptions options = small();
+  EXPECT_THROW(Frame(scene, options, nullptr, SurfacesBy::device), UsageError);
+}
+
+TEST_F(VulkanSurfaces, LightThePictureOfTheHosts) {
+  const auto device = std::make_shared<Device>(DeviceOptions{"", true});
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/gallery.glb").scene;
+  RenderOptions options = small();
+  options.method = "ltc-compact";
+  options.aa = 2;
+  const Picture by_host = Frame(scene, options, device, SurfacesBy::host).render();
+  Frame frame(scene, options, device, SurfacesBy::device);
+  RenderStats stats;
+  Picture by_raster;
+  for (int i = 0; i < 2; ++i) by_raster = frame.render(&stats);
+  int off = 0;
+  for (std::size_t i = 0; i < by_host.pixels.size(); ++i)
+    off += length(by_raster.pixels[i] - by_host.pixels[i]) > 1e-3f * (length(by_host.pixels[i]) + 0.1f) ? 1 : 0;
+  std::printf("%d of %zu pixels see something else\n", off, by_host.pixels.size());
+  EXPECT_LE(off, static_cast<int>(by_host.pixels.size()) / 200);
+  EXPECT_TRUE(std::any_of(stats.passes.begin(), stats.passes.end(), [](const PassTime& p) { return p.name == "device: triangles"; }));
+  EXPECT_TRUE(device->validation_messages().empty()) << device->validation_messages().front();
+}
+
+}  // namespace steradian::vulkan

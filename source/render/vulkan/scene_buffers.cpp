@@ -1,0 +1,169 @@
+#include "render/vulkan/scene_buffers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "render/cpu/surface_pack.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/surface_layout.glsl"
+
+using Vec4Floats = std::array<float, 4>;
+
+constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // that a float counts to
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;
+
+static_assert(kMaterial == kMaterialTextures + kUses * kUse);
+
+std::array<const TextureUse*, kUses> uses_of(const SurfaceMaterial& m) {
+  return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+          &m.emissive_texture,   &m.specular_texture,           &m.specular_color_texture};
+}
+
+const SurfaceMaterial& material_of(const Scene& scene, const Mesh& mesh) {
+  return scene.materials[static_cast<std::size_t>(mesh.material)];
+}
+
+// Texels of a picture and its pyramid, an upper bound.
+std::size_t texels_of_pyramid(const Image& image) {
+  const auto texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  return texels + texels / 2 + 64;
+}
+
+// Pictures with what stands behind their numbers.
+class Levels {
+ public:
+  Levels(const MipMaps& maps, std::vector<Vec4Floats>& records, std::vector<std::uint8_t>& texels)
+      : maps_(maps), records_(records), texels_(texels) {}
+
+  // Number of the first of a use.
+  std::size_t first(const TextureUse& use) {
+    const auto [at, is_new] = firsts_.try_emplace({use.image, use.color_space}, records_.size());
+    if (is_new)
+      for (const Image* level : maps_.levels(use)) {
+        const std::size_t texel = texels_.size() / 4;
+        records_.push_back({static_cast<float>(texel / kTexelRow), static_cast<float>(texel % kTexelRow), static_cast<float>(level->width),
+                            static_cast<float>(level->height)});
+        texels_.insert(texels_.end(), level->rgba.begin(), level->rgba.end());
+      }
+    return at->second;
+  }
+
+ private:
+  const MipMaps& maps_;
+  std::vector<Vec4Floats>& records_;
+  std::vector<std::uint8_t>& texels_;
+  std::map<std::pair<int, ColorSpace>, std::size_t> firsts_;
+};
+
+void add_use(const TextureUse& use, const MipMaps& maps, std::size_t first, std::vector<Vec4Floats>& to) {
+  if (!use.present()) {
+    to.insert(to.end(), {Vec4Floats{-1, 0, 0, 0}, Vec4Floats{}, Vec4Floats{}});
+    return;
+  }
+  const int flags = static_cast<int>(use.wrap_u) + 4 * static_cast<int>(use.wrap_v) + (use.filter == Filter::nearest ? kNearest : 0) +
+                    (use.color_space == ColorSpace::srgb ? kSrgb : 0);
+  to.push_back({static_cast<float>(first), static_cast<float>(maps.levels(use).size()), static_cast<float>(flags),
+                static_cast<float>(use.texcoord)});
+  to.push_back({use.uv[0], use.uv[1], use.uv[2], use.uv[3]});
+  to.push_back({use.uv[4], use.uv[5], use.scale, 0});
+}
+
+// As surface_at takes them.
+void add_factors(const SurfaceMaterial& m, std::vector<Vec4Floats>& to) {
+  const float r = (m.ior - 1) / (m.ior + 1);
+  to.push_back({m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w});
+  to.push_back({m.emissive.x, m.emissive.y, m.emissive.z, m.double_sided ? 1.0f : 0.0f});
+  to.push_back({m.specular_color.x, m.specular_color.y, m.specular_color.z, m.specular});
+  to.push_back({m.metallic, m.roughness, r * r, 0});
+}
+
+void add_vertices(const Mesh& mesh, std::vector<Vec4Floats>& to) {
+  const auto two = [](const std::vector<Vec2f>& set, std::size_t i) { return set.empty() ? Vec2f{} : set[i]; };
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3f &p = mesh.positions[i], &n = mesh.normals[i];
+    const Vec4f t = mesh.tangents.empty() ? Vec4f{} : mesh.tangents[i], c = mesh.colors.empty() ? Vec4f{} : mesh.colors[i];
+    const Vec2f a = two(mesh.texcoords[0], i), b = two(mesh.texcoords[1], i);
+    to.insert(to.end(), {Vec4Floats{p.x, p.y, p.z, 0}, Vec4Floats{n.x, n.y, n.z, 0}, Vec4Floats{t.x, t.y, t.z, t.w},
+                         Vec4Floats{a.x, a.y, b.x, b.y}, Vec4Floats{c.x, c.y, c.z, c.w}});
+  }
+}
+
+// What buffers are made of.
+struct Contents {
+  std::vector<Vec4Floats> vertices, triangles, materials;
+  std::vector<std::uint8_t> texels;
+
+  Contents(const Scene& scene, const MipMaps& maps) {
+    // First codes, then the meshes' own vectors, then materials, then the levels that their textures have.
+    const std::size_t first_material = kCodes + scene.meshes.size(), first_level = first_material + scene.materials.size() * kMaterial;
+    for (std::size_t i = 0; i < 4 * kCodes; i += 4) {
+      const auto code = [&](std::size_t k) { return linear_from_srgb8(static_cast<std::uint8_t>(i + k)); };
+      materials.push_back({code(0), code(1), code(2), code(3)});
+    }
+    std::vector<Vec4Floats> levels;
+    Levels pictures(maps, levels, texels);
+    std::vector<Vec4Floats> records;
+    for (const SurfaceMaterial& m : scene.materials) {
+      add_factors(m, records);
+      for (const TextureUse* use : uses_of(m)) add_use(*use, maps, use->present() ? first_level + pictures.first(*use) : 0, records);
+    }
+    for (const Mesh& mesh : scene.meshes) {
+      const auto number = static_cast<float>(materials.size()), first = static_cast<float>(vertices.size() / kVertex);
+      materials.push_back({static_cast<float>(first_material + static_cast<std::size_t>(mesh.material) * kMaterial),
+                           mesh.tangents.empty() ? 0.0f : 1.0f, mesh.colors.empty() ? 0.0f : 1.0f,
+                           (mesh.texcoords[0].empty() ? 0.0f : 1.0f) + (mesh.texcoords[1].empty() ? 0.0f : 2.0f)});
+      add_vertices(mesh, vertices);
+      for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        triangles.push_back({first + static_cast<float>(mesh.indices[i]), first + static_cast<float>(mesh.indices[i + 1]),
+                             first + static_cast<float>(mesh.indices[i + 2]), number});
+    }
+    materials.insert(materials.end(), records.begin(), records.end());
+    materials.insert(materials.end(), levels.begin(), levels.end());
+  }
+};
+
+Buffer filled(const Device& device, const void* data, std::size_t bytes, BufferForm form) {
+  Buffer buffer(device, std::max<std::size_t>(bytes, sizeof(Vec4Floats)), BufferUse::host_writes, form);
+  if (bytes > 0) buffer.write(data, bytes);
+  return buffer;
+}
+Buffer filled(const Device& device, const std::vector<Vec4Floats>& values) {
+  return filled(device, values.data(), values.size() * sizeof(Vec4Floats), BufferForm::texels);
+}
+
+}  // namespace
+
+std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device) {
+  if (!device.graphics) return "the device draws no triangles";
+  if (scene.environment) return "the environment";
+  std::size_t vertices = 0, triangles = 0, texels = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    const SurfaceMaterial& m = material_of(scene, mesh);
+    const std::string name = "the material '" + m.name + "', ";
+    if (kind_of(scene, mesh) == SurfaceKind::layered) return name + "whose layers depend on the view";
+    if (m.alpha_mode != AlphaMode::opaque) return name + "through which something shows";
+    if (!m.specular_override.empty()) return name + "which has lobes of its own";
+    vertices += mesh.positions.size();
+    triangles += mesh.triangle_count();
+  }
+  for (const Image& image : scene.images) texels += 2 * texels_of_pyramid(image);
+  const std::size_t most = std::min(device.texel_buffer, kLargestBuffer / sizeof(Vec4Floats));
+  if (vertices * kVertex > most || std::max(vertices, triangles) >= kMostNumbers || triangles > most)
+    return "more triangles than a buffer has room for";
+  if (texels > std::min(device.texel_buffer, kLargestBuffer / 4)) return "more texels than a buffer has room for";
+  return {};
+}
+
+SceneBuffers make_scene_buffers(const Device& device, const Scene& scene, const MipMaps& maps) {
+  const Contents c(scene, maps);
+  return {c.triangles.size(), filled(device, c.vertices), filled(device, c.triangles), filled(device, c.materials),
+          filled(device, c.texels.data(), c.texels.size(), BufferForm::colors)};
+}
+
+}  // namespace steradian::vulkan
