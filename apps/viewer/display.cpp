@@ -5,34 +5,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/tone.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian::view {
 namespace {
 
-template <class ColorAt>  // of a pixel's index, in [0, 1]
-Display filled(int width, int height, ColorAt color_at) {
+template <class FillRow>  // (first pixel, how many, their bytes, four a pixel)
+Display filled(int width, int height, FillRow fill_row) {
   Display display{width, height, {}};
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
   display.rgba.resize(4 * w * h);
-  tbb::parallel_for(std::size_t{0}, h, [&](std::size_t y) {
-    for (std::size_t i = y * w; i < (y + 1) * w; ++i) {
-      const Vec3f c = color_at(i);
-      const auto byte = [](float x) { return static_cast<std::uint8_t>(std::lround(x * 255.0f)); };
-      std::uint8_t* p = display.rgba.data() + 4 * i;
-      p[0] = byte(c.x);
-      p[1] = byte(c.y);
-      p[2] = byte(c.z);
-      p[3] = 255;
-    }
-  });
+  tbb::parallel_for(std::size_t{0}, h, [&](std::size_t y) { fill_row(y * w, w, display.rgba.data() + 4 * y * w); });
   return display;
 }
 
 }  // namespace
 
 Display shown(const Picture& picture, float exposure_stops) {
-  return filled(picture.width, picture.height, [&](std::size_t i) { return tone_map(picture.pixels[i], exposure_stops); });
+  const float scale = std::exp2(exposure_stops);
+  return filled(picture.width, picture.height, [&](std::size_t first, std::size_t count, std::uint8_t* row) {
+    image::tone_row(picture.pixels.data() + first, count, scale, row);
+  });
 }
 
 Vec3f heat(double share) {
@@ -45,9 +39,16 @@ Display error_map(const Picture& a, const Picture& b, double most) {
   for (const Vec3f& c : b.pixels) mean += luminance(static_cast<Vec3d>(c));
   mean /= std::max<double>(static_cast<double>(b.pixels.size()), 1);
   const double scale = mean * most > 0 ? 1 / (mean * most) : 0;
-  return filled(a.width, a.height, [&](std::size_t i) {
-    const Vec3f d = a.pixels[i] - b.pixels[i];
-    return heat(static_cast<double>(std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})) * scale);
+  return filled(a.width, a.height, [&](std::size_t first, std::size_t count, std::uint8_t* row) {
+    for (std::size_t i = first; i < first + count; ++i, row += 4) {
+      const Vec3f d = a.pixels[i] - b.pixels[i];
+      const Vec3f c = heat(static_cast<double>(std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})) * scale);
+      const auto byte = [](float x) { return static_cast<std::uint8_t>(std::lround(x * 255.0f)); };
+      row[0] = byte(c.x);
+      row[1] = byte(c.y);
+      row[2] = byte(c.z);
+      row[3] = 255;
+    }
   });
 }
 

@@ -104,15 +104,18 @@ void selected_controls(Session& s) {
 }
 
 void light_list(Session& s) {
-  const std::vector<Lamp> lamps = s.lamps();
+  const std::vector<Lamp>& lamps = s.lamps();
   if (ImGui::BeginListBox("##lights",
                           {-1, std::min(8.0f, static_cast<float>(lamps.size()) + 0.5f) * ImGui::GetTextLineHeightWithSpacing()})) {
-    for (std::size_t i = 0; i < lamps.size(); ++i) {
-      ImGui::PushID(static_cast<int>(i));
-      if (ImGui::Selectable((lamps[i].name + "  (" + lamps[i].type + ")").c_str(), lamps[i].node == s.selection().node))
-        s.select({lamps[i].node, -1});
-      ImGui::PopID();
-    }
+    ImGuiListClipper clipper;  // of thousands only those that are seen
+    clipper.Begin(static_cast<int>(lamps.size()));
+    while (clipper.Step())
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+        const Lamp& lamp = lamps[static_cast<std::size_t>(i)];
+        ImGui::PushID(i);
+        if (ImGui::Selectable((lamp.name + "  (" + lamp.type + ")").c_str(), lamp.node == s.selection().node)) s.select({lamp.node, -1});
+        ImGui::PopID();
+      }
     ImGui::EndListBox();
   }
   for (const char* type : {"rect", "disk", "sphere", "capsule"}) {

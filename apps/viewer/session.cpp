@@ -113,13 +113,21 @@ void Session::set_moving(bool moving) {
 
 const NodeTree& Session::tree() const {
   const std::uint64_t now = base_revision_ + document_->revision();
-  if (!tree_ || tree_revision_ != now) try {
-      tree_.emplace(shown_json(), path());
-    } catch (const std::exception&) {
-      tree_.emplace();  // of a broken file, which message() says when it is read
-    }
+  if (tree_ && tree_revision_ == now) return *tree_;
   tree_revision_ = now;
+  lamps_.clear();
+  try {
+    tree_.emplace(shown_json(), path());
+    lamps_ = lamps_of(*document_, *tree_);
+  } catch (const std::exception&) {
+    tree_.emplace();  // of a broken file, which message() says when it is read
+  }
   return *tree_;
+}
+
+const std::vector<Lamp>& Session::lamps() const {
+  tree();
+  return lamps_;
 }
 
 // ---- the pointer

@@ -59,8 +59,8 @@ class Session : public Stage {
   void reset_camera() override;
 
   Document& document() { return *document_; }
-  const NodeTree& tree() const;  // of the document as it is
-  std::vector<Lamp> lamps() const { return lamps_of(*document_, tree()); }
+  const NodeTree& tree() const;            // of the document as it is
+  const std::vector<Lamp>& lamps() const;  // of the document as it is
   const Selection& selection() const { return selection_; }
   void select(Selection selection) { selection_ = selection; }
   void select_named(const std::string& name) override;
@@ -109,6 +109,7 @@ class Session : public Stage {
   std::size_t animation_ = 0;
   double time_ = 0;
   mutable std::optional<NodeTree> tree_;
+  mutable std::vector<Lamp> lamps_;  // of tree_
   mutable std::uint64_t tree_revision_ = 0;
   bool moving_ = false, submitted_moving_ = false, settled_ = false;
   RenderedFrame frame_;

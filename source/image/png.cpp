@@ -10,6 +10,7 @@
 #include <map>
 
 #include "image/decode_image.h"
+#include "image/tone.h"
 
 namespace steradian::image {
 namespace {
@@ -143,14 +144,15 @@ std::string encode_png(const Picture& picture, float exposure_stops) {
   const auto layer = picture.layers.find("alpha");
   const Vec3f* alpha = layer == picture.layers.end() ? nullptr : layer->second.data();
   const Channels channels = alpha == nullptr ? Channels::rgb : Channels::rgba;
+  const float scale = std::exp2(exposure_stops);
   return encode(picture.width, picture.height, channels, picture.metadata, [&](int y, std::uint8_t* byte) {
     for (int x = 0; x < picture.width; ++x) {
       // PNG's colours are not multiplied by their coverage.
       const float cover =
           alpha == nullptr ? 1.0f
                            : alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)].x;
-      const Vec3f c = tone_map(picture.at(x, y) / std::max(cover, 1e-6f), exposure_stops);
-      for (const float channel : {c.x, c.y, c.z}) *byte++ = static_cast<std::uint8_t>(std::lround(channel * 255.0f));
+      const Vec3f c = tone_curve(picture.at(x, y) / std::max(cover, 1e-6f), scale);
+      for (const float channel : {c.x, c.y, c.z}) *byte++ = srgb_byte(channel);
       if (alpha != nullptr) *byte++ = static_cast<std::uint8_t>(std::lround(std::clamp(cover, 0.0f, 1.0f) * 255.0f));
     }
   });

@@ -1,7 +1,13 @@
 // The tone curve of PNG output.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <xsimd/xsimd.hpp>
 
+#include "image/tone.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/picture.h"
 
@@ -54,11 +60,121 @@ float auto_exposure(const Picture& picture) {
 }
 
 Vec3f tone_map(Vec3f radiance, float exposure_stops) {
-  const auto finite = [](float x) { return std::isfinite(x) ? std::clamp(x, 0.0f, 1e6f) : 0.0f; };
-  const float scale = std::exp2(exposure_stops);
-  const Vec3f c = pbr_neutral({finite(radiance.x * scale), finite(radiance.y * scale), finite(radiance.z * scale)});
-  const auto encode = [](float x) { return std::clamp(srgb_encode(std::clamp(x, 0.0f, 1.0f)), 0.0f, 1.0f); };
+  const Vec3f c = image::tone_curve(radiance, std::exp2(exposure_stops));
+  const auto encode = [](float x) { return std::clamp(srgb_encode(x), 0.0f, 1.0f); };
   return {encode(c.x), encode(c.y), encode(c.z)};
 }
+
+namespace image {
+
+Vec3f tone_curve(Vec3f radiance, float scale) {
+  const auto finite = [](float x) { return std::isfinite(x) ? std::clamp(x, 0.0f, 1e6f) : 0.0f; };
+  const Vec3f c = pbr_neutral({finite(radiance.x * scale), finite(radiance.y * scale), finite(radiance.z * scale)});
+  return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
+}
+
+namespace {
+
+std::uint8_t encoded_byte(float linear) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(srgb_encode(linear), 0.0f, 1.0f) * 255.0f));
+}
+
+// Where each code begins, and the code at the beginning of each of a float's 2^16 leading halves.
+struct CodeTable {
+  std::array<float, 257> begins;
+  std::array<std::uint8_t, (0x3F80u) + 1> first;  // of bits up to those of 1
+
+  CodeTable() {
+    begins[0] = 0;
+    begins[256] = 2;
+    for (unsigned code = 1; code < 256; ++code) {
+      std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);  // low is below, high is not: positive floats run as their bits do
+      while (high - low > 1) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        (encoded_byte(std::bit_cast<float>(middle)) < code ? low : high) = middle;
+      }
+      begins[code] = std::bit_cast<float>(high);
+    }
+    for (std::uint32_t half = 0; half < first.size(); ++half) first[half] = encoded_byte(std::bit_cast<float>(half << 16));
+  }
+
+  // Of a value in [0, 1]. Between two leading halves, at most 1/128 of their value apart, at most one code begins: the next is 1/107 away.
+  std::uint8_t code(float linear) const {
+    const std::uint8_t low = first[std::bit_cast<std::uint32_t>(linear) >> 16];
+    return static_cast<std::uint8_t>(low + (linear >= begins[low + 1u] ? 1 : 0));
+  }
+};
+
+const CodeTable& code_table() {
+  static const CodeTable table;
+  return table;
+}
+
+}  // namespace
+
+std::uint8_t srgb_byte(float linear) {
+  const CodeTable& table = code_table();
+  if (!(linear > 0)) return 0;
+  if (linear >= 1) return 255;
+  return table.code(linear);
+}
+
+namespace {
+
+using Row = xsimd::batch<float, xsimd::sse2>;  // what every x86-64 has; the order of operations is tone_curve's
+constexpr std::size_t kRow = Row::size;
+
+struct RowColor {
+  Row x, y, z;
+};
+
+RowColor neutral(RowColor c) {
+  const Row start_compression(0.8f - 0.04f), desaturation(0.15f), one(1.0f);
+  const Row low = xsimd::min(xsimd::min(c.x, c.y), c.z);
+  const Row offset = xsimd::select(low < Row(0.08f), low - Row(6.25f) * low * low, Row(0.04f));
+  c = {c.x - offset, c.y - offset, c.z - offset};
+  const Row peak = xsimd::max(xsimd::max(c.x, c.y), c.z);
+  const auto kept = peak < start_compression;
+  if (xsimd::all(kept)) return c;
+  const Row d = one - start_compression;
+  const Row new_peak = one - d * d / (peak + d - start_compression), ratio = new_peak / peak;
+  const Row g = one - one / (desaturation * (peak - new_peak) + one);
+  const auto compressed = [&](Row v) { return xsimd::select(kept, v, v * ratio * (one - g) + new_peak * g); };
+  return {compressed(c.x), compressed(c.y), compressed(c.z)};
+}
+
+}  // namespace
+
+void tone_row(const Vec3f* pixels, std::size_t count, float scale, std::uint8_t* rgba) {
+  const CodeTable& table = code_table();
+  const Row zero(0.0f), one(1.0f), most(std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < count; i += kRow) {
+    alignas(16) float x[kRow] = {}, y[kRow] = {}, z[kRow] = {};
+    const std::size_t n = std::min(kRow, count - i);
+    for (std::size_t k = 0; k < n; ++k) {
+      x[k] = pixels[i + k].x;
+      y[k] = pixels[i + k].y;
+      z[k] = pixels[i + k].z;
+    }
+    const auto exposed = [&](const float* v) {
+      const Row r = Row::load_aligned(v) * Row(scale);
+      return xsimd::select((r > zero) & (r <= most), xsimd::min(r, Row(1e6f)), zero);
+    };
+    const RowColor c = neutral({exposed(x), exposed(y), exposed(z)});
+    const auto clamped = [&](Row r, float* to) { xsimd::select(r > zero, xsimd::min(r, one), zero).store_aligned(to); };
+    clamped(c.x, x);
+    clamped(c.y, y);
+    clamped(c.z, z);
+    for (std::size_t k = 0; k < n; ++k) {
+      std::uint8_t* p = rgba + 4 * (i + k);
+      p[0] = table.code(x[k]);
+      p[1] = table.code(y[k]);
+      p[2] = table.code(z[k]);
+      p[3] = 255;
+    }
+  }
+}
+
+}  // namespace image
 
 }  // namespace steradian

@@ -1,0 +1,73 @@
+// The tone curve in halves: what whole pictures are mapped by is tone_map.
+#include "image/tone.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "steradian/picture.h"
+
+namespace steradian::image {
+namespace {
+
+std::uint8_t byte_of(float encoded) { return static_cast<std::uint8_t>(std::lround(encoded * 255.0f)); }
+
+// Every 97th float of [0, 1], and both sides of every place where the code changes.
+TEST(Tone, BytesByTableAreThoseOfTheTransferFunction) {
+  const auto expected = [](float x) { return byte_of(std::clamp(srgb_encode(x), 0.0f, 1.0f)); };
+  int wrong = 0;
+  for (std::uint32_t bits = 0; bits <= std::bit_cast<std::uint32_t>(1.0f); bits += 97) {
+    const auto x = std::bit_cast<float>(bits);
+    wrong += srgb_byte(x) != expected(x) ? 1 : 0;
+  }
+  EXPECT_EQ(wrong, 0);
+  for (int code = 1; code < 256; ++code) {
+    std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);
+    while (high - low > 1) (expected(std::bit_cast<float>((low + high) / 2)) < code ? low : high) = (low + high) / 2;
+    EXPECT_EQ(srgb_byte(std::bit_cast<float>(low)), code - 1);
+    EXPECT_EQ(srgb_byte(std::bit_cast<float>(high)), code);
+  }
+  for (const float outside : {-0.0f, -1.0f, 1.0f, 1.5f, 1e30f}) EXPECT_EQ(srgb_byte(outside), outside >= 1 ? 255 : 0) << outside;
+}
+
+TEST(Tone, HalvesMakeTheWhole) {
+  std::mt19937 random(1);
+  std::lognormal_distribution<float> radiance(0, 3);
+  for (int i = 0; i < 100000; ++i) {
+    const Vec3f c{radiance(random), radiance(random), i % 7 == 0 ? NAN : radiance(random)};
+    const float stops = static_cast<float>(i % 9) - 4;
+    const Vec3f whole = tone_map(c, stops), half = tone_curve(c, std::exp2(stops));
+    ASSERT_EQ(srgb_byte(half.x), byte_of(whole.x));
+    ASSERT_EQ(srgb_byte(half.y), byte_of(whole.y));
+    ASSERT_EQ(srgb_byte(half.z), byte_of(whole.z));
+  }
+}
+
+TEST(Tone, RowsAreThePixelsOneByOne) {
+  std::mt19937 random(2);
+  std::lognormal_distribution<float> radiance(-1, 3);
+  const float odd[] = {0, -0.0f, -3, INFINITY, -INFINITY, NAN, 1e-40f, 1e30f};
+  for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{4}, std::size_t{4099}}) {
+    std::vector<Vec3f> pixels(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      pixels[i] = {radiance(random), radiance(random), radiance(random)};
+      if (i % 3 == 0) pixels[i].x = odd[i / 3 % 8];
+      if (i % 5 == 0) pixels[i].z = odd[i / 5 % 8];
+    }
+    std::vector<std::uint8_t> rgba(4 * count);
+    tone_row(pixels.data(), count, 1.7f, rgba.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3f c = tone_curve(pixels[i], 1.7f);
+      ASSERT_EQ(rgba[4 * i], srgb_byte(c.x)) << i;
+      ASSERT_EQ(rgba[4 * i + 1], srgb_byte(c.y)) << i;
+      ASSERT_EQ(rgba[4 * i + 2], srgb_byte(c.z)) << i;
+      ASSERT_EQ(rgba[4 * i + 3], 255);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace steradian::image
