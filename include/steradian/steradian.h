@@ -27,6 +27,7 @@
 #include "steradian/picture.h"
 #include "steradian/plane.h"
 #include "steradian/plane_bounce.h"
+#include "steradian/plane_device.h"
 #include "steradian/plane_stage.h"
 #include "steradian/polygon_derivatives.h"
 #include "steradian/polygon_light.h"
