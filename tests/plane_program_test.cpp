@@ -113,6 +113,37 @@ TEST_F(Program, RenderOfAPlaneByFramesMovesWhatTheEditsSay) {
   EXPECT_NE(run({"render", svg, "-o", pattern, "--frames", "3..0"}).status, 0);
 }
 
+TEST_F(Program, RenderOfAPlaneByFramesMovesAsTheDrawingDoes) {
+  const std::string svg = folder / "scene.svg", pattern = folder / "f_##.exr";
+  const auto scene = [&](const std::string& cx, const std::string& inside) {
+    std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 64 48'><circle class='light' cx='" << cx
+                       << "' cy='14' r='3' fill='#fff' data-range='40'>" << inside
+                       << "</circle><rect x='30' y='20' width='8' height='8'/></svg>";
+  };
+  const std::string slide = "<animate attributeName='cx' from='10' to='50' dur='2s'/>";
+  scene("10", slide);
+  Outcome r = run({"render", svg, "-o", pattern, "--frames", "0..4", "--fps", "5"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.err.find("not supported"), std::string::npos) << r.err;
+  // What is there stays, unless all is drawn anew.
+  const fs::path third = folder / "f_03.exr";
+  fs::remove(third);
+  std::ofstream(folder / "f_02.exr") << "not a picture";
+  r = run({"render", svg, "-o", pattern, "--frames", "0..4", "--fps", "5"});
+  EXPECT_NE(r.err.find("4 of 5 frames are there"), std::string::npos) << r.err;
+  const Picture drawn = read_picture(third);
+  EXPECT_THROW(read_picture(folder / "f_02.exr"), std::exception);
+  ASSERT_EQ(run({"render", svg, "-o", pattern, "--frames", "0..4", "--fps", "5", "--force"}).status, 0);
+  EXPECT_EQ(read_picture(third).pixels, drawn.pixels);
+  EXPECT_NO_THROW(read_picture(folder / "f_02.exr"));
+  // 3 / 5 of a second: 10 + 40 * 0.3.
+  scene("22", "");
+  const std::string cold = folder / "cold.exr";
+  ASSERT_EQ(run({"render", svg, "-o", cold}).status, 0);
+  EXPECT_EQ(drawn.pixels, read_picture(cold).pixels);
+  EXPECT_NE(run({"render", svg, "-o", cold, "--fps", "5"}).status, 0);
+}
+
 TEST_F(Program, RenderOfAPlaneLeavesOccludersClear) {
   const std::string svg = folder / "scene.svg", png = folder / "a.png";
   std::ofstream(svg) << kScene;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include "steradian/error.h"
 
@@ -27,6 +28,17 @@ std::string numbered(const std::string& pattern, int frame) {
   if (first == std::string::npos) throw UsageError("--output", "has no # for the frames' numbers", "write -o 'frame_####.png'");
   const std::size_t end = std::min(pattern.find_first_not_of('#', first), pattern.size());
   return pattern.substr(0, first) + fmt::format("{:0{}}", frame, end - first) + pattern.substr(end);
+}
+
+std::vector<int> frames_to_make(const FrameRange& range, const std::string& output, bool force) {
+  numbered(output, 0);  // throws where there is no #
+  std::vector<int> wanted;
+  for (int frame = range.first; frame <= range.last; ++frame)
+    if (force || !std::filesystem::exists(numbered(output, frame))) wanted.push_back(frame);
+  const std::size_t all = static_cast<std::size_t>(range.last - range.first) + 1;
+  if (wanted.size() < all)
+    fmt::print(stderr, "steradian: {} of {} frames are there (--force makes them again)\n", all - wanted.size(), all);
+  return wanted;
 }
 
 }  // namespace steradian::app

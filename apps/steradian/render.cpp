@@ -199,9 +199,9 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
              {"--frames", method == "auto" || method == "exact", "--method exact"},
              {"--edits", !options.frames.empty(), "--frames"},
-             {"--fps", false, third},
+             {"--fps", !options.frames.empty(), "--frames"},
+             {"--force", !options.frames.empty(), "--frames"},
              {"--animation", false, third},
-             {"--force", false, third},
              {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
@@ -222,6 +222,8 @@ void run_plane(Options& options) {
   job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
   job.frames = options.frames;
   job.edits = options.edits;
+  job.fps = options.fps;
+  job.force = options.force;
   job.vulkan = options.backend == "vulkan";
   job.device = options.render.device;
   job.frame.aa = options.render.aa;
@@ -413,7 +415,7 @@ void add_render(CLI::App& app, Exit&) {
       ->check(CLI::IsMember({"black", "fill", "clear"}))
       ->group("Picture");
   verb->add_option("--frames", options->frames,
-                   "A..B: pictures numbered by the #s of -o, of a file's animation, or of a plane scene with --edits")
+                   "A..B: pictures numbered by the #s of -o, of a file's animation (glTF, SMIL), or of a plane scene with --edits")
       ->group("Frames");
   verb->add_option("--fps", options->fps, "frame N shows the moment N / fps seconds")->check(CLI::Range(1e-3, 1e6))->group("Frames");
   verb->add_option("--animation", options->animation, "by its name; none: the file's first")->group("Frames");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <set>
 #include <vector>
 
@@ -68,13 +67,7 @@ float exposure_of(const SceneFrames& job, Moments& moments) {
 }  // namespace
 
 void render_scene_frames(SceneFrames job) {
-  numbered(job.output, 0);  // throws where there is no #
-  std::vector<int> wanted;
-  for (int frame = job.range.first; frame <= job.range.last; ++frame)
-    if (job.force || !std::filesystem::exists(numbered(job.output, frame))) wanted.push_back(frame);
-  const std::size_t all = static_cast<std::size_t>(job.range.last - job.range.first) + 1;
-  if (wanted.size() < all)
-    fmt::print(stderr, "steradian: {} of {} frames are there (--force makes them again)\n", all - wanted.size(), all);
+  const std::vector<int> wanted = frames_to_make(job.range, job.output, job.force);
   if (wanted.empty()) return;
 
   Moments moments(job);

@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/simd.h"
 #include "steradian/error.h"
+#include "steradian/plane_animation.h"
 #include "steradian/plane_device.h"
 #include "steradian/version.h"
 
@@ -23,7 +24,8 @@ bool is_plane_scene(const std::string& path) { return path.size() > 4 && (path.e
 
 void render_plane_scene(const PlaneRender& job) {
   PlaneSvg loaded = load_plane_scene(job.scene, job.limits);
-  if (!loaded.ignored.empty()) {
+  // Of a drawing that moves, animations are left out only where no frames are asked for.
+  if (!loaded.ignored.empty() && (job.frames.empty() || !PlaneAnimation(job.scene, job.limits).moves())) {
     std::string names;
     for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;
     fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);
@@ -42,7 +44,7 @@ void render_plane_scene(const PlaneRender& job) {
     throw UsageError("--method", e.problem(), e.hint());
   }
   if (!job.frames.empty()) {
-    return render_plane_frames(job, {frame_range(job.frames), job.edits}, std::move(loaded.scene));
+    return render_plane_frames(job, {frame_range(job.frames), job.edits}, options, std::move(loaded.scene));
   }
   const PlaneWorld world(std::move(loaded.scene), job.limits);
 

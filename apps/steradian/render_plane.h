@@ -15,6 +15,8 @@ struct PlaneRender {
   int bounces = 0;     // kAllBounces: all
   std::string frames;  // A..B; empty: one picture
   std::string edits;   // of frames
+  double fps = 24;     // of frames: of a drawing that moves
+  bool force = false;  // of frames: those that are there already, too
   bool vulkan = false;
   std::string device;  // of vulkan
   Limits limits;

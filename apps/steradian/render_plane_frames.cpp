@@ -6,10 +6,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "command_line.h"
 #include "steradian/error.h"
+#include "steradian/plane_animation.h"
 #include "steradian/plane_stage.h"
 #include "steradian/version.h"
 
@@ -96,21 +98,75 @@ void apply(const Edit& edit, const std::string& file, PlaneStage& stage) {
   if (!found) throw Error(file, "the scene has no shape with the id " + edit.id, "give it one, or edit another");
 }
 
+void write(const Picture& drawn, const PlaneRender& job, int frame) {
+  Picture picture = drawn;
+  picture.metadata = {{"steradian.version", version()}, {"steradian.scene", job.scene}, {"steradian.frame", std::to_string(frame)}};
+  write_picture(picture, numbered(job.output, frame), job.exposure);
+}
+
+bool same(const PlaneGradient& a, const PlaneGradient& b) {
+  const auto alike = [](const PlaneStop& s, const PlaneStop& t) { return s.offset == t.offset && s.radiance == t.radiance; };
+  return a.from == b.from && a.to == b.to && std::equal(a.stops.begin(), a.stops.end(), b.stops.begin(), b.stops.end(), alike);
+}
+
+bool same(const PlaneEmission& a, const PlaneEmission& b) {
+  return a.radiance == b.radiance && a.gradient.has_value() == b.gradient.has_value() && (!a.gradient || same(*a.gradient, *b.gradient)) &&
+         a.profile == b.profile && a.range == b.range && a.spot_axis == b.spot_axis && a.spot_half_angle == b.spot_half_angle;
+}
+
+// Does a body look the same, as light and as shadow?
+bool same(const PlaneBody& a, const PlaneBody& b) {
+  return a.shape == b.shape && a.contours == b.contours && a.even_odd == b.even_odd && a.center == b.center && a.x_axis == b.x_axis &&
+         a.y_axis == b.y_axis && a.radius == b.radius && a.light.has_value() == b.light.has_value() &&
+         (!a.light || same(*a.light, *b.light));
+}
+
+// What has changed from one scene to the next, body by body: those behind one that has come or gone are other ones.
+void follow(const PlaneScene& next, PlaneStage& stage) {
+  const std::size_t kept = std::min(next.bodies.size(), stage.scene().bodies.size());
+  for (std::size_t i = 0; i < kept; ++i)
+    if (!same(stage.scene().bodies[i], next.bodies[i])) stage.replace(i, next.bodies[i]);
+  while (stage.scene().bodies.size() > next.bodies.size()) stage.remove(stage.scene().bodies.size() - 1);
+  for (std::size_t i = kept; i < next.bodies.size(); ++i) stage.add(next.bodies[i]);
+}
+
+void render_animation(const PlaneRender& job, const std::vector<int>& wanted, const PlaneFrameOptions& options,
+                      const PlaneAnimation& animation) {
+  const bool staged = options.aa <= 1 && options.occluders == PlaneOccluders::black && !options.moments;
+  std::optional<PlaneStage> stage;
+  std::set<std::string> named;
+  for (const int frame : wanted) {
+    PlaneSvg now = animation.at(frame / job.fps);
+    for (const std::string& name : now.ignored)
+      if (named.insert(name).second) fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, name);
+    if (!staged) {
+      write(render_plane(PlaneWorld(std::move(now.scene), job.limits), options), job, frame);
+      continue;
+    }
+    if (stage)
+      follow(now.scene, *stage);
+    else
+      stage.emplace(std::move(now.scene), options);
+    write(stage->draw(), job, frame);
+  }
+}
+
 }  // namespace
 
-void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, PlaneScene scene) {
+void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, const PlaneFrameOptions& options, PlaneScene scene) {
+  const std::vector<int> wanted = frames_to_make(frames.range, job.output, job.force);
+  if (wanted.empty()) return;
+  const PlaneAnimation animation(job.scene, job.limits);
+  if (animation.moves()) {
+    if (!frames.edits.empty()) throw UsageError("--edits", "the drawing moves by itself", "take its animations out, or leave --edits out");
+    return render_animation(job, wanted, options, animation);
+  }
   const std::vector<Edit> edits = frames.edits.empty() ? std::vector<Edit>{} : edits_of(frames.edits);
-  numbered(job.output, 0);
-  PlaneFrameOptions options = job.frame;
-  options.limits = job.limits;
   PlaneStage stage(std::move(scene), options);
-  for (int frame = 0; frame <= frames.range.last; ++frame) {
+  for (int frame = 0; frame <= wanted.back(); ++frame) {
     for (const Edit& edit : edits)
       if (edit.first <= frame && frame <= edit.last) apply(edit, frames.edits, stage);
-    if (frame < frames.range.first) continue;
-    Picture picture = stage.draw();
-    picture.metadata = {{"steradian.version", version()}, {"steradian.scene", job.scene}, {"steradian.frame", std::to_string(frame)}};
-    write_picture(picture, numbered(job.output, frame), job.exposure);
+    if (std::binary_search(wanted.begin(), wanted.end(), frame)) write(stage.draw(), job, frame);
   }
 }
 

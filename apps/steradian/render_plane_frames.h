@@ -13,7 +13,8 @@ struct PlaneFrames {
   std::string edits;  // JSON file: what changes before which frame
 };
 
-// Writes the frames: the #s of the output's name become the frame's number.
-void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, PlaneScene scene);
+// Writes the frames that are not there yet: the #s of the output's name become the frame's number. Frame i of a drawing that moves is at
+// i / fps seconds.
+void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, const PlaneFrameOptions& options, PlaneScene scene);
 
 }  // namespace steradian::app

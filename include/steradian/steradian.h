@@ -26,6 +26,7 @@
 #include "steradian/phong.h"
 #include "steradian/picture.h"
 #include "steradian/plane.h"
+#include "steradian/plane_animation.h"
 #include "steradian/plane_bounce.h"
 #include "steradian/plane_device.h"
 #include "steradian/plane_stage.h"

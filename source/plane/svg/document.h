@@ -9,9 +9,13 @@
 #include <string_view>
 
 #include "plane/svg/css.h"
+#include "steradian/limits.h"
 #include "steradian/vector.h"
 
 namespace steradian::plane::svg {
+
+// The text of a file. Throws Error where it cannot be read, or would take more memory than the limits.
+std::string read_text(const std::string& path, const Limits& limits);
 
 class Document {
  public:

@@ -116,6 +116,10 @@ class Reader {
     if (kSilent.count(name) != 0 || name.find(':') != std::string_view::npos) return;
     static const std::set<std::string_view> kKnown = {"g",       "a",    "svg",     "use",      "rect", "circle", "switch",
                                                       "ellipse", "line", "polygon", "polyline", "path", "text"};
+    if (name.starts_with("animate") || name == "set") {
+      document_.ignored.insert("<" + std::string(name) + "> (it moves in --frames only)");
+      return;
+    }
     if (kKnown.count(name) == 0) {
       document_.ignored.insert("<" + std::string(name) + ">");
       return;
@@ -404,7 +408,9 @@ PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& n
   return plane::svg::Reader(svg, name, limits).read();
 }
 
-PlaneSvg load_plane_scene(const std::string& path, const Limits& limits) {
+namespace plane::svg {
+
+std::string read_text(const std::string& path, const Limits& limits) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw Error(path, "cannot be opened", "check the path");
   const std::streamoff size = file.tellg();
@@ -413,7 +419,13 @@ PlaneSvg load_plane_scene(const std::string& path, const Limits& limits) {
   std::ostringstream text;
   text << file.rdbuf();
   if (!file && !file.eof()) throw Error(path, "cannot be read", "check that it is a file");
-  return load_plane_scene_from_text(text.str(), path, limits);
+  return text.str();
+}
+
+}  // namespace plane::svg
+
+PlaneSvg load_plane_scene(const std::string& path, const Limits& limits) {
+  return load_plane_scene_from_text(plane::svg::read_text(path, limits), path, limits);
 }
 
 }  // namespace steradian

@@ -1,0 +1,23 @@
+// When an animation of SMIL is at work, and how far it has come.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "plane/svg/document.h"
+
+namespace steradian::plane::svg {
+
+// Seconds: "1.5", "1.5s", "200ms", "2min", "1h", "01:30", "0:01:30.5".
+std::optional<double> clock_value(std::string_view text);
+
+// How far in its simple duration, 0 to 1, and how often that has been passed.
+struct Progress {
+  double share = 0;
+  int iteration = 0;
+};
+
+// Empty where the animation has no effect at that time: not yet begun, over and not frozen, or begun by an event.
+std::optional<Progress> progress_of(Document& document, pugi::xml_node animation, double seconds);
+
+}  // namespace steradian::plane::svg
