@@ -41,7 +41,7 @@ set(STERADIAN_render_packages TBB "embree 3")
 set(STERADIAN_render_libraries TBB::tbb embree)
 
 set(STERADIAN_plane_vulkan_sources "^plane_vulkan/")
-set(STERADIAN_plane_vulkan_needs plane render)
+set(STERADIAN_plane_vulkan_needs integrals shadow scene reference image plane render)
 set(STERADIAN_plane_vulkan_joins TRUE)
 set(STERADIAN_plane_vulkan_packages TBB)
 set(STERADIAN_plane_vulkan_libraries TBB::tbb)
