@@ -22,6 +22,7 @@ void add_ggx(BenchList& list);
 void add_plane(BenchList& list);
 void add_plane_on_device(BenchList& list, const std::string& device);
 void add_frame(BenchList& list, const Where& where);
+void add_many_lights(BenchList& list, const Where& where);
 void add_scaling(BenchList& list);
 void add_indirect(BenchList& list);
 void add_indirect_frames(BenchList& list, const Where& where);
@@ -32,6 +33,7 @@ inline BenchList all_benches(const Where& where = {}) {
   BenchList list;
   if (where.backend == Backend::vulkan) {
     add_frame(list, where);
+    add_many_lights(list, where);
     add_indirect_frames(list, where);
     add_plane_on_device(list, where.device);
     add_phong_on_device(list, where.device);
@@ -45,6 +47,7 @@ inline BenchList all_benches(const Where& where = {}) {
   add_ggx(list);
   add_plane(list);
   add_frame(list, where);
+  add_many_lights(list, where);
   add_scaling(list);
   add_indirect(list);
   add_indirect_frames(list, where);

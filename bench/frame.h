@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run.h"
+#include "benches.h"
 #include "core/simd.h"
 #include "render/vulkan/frame.h"
 #include "steradian/render.h"
@@ -49,6 +49,15 @@ struct Frame {
     return result;
   }
 };
+
+// Without a scene yet.
+inline std::shared_ptr<Frame> frame_on(const Where& where, int threads) {
+  auto frame = std::make_shared<Frame>();
+  frame->options.backend = where.backend;
+  frame->options.device = where.device;
+  frame->options.threads = threads;
+  return frame;
+}
 
 inline Bench bench_of(const std::string& name, std::shared_ptr<Frame> frame) {
   const auto pixels = static_cast<std::size_t>(frame->options.width) * static_cast<std::size_t>(frame->options.height);

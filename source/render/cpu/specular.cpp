@@ -1,6 +1,7 @@
 #include "render/cpu/specular.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -246,30 +247,27 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
   }
 
   const LtcPackTable& outlines = ltc_pack_table_for(active_simd());
+  const auto integrate = [&](const PackLight& light, const Points& some, const LtcSums& result) {
+    if (method_.ggx == Method::closed_form)
+      closed_form_table_for(active_simd()).ggx(light, some, method_.quality, result.specular, result.grazing);
+    else
+      (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(light, some, tables_, result);
+  };
+  // Sixteen slots that stand side by side stay so.
   TileVector position, normal, view, tangent;
   alignas(64) TilePlane alpha_x, alpha_y, plain, fresnel;
-  std::array<std::size_t, kTilePixels> slots;
+  const std::pair<const TilePlane*, TilePlane*> copies[] = {
+      {&tile.position.x, &position.x}, {&tile.position.y, &position.y}, {&tile.position.z, &position.z}, {&lobe.normal.x, &normal.x},
+      {&lobe.normal.y, &normal.y},     {&lobe.normal.z, &normal.z},     {&tile.view.x, &view.x},         {&tile.view.y, &view.y},
+      {&tile.view.z, &view.z},         {&tile.tangent.x, &tangent.x},   {&tile.tangent.y, &tangent.y},   {&tile.tangent.z, &tangent.z},
+      {&lobe.alpha_x, &alpha_x},       {&lobe.alpha_y, &alpha_y}};
+  constexpr std::size_t kBlock = 16;
   for (std::size_t n = 0; n < together.size(); ++n) {
     Points some;
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      if ((left[n] >> i / 16 & 1) == 0) continue;
-      const std::size_t k = some.count++;
-      slots[k] = i;
-      position.x[k] = tile.position.x[i];
-      position.y[k] = tile.position.y[i];
-      position.z[k] = tile.position.z[i];
-      normal.x[k] = lobe.normal.x[i];
-      normal.y[k] = lobe.normal.y[i];
-      normal.z[k] = lobe.normal.z[i];
-      view.x[k] = tile.view.x[i];
-      view.y[k] = tile.view.y[i];
-      view.z[k] = tile.view.z[i];
-      tangent.x[k] = tile.tangent.x[i];
-      tangent.y[k] = tile.tangent.y[i];
-      tangent.z[k] = tile.tangent.z[i];
-      alpha_x[k] = lobe.alpha_x[i];
-      alpha_y[k] = lobe.alpha_y[i];
-    }
+    for (std::uint64_t bits = left[n]; bits != 0; bits &= bits - 1, some.count += kBlock)
+      for (const auto& [from, to] : copies)
+        std::copy_n(from->begin() + std::countr_zero(bits) * static_cast<std::ptrdiff_t>(kBlock), kBlock,
+                    to->begin() + static_cast<std::ptrdiff_t>(some.count));
     if (some.count == 0) continue;
     some.position = arrays_of(position);
     some.normal = arrays_of(normal);
@@ -277,13 +275,12 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
     some.tangent = arrays_of(tangent);
     some.alpha_x = alpha_x.data();
     some.alpha_y = alpha_y.data();
-    if (method_.ggx == Method::closed_form)
-      closed_form_table_for(active_simd()).ggx(*together[n], some, method_.quality, plain.data(), fresnel.data());
-    else
-      (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(*together[n], some, tables_,
-                                                                         {nullptr, plain.data(), fresnel.data()});
+    integrate(*together[n], some, {nullptr, plain.data(), fresnel.data()});
     const Vec3f light = together[n]->radiance;
-    for (std::size_t k = 0; k < some.count; ++k) add_to(tile.radiance, slots[k], reflected(slots[k], light * plain[k], light * fresnel[k]));
+    std::size_t k = 0;
+    for (std::uint64_t bits = left[n]; bits != 0; bits &= bits - 1)
+      for (std::size_t i = static_cast<std::size_t>(std::countr_zero(bits)) * kBlock, end = i + kBlock; i < end; ++i, ++k)
+        add_to(tile.radiance, i, reflected(i, light * plain[k], light * fresnel[k]));
   }
   if (!others.empty()) add_ggx(tile, lobe, others);
 }

@@ -157,16 +157,16 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const Mask is_point = radius <= zero && area > zero;
   Verdict v = {select(is_point, code(Share::one_at_points), code(Share::exact)), zero, zero};
   // From the dearest to the cheapest.
-  const auto offer = [&](const Mask& possible, const Vec2<PackReal>& e, Share share) {
-    const Mask takes = possible && e.x + j.loss * e.y < allowed;
+  const auto offer = [&](const Mask& possible, const Vec2<PackReal>& e, Share share, const PackReal& most) {
+    const Mask takes = possible && e.x + j.loss * e.y < most;
     v = {select(takes, code(share), v.share), select(takes, weight * e.x, v.plain), select(takes, weight * e.y, v.grazing)};
   };
-  offer(clear && flat, four_at_points, Share::four_at_points);
-  // Next to a light even a small share of what it sends at most is much.
-  offer(apart && flat && near > radius, Vec2<PackReal>(across, across_grazing), Share::one_at_points);
-  offer(clear, one_at_points, Share::one_at_points);
-  offer(smooth && flat, by_four, Share::four);
-  offer(smooth, by_one, Share::one);
+  offer(clear && flat, four_at_points, Share::four_at_points, allowed);
+  // Next to a light even a small share of what it sends at most is much. Lights that a horizon cuts err one way: half as much.
+  offer(apart && flat && near > radius, Vec2<PackReal>(across, across_grazing), Share::one_at_points, j.error * PackReal(0.5));
+  offer(clear, one_at_points, Share::one_at_points, allowed);
+  offer(smooth && flat, by_four, Share::four, allowed);
+  offer(smooth, by_one, Share::one, allowed);
   v.share = select(dark || below, code(Share::nothing), v.share);
   return v;
 }
