@@ -139,7 +139,8 @@ Visibility::Visibility(const Device& device, const SceneBuffers& scene, const Ca
     : device_(device),
       scene_(scene),
       view_(view),
-      seen_(device, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) * sizeof(std::uint32_t)),
+      seen_(device, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) * sizeof(std::uint32_t),
+            BufferUse::host_writes),
       handles_(std::make_unique<Handles>()) {
   checked("prepare to draw triangles", [&] {
     const Device::Handles& d = device.handles();
