@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes src/library.js and src/tables.js from dist/ and tables/.
+"""Writes src/library.js, src/library_wgsl.js and src/tables.js from dist/ and tables/.
 
     make_package.py            writes them
     make_package.py --check    exit 1 when what is there is not what would be written
@@ -16,16 +16,16 @@ TOPICS = ("math", "polygon", "lobe", "round", "phong", "ltc", "ltc_tables", "ggx
 LICENCE = "// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.\n"
 
 
-def library():
+def library(name, folder, ending):
     texts = []
     for topic in TOPICS:
-        text = (ROOT / "dist" / "es" / f"{topic}.es.glsl").read_text()
+        text = (ROOT / "dist" / folder / f"{topic}{ending}").read_text()
         text = re.sub(r"//[^\n]*", "", text)  # a page loads code; the comments are in dist/
         texts.append(re.sub(r"\n\s*\n+", "\n", text).strip())
     body = "\n".join(texts)
     assert "`" not in body and "${" not in body
-    return ("// The topics " + ", ".join(TOPICS) + " of dist/es, without their comments.\n// Made by web/three-steradian/make_package.py.\n" +
-            LICENCE + "export const LIBRARY = /* glsl */ `\n" + body + "\n`;\n")
+    return ("// The topics " + ", ".join(TOPICS) + f" of dist/{folder}, without their comments.\n// Made by web/three-steradian/make_package.py.\n" +
+            LICENCE + f"export const {name} = `\n" + body + "\n`;\n")
 
 
 def numbers(text, name):
@@ -55,7 +55,8 @@ def tables():
 
 
 def main():
-    for name, text in (("library.js", library()), ("tables.js", tables())):
+    for name, text in (("library.js", library("LIBRARY", "es", ".es.glsl")), ("library_wgsl.js", library("LIBRARY_WGSL", "wgsl", ".wgsl")),
+                       ("tables.js", tables())):
         path = HERE / "src" / name
         if sys.argv[1:] == ["--check"]:
             if not path.exists() or path.read_text() != text:

@@ -1,7 +1,7 @@
 // The topics math, polygon, lobe, round, phong, ltc, ltc_tables, ggx of dist/es, without their comments.
 // Made by web/three-steradian/make_package.py.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-export const LIBRARY = /* glsl */ `
+export const LIBRARY = `
 float steradian_select(bool m, float a, float b) { return m ? a : b; }
 vec2 steradian_select(bool m, vec2 a, vec2 b) { return m ? a : b; }
 vec3 steradian_select(bool m, vec3 a, vec3 b) { return m ? a : b; }

@@ -8,6 +8,7 @@ export class AreaLight extends Object3D {
 	constructor( color = 0xffffff, intensity = 1 ) {
 
 		super();
+		this.isLight = true; // WebGPURenderer asks a light's node for what it adds; WebGLRenderer knows none of these
 		this.color = new Color( color );
 		this.intensity = intensity; // radiance: nits or W/(m2 sr)
 

@@ -79,7 +79,7 @@ if ( typeof renderer === 'undefined' ) {
 document.getElementById( 'answer' ).textContent = 'pixels:snippet:';
 """
     three = "import * as THREE from 'three';\n"
-    return [(("" if "'three';" in piece else three) + before + piece + after).encode() for piece in pieces]
+    return [(("" if "import * as THREE" in piece else three) + before + piece + after).encode() for piece in pieces]
 
 
 class Files(http.server.SimpleHTTPRequestHandler):
@@ -101,7 +101,8 @@ class Files(http.server.SimpleHTTPRequestHandler):
         if not found:
             return super().do_GET()
         i, kind = int(found.group(1)), found.group(2)
-        page = (PACKAGE / "test" / "page.html").read_text().replace('src="page.js"', f'src="/snippet/{i}.js"').encode()
+        name = "webgpu" if b"three/webgpu" in self.snippets[i] else "page"
+        page = (PACKAGE / "test" / f"{name}.html").read_text().replace(f'src="{name}.js"', f'src="/snippet/{i}.js"').encode()
         body = self.snippets[i] if kind == "js" else page
         self.send_response(200)
         self.send_header("Content-Type", self.extensions_map["." + kind])
