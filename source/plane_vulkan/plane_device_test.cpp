@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "paths.h"
 #include "plane/exact/families.h"
@@ -29,6 +30,13 @@ PlaneFrameOptions sized(int width, int height) {
   options.width = width;
   options.height = height;
   return options;
+}
+
+double resident_mib() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * 4096 / (1 << 20);
 }
 
 class VulkanPlane : public ::testing::Test {
@@ -150,6 +158,16 @@ TEST_F(VulkanPlane, LeavesNothingToTheValidationLayer) {
   PlaneDevice device(validated);
   for (const char* name : {"lamps", "room"}) device.render(PlaneWorld(scene_of(name)), sized(96, 60));
   EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
+}
+
+TEST_F(VulkanPlane, AHundredFramesLeaveMemoryWhereItWas) {
+  const PlaneWorld world(scene_of("room"));
+  const PlaneFrameOptions options = sized(32, 20);
+  Picture picture;
+  for (int i = 0; i < 30; ++i) device().render_into(picture, world, options);
+  const double before = resident_mib();
+  for (int i = 0; i < 100; ++i) device().render_into(picture, world, options);
+  EXPECT_LE(resident_mib(), before + 2);  // 20 KiB a frame
 }
 
 TEST_F(VulkanPlane, RefusesWhatItDoesNotHave) {

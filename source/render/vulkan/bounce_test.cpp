@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 #include "paths.h"
 #include "render/indirect/test_corner.h"
@@ -26,6 +27,13 @@ RenderOptions small(IndirectMode mode, int lights) {
   options.indirect.mode = mode;
   options.indirect.virtual_lights = lights;
   return options;
+}
+
+double resident_mib() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * 4096 / (1 << 20);
 }
 
 class VulkanBounce : public ::testing::Test {
@@ -103,6 +111,18 @@ TEST_F(VulkanBounce, SaysWhatItsPassesTook) {
   for (const char* name : {"indirect: device: cull", "indirect: device: light", "indirect: device: resolve"})
     EXPECT_TRUE(std::any_of(stats.passes.begin(), stats.passes.end(), [&](const PassTime& p) { return p.name == name && p.ms > 0; }))
         << name;
+}
+
+TEST_F(VulkanBounce, AHundredFramesLeaveMemoryWhereItWas) {
+  RenderOptions options = small(IndirectMode::ltc, 1 << 8);
+  const Scene scene = indirect::mixed_corner();
+  options.width = options.height = 16;
+  options.backend = Backend::vulkan;
+  Frame frame(scene, options);
+  for (int i = 0; i < 30; ++i) frame.render();
+  const double before = resident_mib();
+  for (int i = 0; i < 100; ++i) frame.render();
+  EXPECT_LE(resident_mib(), before + 2);  // 20 KiB a frame
 }
 
 TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {
