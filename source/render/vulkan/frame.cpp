@@ -90,7 +90,7 @@ struct Frame::Parts {
     if (has_bounce() && !bounce_on_host(o.indirect)) bounce = std::make_unique<Bounce>(*device);
     kept_on_host = keeps_surfaces_on_host();
     if (by == SurfacesBy::device && !kept_on_host.empty())
-      throw UsageError("--backend vulkan", "the device cannot find the surfaces: there is " + kept_on_host);
+      throw UsageError("--backend vulkan", "the device cannot find the surfaces (" + kept_on_host + ")");
     if (by == SurfacesBy::device || (by == SurfacesBy::automatic && kept_on_host.empty() && !device->info().software))
       raster = std::make_unique<RasterSurfaces>(*device, s, surfaces.camera(), o);
     build_ms = ms_since(start);
@@ -278,7 +278,8 @@ struct Frame::Parts {
     stats.method = method.name;
     stats.device = device->info().name;
     stats.warnings = lobes_under_means(scene, method);
-    if (!raster && !device->info().software) stats.warnings.push_back("the CPU finds the surfaces: there is " + kept_on_host);
+    if (!raster && !device->info().software && !host.has_shadows() && !has_bounce())
+      stats.warnings.push_back("the CPU finds the surfaces (" + kept_on_host + ")");
     for (std::string& sentence : lit_by_host(scene, options, method)) stats.warnings.push_back(std::move(sentence));
   }
 
