@@ -235,6 +235,18 @@ def browser_pixels(chromium, port, case):
     return [np.frombuffer(base64.b64decode(p), np.float32).reshape(HEIGHT, WIDTH, 4)[..., :3] for p in words.split(" ")]
 
 
+def check_example(chromium, url, picture):
+    """The page of example/: it draws, and says how far three's own is off what this package shows."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        done = subprocess.run([chromium, *FLAGS, "--window-size=1000,600", f"--user-data-dir={profile}", f"--screenshot={picture}", "--dump-dom", url],
+                              capture_output=True, text=True, timeout=300)
+    theirs = re.search(r'id="theirs">([\d.]+) % rms<', done.stdout)
+    problem = re.search(r'id="problem"[^>]*>([^<]*)<', done.stdout)
+    assert theirs and problem and not problem.group(1), done.stdout[-1500:] + done.stderr[-1500:]
+    print(f"example: three's own is {theirs.group(1)} % off; screenshot {picture}")
+    assert 1 < float(theirs.group(1)) < 100
+
+
 def main():
     chromium = browser.find()
     if chromium is None:
@@ -245,6 +257,7 @@ def main():
     for i in range(len(snippets())):
         assert page_words(chromium, f"http://127.0.0.1:{server.server_address[1]}/snippet/{i}.html") == "snippet"
     print(f"README.md: {len(snippets())} pieces run")
+    check_example(chromium, f"http://127.0.0.1:{server.server_address[1]}/package/example/index.html", Path(sys.argv[1]) / "example.png")
     eye, failed, errors = [0, 1.6, 2.6], False, {}
     for name, lights, material, roughness in CASES:
         want = judged(lights, material, roughness, eye)
