@@ -1,7 +1,8 @@
 // plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
 // 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
 // marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
-// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them;
+// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them; plane/bounce-lattice/N:
+// the same by a lattice, to 3e-3;
 // vulkan/plane/frame/LxB: plane/frame/LxB on a Vulkan device, all threads of the host;
 // plane/move/LxB and plane/move-lamp/LxB: a box, and a lamp, moves by 3.6 pixels, another one every time, and a 1080p stage follows.
 #include <fmt/format.h>
@@ -136,13 +137,15 @@ Bench bounces(int boxes) {
   return {"plane/bounce/" + std::to_string(boxes), elements, "scalar", [world] { keep(PlaneBounces(*world).stats().error); }};
 }
 
-Bench bounce_frame(int boxes, const BenchOptions& options) {
+Bench bounce_frame(int boxes, double lattice, const BenchOptions& options) {
   auto world = std::make_shared<PlaneWorld>(room_of(boxes));
   auto solved = std::make_shared<PlaneBounces>(*world);
   auto picture = std::make_shared<Picture>();
-  return {"plane/bounce-frame/" + std::to_string(boxes), std::size_t{1920} * 1080, name_of(options.simd), [world, solved, picture] {
+  const char* name = lattice > 0 ? "plane/bounce-lattice/" : "plane/bounce-frame/";
+  return {name + std::to_string(boxes), std::size_t{1920} * 1080, name_of(options.simd), [world, solved, picture, lattice] {
             PlaneFrameOptions frame = one_thread();
             frame.bounces = solved.get();
+            frame.bounce_lattice = lattice;
             render_plane_into(*picture, *world, frame);
             keep(picture->pixels.front());
           }};
@@ -183,7 +186,8 @@ void add_plane(BenchList& list) {
     list.add("plane/drawing/" + suffix(drawing), [drawing](const BenchOptions& o) { return drawn(drawing, o); });
   for (int boxes : {10, 50}) {
     list.add("plane/bounce/" + std::to_string(boxes), [boxes](const BenchOptions&) { return bounces(boxes); });
-    list.add("plane/bounce-frame/" + std::to_string(boxes), [boxes](const BenchOptions& o) { return bounce_frame(boxes, o); });
+    list.add("plane/bounce-frame/" + std::to_string(boxes), [boxes](const BenchOptions& o) { return bounce_frame(boxes, 0, o); });
+    list.add("plane/bounce-lattice/" + std::to_string(boxes), [boxes](const BenchOptions& o) { return bounce_frame(boxes, 3e-3, o); });
   }
   for (const LightField& field : kLightFields) {
     list.add("plane/frame/" + suffix(field), [field](const BenchOptions& o) { return cold(field, o); });

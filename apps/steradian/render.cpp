@@ -38,7 +38,7 @@ struct Options {
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
                              exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black",
                              light_sum = "auto", bounces = "0", frames, edits, animation;
-  double fps = 24;
+  double fps = 24, bounce_lattice = 0;
   bool force = false;
   std::vector<std::string> lights;
   std::optional<int> max_lights;
@@ -159,6 +159,7 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--moments", false, "a plane scene (.svg)"},
                                {"--occluders", false, "a plane scene (.svg)"},
                                {"--bounces", false, "a plane scene (.svg)"},
+                               {"--bounce-lattice", false, "a plane scene (.svg)"},
                                {"--fps", !options.frames.empty(), "--frames"},
                                {"--animation", !options.frames.empty(), "--frames"},
                                {"--force", !options.frames.empty(), "--frames"},
@@ -198,6 +199,7 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
              {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
              {"--frames", method == "auto" || method == "exact", "--method exact"},
+             {"--bounce-lattice", options.bounces != "0", "--bounces"},
              {"--edits", !options.frames.empty(), "--frames"},
              {"--fps", !options.frames.empty(), "--frames"},
              {"--force", !options.frames.empty(), "--frames"},
@@ -220,6 +222,7 @@ void run_plane(Options& options) {
     job.frame.height = options.render.height;
   }
   job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
+  job.lattice = options.bounce_lattice;
   job.frames = options.frames;
   job.edits = options.edits;
   job.fps = options.fps;
@@ -422,6 +425,12 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_flag("--force", options->force, "make frames again that are there")->group("Frames");
   verb->add_option("--edits", options->edits, "plane scenes: JSON file of what moves, changes or goes before which of --frames")
       ->group("Frames");
+  verb->add_option(
+          "--bounce-lattice", options->bounce_lattice,
+          "plane scenes: what walls send on is linear over 8 x 8 pixels where that is off by less than this share of its brightest "
+          "place; 0: at every pixel")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group("Light");
   verb->add_option("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
       ->check(CLI::Validator(
           [](std::string& text) {

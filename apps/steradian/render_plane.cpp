@@ -55,6 +55,7 @@ void render_plane_scene(const PlaneRender& job) {
     how.limits = job.limits;
     bounces.emplace(world, how);
     options.bounces = &*bounces;
+    options.bounce_lattice = job.lattice;
     options.bounce_error = job.output.ends_with(".exr");
   }
 
@@ -111,6 +112,10 @@ void render_plane_scene(const PlaneRender& job) {
   if (bounces) {
     const PlaneBounceStats& b = bounces->stats();
     json["bounces"] = {{"elements", b.elements}, {"rounds", b.rounds}, {"sweeps", b.sweeps}, {"ms", b.ms}, {"error", b.error}};
+    if (job.lattice > 0) {
+      json["bounces"]["lattice_error"] = stats.lattice_error;
+      json["bounces"]["lattice_drawn"] = stats.lattice_drawn;
+    }
   }
   write_file(job.stats, json.dump(2) + "\n");
 }

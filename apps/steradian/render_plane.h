@@ -13,6 +13,7 @@ struct PlaneRender {
   PlaneFrameOptions frame;
   float exposure = 0;
   int bounces = 0;     // kAllBounces: all
+  double lattice = 0;  // PlaneFrameOptions::bounce_lattice
   std::string frames;  // A..B; empty: one picture
   std::string edits;   // of frames
   double fps = 24;     // of frames: of a drawing that moves

@@ -147,6 +147,8 @@ struct PlaneFrameOptions {
   PlaneOccluders occluders = PlaneOccluders::black;
   const PlaneBounces* bounces = nullptr;  // of the same world: their light, too; of `exact` without moments
   bool bounce_error = false;              // layer "bounce_error": how far it may be off
+  double bounce_lattice = 0;              // above 0: their light is linear over cells of 8 x 8 pixels whose middle is then off by no more
+                                          // than this share of its brightest place; 0: worked out at every pixel
   bool moments = false;                   // layers "moment_x" and "moment_y"; in double, pixel by pixel
   int aa = 1;                             // point values a pixel, on a square grid (rounded up to a square number)
   int threads = 0;                        // 0: all
@@ -159,6 +161,8 @@ struct PlaneFrameStats {
   int threads = 0;
   std::size_t lights = 0, occluders = 0;
   std::uint64_t tile_lights = 0, tile_blockers = 0;  // pairs that reached the pixels, of `exact`
+  double lattice_error = 0;                          // of bounce_lattice: what the middle of a cell is off by, at most
+  double lattice_drawn = 1;                          // share of the picture in which every pixel was worked out
 };
 
 // The mean radiance at every pixel's centre. `exact` is worked in single precision, tile by tile, and is within 1e-5

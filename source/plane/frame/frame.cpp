@@ -9,6 +9,7 @@
 
 #include "core/budget.h"
 #include "plane/frame/frame.h"
+#include "plane/frame/lattice.h"
 #include "plane/frame/wall_emitters.h"
 #include "steradian/error.h"
 
@@ -140,7 +141,8 @@ void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld&
   budget.take_memory(
       scene.name, "a picture of " + std::to_string(width * n) + " x " + std::to_string(height * n) + " pixels (--size makes it smaller)",
       pixels * sizeof(Vec3f) *
-          ((options.moments ? 3 : 1) + (options.bounce_error ? 2 : 0) + (options.occluders == PlaneOccluders::clear ? 1 : 0)) *
+          ((options.moments ? 3 : 1) + (options.bounce_error ? 2 : 0) + (options.bounces != nullptr && options.bounce_lattice > 0 ? 1 : 0) +
+           (options.occluders == PlaneOccluders::clear ? 1 : 0)) *
           (n > 1 ? 2 : 1));
   Picture fine;
   Picture& picture = n > 1 ? fine : result;
@@ -166,10 +168,18 @@ void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld&
       try {
         FrameLights lights;
         if (options.bounces != nullptr) lights.walls = wall_emitters(options.bounces->impl(), WallLight::radiance);
-        const FrameScene frame = prepare_frame(inner, budget, lights);
+        const bool lattice = options.bounces != nullptr && options.bounce_lattice > 0;
+        FrameScene walls;
+        if (lattice) walls = prepare_frame(inner, budget, {false, std::move(lights.walls)});
+        const FrameScene frame = prepare_frame(inner, budget, lattice ? FrameLights{} : lights);
         own.prepare_ms = ms_since(start);
         const auto tiles = Clock::now();
         fill(frame, options, grid, picture, own);
+        if (lattice) {
+          const LatticeError error = add_by_lattice(walls, options, grid, options.bounce_lattice, picture, own);
+          own.lattice_error = error.largest;
+          own.lattice_drawn = error.drawn;
+        }
         own.frame_ms = ms_since(tiles);
         if (options.bounces != nullptr && options.bounce_error) add_bounce_error(fill, inner, options, grid, budget, picture);
       } catch (const std::bad_alloc&) {

@@ -259,6 +259,7 @@ class Worker {
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
     leaf_.enter(tile);
+    const unsigned wanted = only_ == nullptr || only_->blocks.empty() ? kAllBlocks : only_->blocks_of(x0, y0);
     mark_inside(level, x0, y0);
     if (lists_ != nullptr) lists_->begin_tile(x0, y0, tile.center);
     // Where something fills every pixel, no light arrives from outside.
@@ -273,7 +274,7 @@ class Worker {
       if (lists_ != nullptr)
         lists_->add(light);
       else
-        table_.add_light(light, buffer_, kAllBlocks);
+        table_.add_light(light, buffer_, wanted);
       ++tile_lights;
       tile_blockers += static_cast<std::uint64_t>(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count +
                                                   light.disk_count + light.span_count + light.body_count + light.chord_count +
@@ -282,7 +283,7 @@ class Worker {
     if (!filled && lists_ != nullptr)
       events_.list_lights(x0, y0, tile, *lists_, leaf_);
     else if (!filled)
-      events_.add_lights(x0, y0, tile, open_blocks(), buffer_, leaf_);
+      events_.add_lights(x0, y0, tile, open_blocks() & wanted, buffer_, leaf_);
     if (lists_ != nullptr) lists_->end_tile(filled_pixels());
     table_.write(buffer_, std::min(kTileSide, grid_.width - x0), std::min(kTileSide, grid_.height - y0), &picture_.at(x0, y0).x,
                  3 * static_cast<std::size_t>(grid_.width));

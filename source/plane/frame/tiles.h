@@ -22,6 +22,7 @@ struct PixelGrid {
 struct TileSet {
   int columns, rows;
   std::vector<char> marked;
+  std::vector<std::uint16_t> blocks;  // of the tiles: those of 4 x 4 pixels that want light, in the buffer's order; empty: all
   explicit TileSet(const PixelGrid& grid)
       : columns((grid.width + kTileSide - 1) / kTileSide),
         rows((grid.height + kTileSide - 1) / kTileSide),
@@ -29,6 +30,9 @@ struct TileSet {
   // The tiles of a square of so many pixels from (x, y) on.
   void mark(int x, int y, int side);
   bool any(int x, int y, int side) const;
+  unsigned blocks_of(int x, int y) const {
+    return blocks[static_cast<std::size_t>(y / kTileSide) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / kTileSide)];
+  }
 };
 
 // Fills the picture's pixels, or those of some tiles, and the counts of the statistics. With a store, what round lights send to a tile is
