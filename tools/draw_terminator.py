@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scenes"))
 from png_files import read_png, write_png  # noqa: E402
-from make_scenes import Gltf, looking, plate, sphere  # noqa: E402
+from gltf_writer import Gltf, looking, plate, sphere  # noqa: E402
 
 
 def scene():
