@@ -160,7 +160,7 @@ TEST(ViewLamps, FindAllKindsAndTheirValues) {
   m.metallic = 0;
   m.base_color = {1, 0.5, 0};
   set_material_values(d, 0, m);
-  const SurfaceMaterial& read = scene_of(d).materials.at(0);
+  const SurfaceMaterial read = scene_of(d).materials.at(0);
   EXPECT_EQ(read.roughness, 0.7f);
   EXPECT_EQ(read.metallic, 0.0f);
   EXPECT_EQ(read.base_color.y, 0.5f);

@@ -29,6 +29,7 @@ void Drawing::load() {
   scene_ = load_plane_scene(path_).scene;
   file_time_ = time_of(path_);
   before_.clear();
+  saved_steps_ = 0;
   after_.clear();
   open_.reset();
   show();
@@ -201,6 +202,8 @@ void Drawing::reload() { load(); }
 void Drawing::save_scene(const std::string& path) {
   if (!path.ends_with(".svg")) throw Error(path, "is no .svg", "name the scene scene.svg");
   write_file(path, plane_scene_to_svg(scene_));
+  close_step();
+  saved_steps_ = before_.size();
   if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(path_)) file_time_ = time_of(path);
 }
 

@@ -50,6 +50,7 @@ class Drawing : public Stage {
   std::optional<Vec2d> resize_handle() const;  // in pixels: the lower right corner of what is selected
 
   const std::string& path() const override { return path_; }
+  bool unsaved() const override { return open_.has_value() || before_.size() != saved_steps_; }
   bool file_changed() const override;
   void reload() override;
   void save_scene(const std::string& path) override;
@@ -68,6 +69,7 @@ class Drawing : public Stage {
   // Scenes before the steps that can be undone, and after those that can be redone; the one before the step that is open.
   std::vector<PlaneScene> before_, after_;
   std::optional<PlaneScene> open_;
+  std::size_t saved_steps_ = 0;  // of before_, when it was saved
 
   enum class Hold { nothing, body, corner } hold_ = Hold::nothing;
   bool moving_ = false;

@@ -172,6 +172,14 @@ void set_value(ViewState& state, const std::string& what, const nlohmann::json& 
   state.session->changed();
 }
 
+void follow_file(ViewState& state) {
+  if (!state.stage->file_changed()) return;
+  if (state.stage->unsaved())
+    state.stage->say(state.stage->path() + " has changed: F5 reads it again, and drops what was changed here and not saved");
+  else
+    attempt(state, [&] { state.stage->reload(); });
+}
+
 void act(ViewState& state, Action action) {
   Stage& stage = *state.stage;
   Session* s = state.session;

@@ -12,6 +12,9 @@ void open_stage(ViewState& state, const std::string& path, const RenderOptions& 
 
 void act(ViewState& state, Action action);
 
+// Reads a file again that another program has written, unless that would lose what was changed here: then it says so.
+void follow_file(ViewState& state);
+
 // {"set": ...}: a value of the selected light, its material or the picture. Throws Error for what is not known.
 void set_value(ViewState& state, const std::string& what, const nlohmann::json& value);
 

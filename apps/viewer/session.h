@@ -82,6 +82,7 @@ class Session : public Stage {
 
   const std::string& path() const override { return document_->file().path; }
   void reload() override;  // the camera kept; throws Error, and stays as it was
+  bool unsaved() const override { return !document_->saved(); }
   bool file_changed() const override;
   void save_scene(const std::string& path) override;
   void save_picture(const std::string& path, float exposure_stops) override;

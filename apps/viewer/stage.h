@@ -42,6 +42,7 @@ class Stage {
   virtual void reset_camera() = 0;
 
   virtual const std::string& path() const = 0;
+  virtual bool unsaved() const = 0;       // something was changed since the file was read or saved
   virtual bool file_changed() const = 0;  // since it was read or saved
   virtual void reload() = 0;
   virtual void save_scene(const std::string& path) = 0;

@@ -95,21 +95,21 @@ scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera) {
   }
   for (const char* key : {"translation", "rotation", "scale"}) nodes[node].erase(key);
   nodes[node]["matrix"] = matrix;
-  json["cameras"][nodes[node]["camera"].get<std::size_t>()]["perspective"]["yfov"] = camera.yfov;
+  json["cameras"].at(nodes[node]["camera"].get<std::size_t>())["perspective"]["yfov"] = camera.yfov;
 
   // First among the scene's roots, and so the first camera.
   if (!json.contains("scenes") || json["scenes"].empty()) {
     std::vector<bool> is_child(nodes.size(), false);
     for (const Json& n : nodes)
       if (n.contains("children"))
-        for (const Json& child : n["children"]) is_child[child.get<std::size_t>()] = true;
+        for (const Json& child : n["children"]) is_child.at(child.get<std::size_t>()) = true;
     Json roots = Json::array();
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!is_child[i]) roots.push_back(i);
     json["scenes"] = Json::array({{{"nodes", roots}}});
     json["scene"] = 0;
   }
-  Json& scene = json["scenes"][json.value("scene", std::size_t{0})];
+  Json& scene = json["scenes"].at(json.value("scene", std::size_t{0}));
   Json roots = Json::array({node});
   if (scene.contains("nodes"))
     for (const Json& root : scene["nodes"])

@@ -43,7 +43,8 @@ Ray ray_through(const Camera& camera, Vec2d pixel, double width, double height);
 // Where a point is seen; nothing where it lies behind the camera.
 std::optional<Vec2d> project(const Camera& camera, Vec3d point, double width, double height);
 
-// The camera as the file's first, so that whoever renders the file sees the same picture.
+// The camera as the file's first, so that whoever renders the file sees the same picture. Throws a std::exception for a file that
+// load_scene would refuse.
 scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera);
 // What a file says of a camera whose axes are orthonormal only to rounding, so that both are the same bits.
 Camera as_read(const Camera& camera);

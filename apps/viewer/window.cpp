@@ -333,7 +333,7 @@ void Window::watch_file() {
   const auto now = Clock::now();
   if (now - last_look_ < std::chrono::milliseconds(500)) return;
   last_look_ = now;
-  if (state_.stage->file_changed()) attempt(state_, [&] { state_.stage->reload(); });
+  follow_file(state_);
 }
 
 // ---- a script
@@ -342,7 +342,7 @@ void Window::play() {
   if (!playing() || Clock::now() < wait_until_ || !shot_.empty()) return;
   if (const ScriptEvent& next = script_[next_event_]; next.word == ScriptWord::wait) {
     if (next.number == kSettled && !state_.stage->settled()) return;
-    if (next.number == kPicture && state_.display.width == 0) return;
+    if (next.number == kPicture && state_.display.width == 0 && !state_.stage->settled()) return;
   }
   const ScriptEvent event = script_[next_event_++];
   attempt(state_, [&] { play(event); });
