@@ -286,7 +286,8 @@ void Session::select_named(const std::string& name) {
       return;
     }
   for (const scene::GltfNode& node : tree().visible())
-    if (const Json* found = document_->find("/nodes/" + std::to_string(node.index) + "/name"); found != nullptr && *found == name) {
+    if (const Json* found = document_->find("/nodes/" + std::to_string(node.index) + "/name");
+        found != nullptr && found->is_string() && found->get_ref<const std::string&>() == name) {
       selection_ = {node.index, -1};
       return;
     }
