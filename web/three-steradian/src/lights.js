@@ -5,6 +5,13 @@ import { Color, Object3D, Vector3 } from 'three';
 /** What the lights of this package have in common. They shine along their local -z, as RectAreaLight does. */
 export class AreaLight extends Object3D {
 
+	/** As Light's own, which renderer.library.addLight calls from three 0.187 on. */
+	static registerNode( lightNodeClass ) {
+
+		this.prototype._lightNode = lightNodeClass;
+
+	}
+
 	constructor( color = 0xffffff, intensity = 1 ) {
 
 		super();

@@ -5,7 +5,7 @@ const GLSL = {
 	let: ( type, name ) => `${type} ${name}`,
 	array: ( name, count ) => `vec3 ${name}[ ${count} ]`,
 	loop: ( name, count ) => `for ( int ${name} = 0; ${name} < ${count}; ${name} ++ )`,
-	vec3: 'vec3', vec4: 'vec4', mat3: 'mat3',
+	vec2: 'vec2', vec3: 'vec3', vec4: 'vec4', mat3: 'mat3',
 	declare: ( name, params ) => `vec4 ${name}( ${params.map( ( [ type, n ] ) => `${type} ${n}` ).join( ', ' )} )`
 };
 const WGSL_TYPES = { vec3: 'vec3<f32>', float: 'f32' };
@@ -13,7 +13,7 @@ const WGSL = {
 	let: ( type, name ) => `var ${name}`,
 	array: ( name, count ) => `var ${name} : array<vec3<f32>, ${count}>`,
 	loop: ( name, count ) => `for ( var ${name} : i32 = 0; ${name} < ${count}; ${name} ++ )`,
-	vec3: 'vec3<f32>', vec4: 'vec4<f32>', mat3: 'mat3x3<f32>',
+	vec2: 'vec2<f32>', vec3: 'vec3<f32>', vec4: 'vec4<f32>', mat3: 'mat3x3<f32>',
 	declare: ( name, params ) => `fn ${name}( ${params.map( ( [ type, n ] ) => `${n} : ${WGSL_TYPES[ type ]}` ).join( ', ' )} ) -> vec4<f32>`
 };
 
@@ -67,12 +67,11 @@ ${L.let( 'vec2', 'part' )} = steradian_ltc_ggx_magnitude( place ) * steradian_lt
 
 }
 
-// The edges above the horizon and the arcs of the horizon that close them, then two walks over them.
-function closedForm( L, count, reversed ) {
+// The edges above the horizon and the arcs of the horizon that close them: `edges` pairs of edge_a and edge_b.
+function clipped( L, count, reversed ) {
 
 	const most = 2 * count + 4;
 	const put = ( a, b ) => `if ( edges < ${most} ) { edge_a[ edges ] = ${a}; edge_b[ edges ] = ${b}; edges = edges + 1; }`;
-	const edge = 'steradian_ggx_edge( ggx, edge_a[ k ], edge_b[ k ] )';
 	return `${L.let( 'float', 'facing' )} = 1.0;
 if ( ${reversed} ) { facing = - 1.0; }
 ${L.array( 'edge_a', most )};
@@ -95,8 +94,16 @@ ${L.loop( 'k', count + 1 )} {
 		}
 		${put( 'middle', 'clip.arc_end' )}
 	}
+}`;
+
 }
-${L.let( 'SteradianGgxView', 'ggx' )} = steradian_ggx_view( v, alpha, alpha );
+
+// Two walks over those edges. wide: along the frame's x.
+function closedForm( L, count, reversed, wide ) {
+
+	const edge = 'steradian_ggx_edge( ggx, edge_a[ k ], edge_b[ k ] )';
+	return `${clipped( L, count, reversed )}
+${L.let( 'SteradianGgxView', 'ggx' )} = steradian_ggx_view( v, ${wide}, alpha );
 ${L.let( 'vec3', 'sum' )} = ${L.vec3}( 0.0, 0.0, 0.0 );
 ${L.loop( 'k', 'edges' )} { sum += steradian_conic_vector( ${edge} ); }
 ${L.let( 'SteradianGgxCubature', 'c' )} = steradian_ggx_cubature_begin( ggx, sum, 1.0, facing );
@@ -105,23 +112,47 @@ ${L.let( 'vec2', 'part' )} = steradian_ggx_cubature_finish( c );`;
 
 }
 
+// Fibres: part.x what those of colour 1 send, part.y what they reflect of an even sky.
+function sheen( L, count, reversed ) {
+
+	return `${clipped( L, count, reversed )}
+${L.let( 'SteradianCharlieLobe', 'lobe' )} = steradian_charlie_prepare( v, alpha );
+${L.let( 'vec3', 'sum' )} = ${L.vec3}( 0.0, 0.0, 0.0 );
+${L.loop( 'k', 'edges' )} { sum += steradian_polygon_edge( edge_a[ k ], edge_b[ k ] ); }
+${L.let( 'SteradianCharlieCubature', 'c' )} = steradian_charlie_cubature_begin( lobe, sum, facing );
+${L.loop( 'k', 'edges' )} { c = steradian_charlie_cubature_edge( c, edge_a[ k ], edge_b[ k ] ); }
+${L.let( 'vec2', 'place' )} = steradian_ltc_coordinates( roughness, v.z );
+${L.let( 'SteradianLtcMatrix', 'm' )} = steradian_ltc_from_compact( steradian_ltc_charlie_shape( place ), alpha, v );
+${L.let( 'vec2', 'part' )} = ${L.vec2}( steradian_charlie_cubature_finish( c ), steradian_ltc_charlie_magnitude( place ).x * steradian_ltc_energy_above_horizon( m ) );`;
+
+}
+
+const LOBES = {
+	'compact': compact,
+	'closed-form': ( L, count, reversed ) => closedForm( L, count, reversed, 'alpha' ),
+	'anisotropic': ( L, count, reversed ) => closedForm( L, count, reversed, 'max( wide, alpha )' ), // by both methods: its lobes have no compact table
+	'sheen': sheen
+};
+
 /**
  * The function's text. It takes, in view space and from the surface's point, the light's vectors c0, c1, ... (as lights.js places them), the normal, the
- * direction to the eye, the perceptual roughness, and side: -1.0 to see the back of a flat light. It returns, for radiance 1: x what a white diffuse surface
- * sends, y and z what a GGX lobe sends with F = 1 and with F = (1 - v.h)^5.
+ * direction to the eye, the perceptual roughness, and side: -1.0 to see the back of a flat light; of 'anisotropic' also a tangent and alpha along it. It
+ * returns, for radiance 1: x what a white diffuse surface sends, y and z what a GGX lobe sends with F = 1 and with F = (1 - v.h)^5; of 'sheen', what
+ * fibres send and their albedo.
  */
-export function walkOf( language, name, kind, count, method ) {
+export function walkOf( language, name, kind, count, lobe ) {
 
-	const L = language === 'wgsl' ? WGSL : GLSL;
+	const L = language === 'wgsl' ? WGSL : GLSL, turned = lobe === 'anisotropic';
 	const corners = kind === 'polygon' ? count : ROUND_CORNERS, reversed = kind === 'polygon' ? 'side < 0.0' : 'false';
-	const params = [ [ 'vec3', 'normal' ], [ 'vec3', 'view' ], [ 'float', 'roughness' ], [ 'float', 'side' ], ...Array.from( { length: count }, ( _, i ) => [ 'vec3', `c${i}` ] ) ];
+	const params = [ [ 'vec3', 'normal' ], [ 'vec3', 'view' ], [ 'float', 'roughness' ], [ 'float', 'side' ], ...( turned ? [ [ 'vec3', 'tangent' ], [ 'float', 'wide' ] ] : [] ),
+		...Array.from( { length: count }, ( _, i ) => [ 'vec3', `c${i}` ] ) ];
 	return `${L.declare( name, params )} {
-${L.let( 'mat3', 'frame' )} = steradian_frame_from_normal_and_view( normal, view );
+${L.let( 'mat3', 'frame' )} = steradian_frame_from_normal_and_view( normal, ${turned ? 'tangent' : 'view'} );
 ${L.let( 'vec3', 'v' )} = steradian_transform_transposed( frame, view );
 ${L.let( 'float', 'alpha' )} = max( roughness * roughness, 1.0e-4 );
 ${outline( L, kind, count )}
 if ( v.z <= 0.0 ) { return ${L.vec4}( diffuse, 0.0, 0.0, 0.0 ); }
-${( method === 'closed-form' ? closedForm : compact )( L, corners, reversed )}
+${LOBES[ lobe ]( L, corners, reversed )}
 return ${L.vec4}( diffuse, part.x, part.y, 0.0 );
 }`;
 

@@ -1,4 +1,4 @@
-import type { WebGPURenderer } from 'three/webgpu';
+import { AnalyticLightNode, Light, WebGPURenderer } from 'three/webgpu';
 
 export { AreaLight, DiskAreaLight, GLTFAreaLights, PolygonAreaLight, SphereAreaLight, TubeAreaLight } from './index.js';
 
@@ -11,3 +11,9 @@ export interface AreaLightOptions {
 
 /** Makes node materials see area lights by this library: before a scene is first drawn. */
 export function registerAreaLights( renderer: WebGPURenderer, options?: AreaLightOptions ): void;
+
+/** The node of every area light, for renderer.library.addLight. */
+export class SteradianLightNode extends AnalyticLightNode<Light> {
+	/** Of the lights that are set up next. */
+	static method: 'compact' | 'closed-form';
+}

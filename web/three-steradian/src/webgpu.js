@@ -1,8 +1,8 @@
 // Area lights for three's WebGPURenderer (WebGPU, and WebGL where it falls back to it). README.md is the manual.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-import { AnalyticLightNode, Matrix4, NodeUpdateType, RectAreaLight, REVISION, Vector3 } from 'three/webgpu';
-import { cameraViewMatrix, clearcoatRoughness, code, diffuseContribution, float, glslFn, normalView, positionView, positionViewDirection, renderGroup, roughness,
-	specularColorBlended, specularF90, clearcoatNormalView, uniform, vec3, vec4, wgslFn } from 'three/tsl';
+import { AnalyticLightNode, Matrix4, NodeUpdateType, RectAreaLight, Vector3 } from 'three/webgpu';
+import { alphaT, anisotropyT, cameraViewMatrix, clearcoatNormalView, clearcoatRoughness, code, diffuseContribution, float, glslFn, normalView, positionView,
+	positionViewDirection, renderGroup, roughness, sheen, sheenRoughness, specularColorBlended, specularF90, uniform, vec3, vec4, wgslFn } from 'three/tsl';
 import { LIBRARY } from './library.js';
 import { LIBRARY_WGSL } from './library_wgsl.js';
 import { AreaLight, DiskAreaLight, placeLight, PolygonAreaLight, SphereAreaLight, TubeAreaLight, vectorsOf } from './lights.js';
@@ -14,10 +14,10 @@ export { GLTFAreaLights } from './gltf.js';
 const LIBRARIES = { glsl: code( LIBRARY, [], 'glsl' ), wgsl: code( LIBRARY_WGSL, [], 'wgsl' ) };
 const walks = new Map();
 
-function walkFor( language, kind, count, method ) {
+function walkFor( language, kind, count, lobe ) {
 
-	const name = `steradian_node_${kind}_${count}_${method.replace( '-', '_' )}`, key = `${language} ${name}`;
-	if ( ! walks.has( key ) ) walks.set( key, ( language === 'wgsl' ? wgslFn : glslFn )( walkOf( language, name, kind, count, method ), [ LIBRARIES[ language ] ] ) );
+	const name = `steradian_node_${kind}_${count}_${lobe.replace( '-', '_' )}`, key = `${language} ${name}`;
+	if ( ! walks.has( key ) ) walks.set( key, ( language === 'wgsl' ? wgslFn : glslFn )( walkOf( language, name, kind, count, lobe ), [ LIBRARIES[ language ] ] ) );
 	return walks.get( key );
 
 }
@@ -42,7 +42,7 @@ function placeRect( light, place ) {
 const rectCenter = new Vector3();
 
 /** The node of every area light. Its method is that of registerAreaLights. */
-class SteradianLightNode extends AnalyticLightNode {
+export class SteradianLightNode extends AnalyticLightNode {
 
 	static get type() {
 
@@ -72,7 +72,7 @@ class SteradianLightNode extends AnalyticLightNode {
 
 		const { reflectedLight, lightingModel } = builder.context;
 		const language = builder.renderer.backend.isWebGPUBackend ? 'wgsl' : 'glsl', kind = kindOf( this.light );
-		const walk = walkFor( language, kind, this.places.length, SteradianLightNode.method );
+		const method = SteradianLightNode.method;
 		// Corners are places, of round lights all but the centre (of tubes, but the ends) are directions.
 		const isPlace = ( i ) => kind === 'polygon' || i === 0 || ( kind === 'tube' && i === 1 );
 		const seen = {};
@@ -84,14 +84,24 @@ class SteradianLightNode extends AnalyticLightNode {
 		} );
 		for ( const side of this.light.twoSided ? [ 1, - 1 ] : [ 1 ] ) {
 
-			const lit = ( normal, rough ) => walk( { normal, view: positionViewDirection, roughness: rough, side: float( side ), ...seen } ).toVar();
-			const base = lit( normalView, roughness );
+			const lit = ( lobe, normal, rough, more = {} ) =>
+				walkFor( language, kind, this.places.length, lobe )( { normal, view: positionViewDirection, roughness: rough, side: float( side ), ...more, ...seen } ).toVar();
 			const fresnel = ( part, f0, f90 ) => f0.mul( part.y.sub( part.z ) ).add( f90.mul( part.z ) );
-			reflectedLight.directDiffuse.addAssign( this.colorNode.mul( diffuseContribution ).mul( base.x ) );
-			reflectedLight.directSpecular.addAssign( this.colorNode.mul( fresnel( base, specularColorBlended, specularF90 ) ) );
+			const base = lightingModel?.anisotropy === true ? lit( 'anisotropic', normalView, roughness, { tangent: anisotropyT, wide: alphaT } ) : lit( method, normalView, roughness );
+			let below = this.colorNode;
+			if ( lightingModel?.sheen === true ) {
+
+				const fibres = lit( 'sheen', normalView, sheenRoughness );
+				lightingModel.sheenSpecularDirect.addAssign( this.colorNode.mul( sheen ).mul( fibres.y ) );
+				below = below.mul( sheen.r.max( sheen.g ).max( sheen.b ).mul( fibres.z ).oneMinus() );
+
+			}
+
+			reflectedLight.directDiffuse.addAssign( below.mul( diffuseContribution ).mul( base.x ) );
+			reflectedLight.directSpecular.addAssign( below.mul( fresnel( base, specularColorBlended, specularF90 ) ) );
 			if ( lightingModel?.clearcoat === true ) {
 
-				const coat = lit( clearcoatNormalView, clearcoatRoughness );
+				const coat = lit( method, clearcoatNormalView, clearcoatRoughness );
 				lightingModel.clearcoatSpecularDirect.addAssign( this.colorNode.mul( fresnel( coat, vec3( 0.04 ), float( 1 ) ) ) );
 
 			}
@@ -117,8 +127,13 @@ export function registerAreaLights( renderer, options = {} ) {
 	SteradianLightNode.method = method;
 	for ( const Light of [ PolygonAreaLight, DiskAreaLight, SphereAreaLight, TubeAreaLight, ...( rects ? [ RectAreaLight ] : [] ) ] ) {
 
-		Light.prototype._lightNode = SteradianLightNode; // from 0.187 on; before, the renderer's library was asked
-		if ( parseInt( REVISION ) < 187 ) renderer.library.addLight( SteradianLightNode, Light );
+		if ( RectAreaLight.registerNode ) Light.registerNode( SteradianLightNode ); // the class itself knows its node: three from 0.187 on
+		else { // the renderer's library does, and keeps what it has been told first
+
+			renderer.library.lightNodes.delete( Light );
+			renderer.library.addLight( SteradianLightNode, Light );
+
+		}
 
 	}
 

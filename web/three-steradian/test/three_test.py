@@ -39,7 +39,7 @@ except ImportError as e:
     skip(f"the Python module is not built: {e}")
 
 
-def three_from_npm(scratch):
+def three_from_npm(scratch, version=THREE):
     if not shutil.which("npm"):
         skip("npm is not installed (apt-get install npm)")
     scratch.mkdir(parents=True, exist_ok=True)
@@ -47,11 +47,11 @@ def three_from_npm(scratch):
     if not (folder / "build" / "three.module.js").exists():
         (scratch / "package.json").write_text('{"private": true}\n')
         try:
-            done = subprocess.run(["npm", "install", "--no-audit", "--no-fund", THREE], cwd=scratch, capture_output=True, text=True, timeout=100)
+            done = subprocess.run(["npm", "install", "--no-audit", "--no-fund", version], cwd=scratch, capture_output=True, text=True, timeout=100)
         except subprocess.TimeoutExpired:
-            skip(f"npm install {THREE} took too long")
+            skip(f"npm install {version} took too long")
         if done.returncode != 0:
-            skip(f"npm install {THREE} failed: {done.stderr.strip()[:300]}")
+            skip(f"npm install {version} failed: {done.stderr.strip()[:300]}")
     return folder
 
 

@@ -1,6 +1,7 @@
 // Renders the case in the address (?case=JSON) by WebGPURenderer, in WebGL where case.webgl, and posts the floats to case.post, the lowest row first.
 import * as THREE from 'three/webgpu';
-import { DiskAreaLight, PolygonAreaLight, SphereAreaLight, TubeAreaLight, registerAreaLights } from 'three-steradian/webgpu';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { DiskAreaLight, GLTFAreaLights, PolygonAreaLight, SphereAreaLight, SteradianLightNode, TubeAreaLight, registerAreaLights } from 'three-steradian/webgpu';
 
 const c = JSON.parse( new URLSearchParams( location.search ).get( 'case' ) );
 const send = ( words ) => fetch( c.post, { method: 'POST', mode: 'no-cors', body: words } );
@@ -28,11 +29,19 @@ async function pixelsBy( method ) {
 	const renderer = new THREE.WebGPURenderer( { forceWebGL: c.webgl } );
 	await renderer.init();
 	if ( ! c.webgl && ! renderer.backend.isWebGPUBackend ) return 'none';
-	registerAreaLights( renderer, { method } );
+	if ( c.byLibrary ) { // the older form of the plug-in interface, by hand
+
+		SteradianLightNode.method = method;
+		for ( const Light of [ PolygonAreaLight, DiskAreaLight, SphereAreaLight, TubeAreaLight, THREE.RectAreaLight ] ) renderer.library.addLight( SteradianLightNode, Light );
+
+	} else registerAreaLights( renderer, { method } );
 	const scene = new THREE.Scene();
-	const material = new THREE.MeshPhysicalNodeMaterial( { roughness: c.roughness, metalness: c.metalness, side: THREE.DoubleSide } );
+	const material = new THREE.MeshPhysicalNodeMaterial( { roughness: c.roughness, metalness: c.metalness, sheen: c.sheen ? 1 : 0, sheenRoughness: c.sheenRoughness || 1,
+		anisotropy: c.anisotropy || 0, side: THREE.DoubleSide } );
 	material.color.setRGB( ...c.color );
+	if ( c.sheen ) material.sheenColor.setRGB( ...c.sheen );
 	for ( const l of c.lights ) scene.add( lightOf( l ) );
+	if ( c.gltf ) scene.add( ( await new GLTFLoader().register( ( parser ) => new GLTFAreaLights( parser ) ).parseAsync( JSON.stringify( c.gltf ), '' ) ).scene );
 	const floor = new THREE.Mesh( new THREE.PlaneGeometry( 40, 40, 80, 80 ), material );
 	floor.rotation.x = - Math.PI / 2;
 	scene.add( floor );
