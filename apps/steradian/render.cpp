@@ -36,9 +36,9 @@ constexpr const char* kDefaultSize = "1280x720";
 struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
-                             exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black",
+                             exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black", normal_map,
                              light_sum = "auto", bounces = "0", frames, edits, animation;
-  double fps = 24, bounce_lattice = 0;
+  double fps = 24, bounce_lattice = 0, lamp_height = 45;
   bool force = false;
   std::vector<std::string> lights;
   std::optional<int> max_lights;
@@ -158,6 +158,8 @@ void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
                                {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
                                {"--moments", false, "a plane scene (.svg)"},
                                {"--occluders", false, "a plane scene (.svg)"},
+                               {"--normal-map", false, "a plane scene (.svg)"},
+                               {"--lamp-height", false, "a plane scene (.svg)"},
                                {"--bounces", false, "a plane scene (.svg)"},
                                {"--bounce-lattice", false, "a plane scene (.svg)"},
                                {"--fps", !options.frames.empty(), "--frames"},
@@ -196,7 +198,10 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--backend", options.frames.empty() || options.backend == "cpu", "one picture, not --frames"},
              {"--device", options.backend == "vulkan", "--backend vulkan"},
              {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
-             {"--moments", options.output.ends_with(".exr"), "-o FILE.exr"},
+             {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},
+             {"--normal-map", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
+             {"--lamp-height", !options.normal_map.empty(), "--normal-map"},
+             {"--occluders", options.normal_map.empty(), "a light map, not --normal-map"},
              {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
              {"--frames", method == "auto" || method == "exact", "--method exact"},
              {"--bounce-lattice", options.bounces != "0", "--bounces"},
@@ -232,6 +237,8 @@ void run_plane(Options& options) {
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
   job.frame.moments = options.moments;
+  job.normal_map = options.normal_map;
+  job.lamp_height = options.lamp_height;
   if (options.occluders == "fill") job.frame.occluders = PlaneOccluders::fill;
   if (options.occluders == "clear") job.frame.occluders = PlaneOccluders::clear;
   job.frame.sampling = {options.spp_given ? options.render.spp : 64, options.render.seed};
@@ -414,6 +421,12 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")->group("Machine");
   add_limits(*verb, options->limits);
   verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")->group("Picture");
+  verb->add_option("--normal-map", options->normal_map,
+                   "plane scenes: the picture of this normal map (.png, .exr; green upwards), lit; of its size, and with its alpha")
+      ->group("Picture");
+  verb->add_option("--lamp-height", options->lamp_height, "of --normal-map: degrees at which lamps stand above the plane")
+      ->check(CLI::Range(0.0, 90.0))
+      ->group("Picture");
   verb->add_option("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
       ->check(CLI::IsMember({"black", "fill", "clear"}))
       ->group("Picture");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "core/atomic_file.h"
@@ -16,6 +17,7 @@
 #include "steradian/error.h"
 #include "steradian/plane_animation.h"
 #include "steradian/plane_device.h"
+#include "steradian/plane_normals.h"
 #include "steradian/version.h"
 
 namespace steradian::app {
@@ -31,7 +33,7 @@ void render_plane_scene(const PlaneRender& job) {
     fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);
   }
   const auto& bodies = loaded.scene.bodies;
-  if (std::none_of(bodies.begin(), bodies.end(), [](const PlaneBody& body) { return body.light.has_value(); }))
+  if (loaded.scene.suns.empty() && std::none_of(bodies.begin(), bodies.end(), [](const PlaneBody& body) { return body.light.has_value(); }))
     fmt::print(stderr,
                "steradian: {}: no light in this file, so the picture is black: give a shape or its group class=\"light\" or "
                "data-steradian=\"light\", or name its layer \"lights\"\n",
@@ -45,6 +47,14 @@ void render_plane_scene(const PlaneRender& job) {
   }
   if (!job.frames.empty()) {
     return render_plane_frames(job, {frame_range(job.frames), job.edits}, options, std::move(loaded.scene));
+  }
+  std::optional<Picture> normals;
+  if (!job.normal_map.empty()) {
+    normals = normals_of_map(read_picture(job.normal_map), !job.normal_map.ends_with(".exr"));
+    if (options.width == 0) options.width = normals->width, options.height = normals->height;
+    if (options.width != normals->width || options.height != normals->height)
+      throw UsageError("--size", fmt::format("the normal map has {}x{} pixels", normals->width, normals->height), "leave --size out");
+    options.moments = true;
   }
   const PlaneWorld world(std::move(loaded.scene), job.limits);
 
@@ -70,6 +80,7 @@ void render_plane_scene(const PlaneRender& job) {
   if (job.vulkan) device.emplace(job.device);
   Picture picture = device ? device->render(world, options, &stats) : render_plane(world, options, &stats);
   progress.reset();
+  if (normals) picture = light_normals(picture, *normals, job.lamp_height * std::numbers::pi / 180);
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", job.scene},
                       {"steradian.method", name_of(options.method)},

@@ -118,7 +118,8 @@ bool same(const PlaneEmission& a, const PlaneEmission& b) {
 bool same(const PlaneBody& a, const PlaneBody& b) {
   return a.shape == b.shape && a.contours == b.contours && a.even_odd == b.even_odd && a.center == b.center && a.x_axis == b.x_axis &&
          a.y_axis == b.y_axis && a.radius == b.radius && a.light.has_value() == b.light.has_value() &&
-         (!a.light || same(*a.light, *b.light));
+         (!a.light || same(*a.light, *b.light)) && a.transmittance == b.transmittance && a.mirror == b.mirror &&
+         a.light_depth == b.light_depth;
 }
 
 // What has changed from one scene to the next, body by body: those behind one that has come or gone are other ones.
@@ -139,7 +140,9 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
     PlaneSvg now = animation.at(frame / job.fps);
     for (const std::string& name : now.ignored)
       if (named.insert(name).second) fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, name);
-    if (!staged) {
+    // A stage has the suns and the fog that it began with.
+    if (!staged || !now.scene.suns.empty() || now.scene.fog_density > 0) {
+      stage.reset();
       write(render_plane(PlaneWorld(std::move(now.scene), job.limits), options), job, frame);
       continue;
     }

@@ -67,10 +67,26 @@ struct PlaneBody {
   Vec3d color;                         // linear RGB, to draw an occluder with, and what it reflects where no albedo is given
   std::optional<Vec3d> albedo;  // the share of the light that its outline sends on (plane_bounce.h); none: `color`, of a light nothing
   std::string name;             // the SVG id, for messages
+  // What an occluder may do with light other than to block it, one of them at most:
+  std::optional<Vec3d> transmittance;  // let through this share of each channel, once for each body that a ray meets
+  std::optional<Vec3d> mirror;         // send back this share from its straight edges, as a mirror does, once
+  double light_depth = 0;              // above 0: take it in, and show within it what is left: exp(-s / light_depth) after a way s
+};
+
+// A light at infinity: seen where nothing blocks it, from outside of lights.
+struct PlaneSun {
+  Vec3d radiance{1, 1, 1};   // of a sun without width: what arrives of it, the integral over directions
+  double direction = 0;      // radians, where it stands as seen from the scene; y is downwards
+  double half_width = 0;     // radians, up to pi; 0: shadows are hard
+  std::string name = "sun";  // for messages
 };
 
 PlaneBody plane_polygon(std::vector<Vec2d> vertices);
 PlaneBody plane_circle(Vec2d center, double radius);
+// A light along a line, a body an edge: radiance is that of the texels, evenly placed from its first point to its last, and linear between
+// them. All else is as in `emission`. Throws Error for a line without length or texels.
+std::vector<PlaneBody> plane_textured_line(const std::vector<Vec2d>& points, const std::vector<Vec3d>& texels,
+                                           const PlaneEmission& emission = {});
 
 // Where the picture's shape is not the scene's.
 enum class PlaneFit {
@@ -83,6 +99,8 @@ struct PlaneScene {
   Vec2d origin;  // of the picture: the viewBox
   double width = 512, height = 512;
   std::vector<PlaneBody> bodies;
+  std::vector<PlaneSun> suns;
+  double fog_density = 0;            // what is seen at distance r is times exp(-fog_density r); suns are not dimmed
   PlaneFit fit = PlaneFit::stretch;  // SVG files: meet, unless they say otherwise
   Vec2d align{0.5, 0.5};             // of meet and slice: 0 the left and top, 1 the right and bottom
   std::string name = "scene";        // for messages: the file it came from

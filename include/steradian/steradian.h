@@ -29,6 +29,7 @@
 #include "steradian/plane_animation.h"
 #include "steradian/plane_bounce.h"
 #include "steradian/plane_device.h"
+#include "steradian/plane_normals.h"
 #include "steradian/plane_stage.h"
 #include "steradian/polygon_derivatives.h"
 #include "steradian/polygon_light.h"

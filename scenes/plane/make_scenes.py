@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the plane scenes beside this file: lamps, room, city, logo, bounce. The same bytes on every machine."""
+"""Writes the plane scenes beside this file: lamps, room, city, logo, bounce, sun, glass, mirror, marble, fog, screen, and a normal map of cobbles. The
+same bytes on every machine."""
 import math
 import pathlib
+import struct
+import zlib
 
 FOLDER = pathlib.Path(__file__).parent
 
@@ -21,9 +24,9 @@ class Random:
         return low + (high - low) * ((x ^ (x >> 31)) >> 11) * 2.0**-53
 
 
-def write(name, title, width, height, body):
+def write(name, title, width, height, body, more=""):
     text = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"{more}>\n'
         f"<!-- Made by make_scenes.py. SPDX-License-Identifier: CC0-1.0 -->\n<title>{title}</title>\n{body}</svg>\n"
     )
     (FOLDER / name).write_text(text)
@@ -132,8 +135,113 @@ def bounce():
     write("bounce.svg", "Two rooms, one lamp, and what their walls send on", 640, 400, body)
 
 
-lamps()
-room()
-city()
-logo()
-bounce()
+def sun():
+    # A low sun, soft by one degree, and a sky; trees, a house with a yard.
+    rng = Random(21)
+    body = """<g data-steradian="sun"><circle r="1" fill="#ffd9a0" data-intensity="26" data-sun-direction="-28 1"/>
+<circle r="1" fill="#9cc4ff" data-intensity="0.55" data-sun-direction="-90 90"/></g>
+<path d="M380 120H560V290H380V260H530V150H410V200H380Z" fill="#a06a4a"/>
+<rect x="440" y="190" width="40" height="30" fill="#8a5a40"/>
+<g fill="#3f6b3a">
+"""
+    for _ in range(13):
+        x, y = rng.uniform(20, 330), rng.uniform(20, 380)
+        body += f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{rng.uniform(5, 15):.2f}"/>\n'
+    body += "</g>\n"
+    for k in range(9):
+        body += f'<rect x="{372 + 24 * k}" y="340" width="4" height="4" fill="#705040"/>\n'
+    write("sun.svg", "A low sun and the sky", 640, 400, body)
+
+
+def glass():
+    body = """<circle class="light" cx="320" cy="200" r="9" fill="#fff4e0" data-intensity="14"/>
+<g transform="translate(320 200)">
+"""
+    tints = (("1 0.12 0.08", "#ff6a60"), ("1 0.7 0.05", "#ffd860"), ("0.1 0.85 0.2", "#60f080"), ("0.05 0.6 1", "#60d0ff"), ("0.35 0.12 1", "#a070ff"))
+    for k in range(10):
+        tint, fill = tints[k % 5]
+        body += f'<rect x="62" y="-13" width="6" height="26" fill="{fill}" data-transmittance="{tint}" transform="rotate({36 * k})"/>\n'
+    body += """</g>
+<rect x="470" y="60" width="70" height="70" rx="20" fill="#8090ff" data-transmittance="0.3 0.4 1"/>
+<rect x="500" y="90" width="80" height="80" fill="#ff9080" data-transmittance="1 0.45 0.3" transform="rotate(20 540 130)"/>
+<circle cx="110" cy="110" r="34" fill="#90ffb0" data-transmittance="0.4 1 0.5"/><circle cx="120" cy="290" r="14" fill="#333"/>
+<circle cx="215" cy="345" r="10" fill="#333"/><polygon points="520,290 560,300 530,335" fill="#333"/><rect x="300" y="40" width="50" height="8" fill="#333"/>
+"""
+    write("glass.svg", "A lamp among panes of coloured glass", 640, 400, body)
+
+
+def mirror():
+    body = """<circle class="light" cx="150" cy="120" r="10" fill="#ffe2b0" data-intensity="9"/>
+<circle class="light" cx="520" cy="330" r="7" fill="#8fb8ff" data-intensity="9"/>
+<g data-mirror="0.95 0.95 0.95" fill="#cfd8e0"><rect x="60" y="376" width="360" height="8"/><rect x="-60" y="-4" width="120" height="8" transform="translate(420 90) rotate(35)"/>
+<rect x="-45" y="-4" width="90" height="8" transform="translate(590 190) rotate(100)"/></g>
+<line x1="250" y1="230" x2="310" y2="190" stroke="#cfd8e0" data-mirror="1 0.75 0.35"/>
+<g fill="#444"><rect x="120" y="220" width="24" height="24"/><circle cx="220" cy="300" r="13"/><rect x="330" y="290" width="60" height="10" transform="rotate(-20 360 295)"/>
+<circle cx="480" cy="200" r="16"/></g>
+"""
+    write("mirror.svg", "Two lamps and four mirrors", 640, 400, body)
+
+
+def marble():
+    body = """<circle class="light" cx="330" cy="190" r="9" fill="#fff0d8" data-intensity="10"/><circle class="light" cx="560" cy="60" r="8" fill="#7fb0ff" data-intensity="9"/>
+<g data-light-depth="22"><circle cx="180" cy="130" r="62" fill="#ffd8c8"/>
+<path d="M380 260L540 230L600 330L470 372Z" fill="#bfe8d0"/>
+<path d="M60 250H240V370H60Z M110 300V340H190V300Z" fill-rule="evenodd" fill="#f4f0ff"/></g>
+<g fill="#333"><rect x="255" y="200" width="16" height="16"/><circle cx="420" cy="120" r="14"/></g>
+<circle class="light" cx="150" cy="320" r="5" fill="#ff7a50" data-intensity="12"/>
+"""
+    write("marble.svg", "Stones that light enters", 640, 400, body)
+
+
+def fog():
+    rng = Random(33)
+    body = '<g class="light" data-intensity="30">\n'
+    for k in range(7):
+        body += f'<circle cx="{60 + 87 * k}" cy="{200 + 18 * (-1) ** k}" r="5" fill="{("#ffdf9f", "#ffb070", "#9fc8ff")[k % 3]}"/>\n'
+    body += '</g>\n<g fill="#222">\n'
+    for _ in range(26):
+        x, y = rng.uniform(10, 630), rng.uniform(10, 390)
+        if abs(y - 200) > 45:
+            body += f'<polygon points="{polygon(turned_box(x, y, rng.uniform(4, 13), rng.uniform(4, 13), rng.uniform(0, 3)))}"/>\n'
+    write("fog.svg", "Street lamps in fog", 640, 400, body + "</g>\n", ' data-fog-density="0.022"')
+
+
+def screen():
+    # A sign of forty pixels, and a strip around a corner.
+    colors = []
+    for k in range(40):
+        on = (k * 7) % 10 < 6
+        colors.append(f"hsl({9 * k},100%,{55 if on else 6}%)")
+    body = f"""<line class="light" x1="120" y1="60" x2="520" y2="60" stroke="#fff" data-intensity="1.6" data-texture="{';'.join(colors)}"/>
+<polyline class="light" points="40,140 40,360 240,360" fill="none" stroke="#fff" data-intensity="1.3" data-texture="#102040; #40a0ff; #ff40c0; #ffe080; #201000"/>
+<g fill="#444"><circle cx="200" cy="150" r="14"/><circle cx="320" cy="150" r="14"/><circle cx="440" cy="150" r="14"/><rect x="380" y="250" width="60" height="60" transform="rotate(30 410 280)"/>
+<rect x="120" y="250" width="12" height="60"/><rect x="540" y="200" width="14" height="120"/></g>
+"""
+    write("screen.svg", "A sign and a strip with colours along them", 640, 400, body)
+
+
+def cobbles():
+    # A normal map, green upwards, and clear between the stones: domes in rows that are shifted against each other.
+    width, height, step = 320, 200, 32
+    rows = b""
+    for y in range(height):
+        rows += b"\0"
+        for x in range(width):
+            row = y // step
+            u = ((x + (step // 2) * (row % 2)) % step + 0.5) / step * 2 - 1
+            v = (y % step + 0.5) / step * 2 - 1
+            r2 = u * u * u * u + v * v * v * v  # between a disk and a square
+            nx, ny = 0.8 * u * abs(u), 0.8 * v * abs(v)
+            nz = math.sqrt(max(1 - nx * nx - ny * ny, 0.05))
+            rows += bytes(round(127.5 * (c + 1)) for c in (nx, -ny, nz)) + (b"\xff" if r2 < 0.75 else b"\0")
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+    (FOLDER / "cobbles_normal.png").write_bytes(png)
+
+
+for scene in (lamps, room, city, logo, bounce, sun, glass, mirror, marble, fog, screen, cobbles):
+    scene()

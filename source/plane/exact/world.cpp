@@ -8,6 +8,9 @@
 
 #include "core/budget.h"
 #include "plane/exact/emission.h"
+#include "plane/extras/extras.h"
+#include "plane/extras/sight.h"
+#include "plane/extras/trace.h"
 
 namespace steradian {
 
@@ -183,6 +186,7 @@ void scale_body(PlaneBody& body, double scale) {
   body.x_axis = body.x_axis * scale;
   body.y_axis = body.y_axis * scale;
   body.radius *= scale;
+  body.light_depth *= scale;
   if (!body.light) return;
   PlaneEmission& light = *body.light;
   light.range *= scale;
@@ -198,6 +202,7 @@ PlaneScene scaled(PlaneScene scene, double scale) {
   scene.origin = scene.origin * scale;
   scene.width *= scale;
   scene.height *= scale;
+  scene.fog_density /= scale;
   for (PlaneBody& body : scene.bodies) scale_body(body, scale);
   return scene;
 }
@@ -220,6 +225,7 @@ static bool shines_alike(const PlaneBody& body) {
 }
 
 PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits, Use use) : scene(std::move(from)), scale(scale_of(scene)) {
+  extras = plane::extras_of(scene);
   if (scale != 1 && use == Use::frames) {
     scene = scaled(std::move(scene), scale);
   } else if (scale != 1) {
@@ -238,6 +244,8 @@ PlaneWorld::Impl::Impl(PlaneScene from, const Limits& limits, Use use) : scene(s
     throw budget.out_of_memory();
   }
 }
+
+PlaneWorld::Impl::~Impl() = default;
 
 void PlaneWorld::Impl::take_apart(std::size_t edges, Use use) {
   curves.reserve(use == Use::all ? edges : edges + edges / 2 + 1024);
@@ -306,6 +314,12 @@ const PlaneScene& PlaneWorld::scene() const { return impl_->given ? *impl_->give
 PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSampling& sampling) const {
   if (!is_finite(position)) throw Error("position", "a coordinate is not finite");
   position = position * impl_->scale;
+  if (impl_->extras) {
+    if (method == PlaneMethod::exact) return plane::sight_from(*impl_, position);
+    if (method == PlaneMethod::sampled) return plane::traced_light(*impl_, position, sampling);
+    throw Error(impl_->scene.name, "has " + impl_->extras->names + ", of which the method " + name_of(method) + " knows nothing",
+                "use exact or sampled");
+  }
   if (method == PlaneMethod::par) {
     if (const PlaneBody* body = impl_->beyond_par)
       throw Error(body->name.empty() ? impl_->scene.name : impl_->scene.name + ": " + body->name,

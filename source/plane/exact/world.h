@@ -1,6 +1,7 @@
 // The inside of a PlaneWorld: bodies, their curves, and where they are.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,11 +10,16 @@
 #include "plane/exact/outline.h"
 #include "plane/exact/ray_grid.h"
 
+namespace steradian::plane {
+struct Extras;  // plane/extras/extras.h
+}
+
 namespace steradian {
 
 struct PlaneWorld::Impl {
   enum class Use { all, frames };  // frames: without what queries ask, and with room for more
   Impl(PlaneScene scene, const Limits& limits, Use use = Use::all);
+  ~Impl();
 
   // Changes of a world for frames, from bodies in the user's units. False, and nothing has changed, where a body has another number of
   // curves than before, or no room. Throws Error as the constructor does.
@@ -37,9 +43,10 @@ struct PlaneWorld::Impl {
   std::vector<std::size_t> first_curve;  // by body, and the number of curves at the end
   std::vector<plane::Box> boxes;         // by body
   plane::RayGrid grid;
-  std::vector<plane::EdgeRows> rows;      // of outlines with many edges
-  std::vector<int> rows_of;               // by body: which of them, or -1
-  const PlaneBody* beyond_par = nullptr;  // a light whose radiance depends on place or direction: `par` has none such
+  std::vector<plane::EdgeRows> rows;            // of outlines with many edges
+  std::vector<int> rows_of;                     // by body: which of them, or -1
+  std::unique_ptr<const plane::Extras> extras;  // suns, fog and what else this file knows nothing of; null: none
+  const PlaneBody* beyond_par = nullptr;        // a light whose radiance depends on place or direction: `par` has none such
 
   // What fills the point: an occluder wins, then the last light. -1: nothing.
   struct Inside {

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "core/budget.h"
+#include "plane/extras/extras.h"
+#include "plane/extras/frame.h"
 #include "plane/frame/frame.h"
 #include "plane/frame/lattice.h"
 #include "plane/frame/wall_emitters.h"
@@ -77,6 +79,7 @@ void add_bounce_error(const FillTiles& fill, const PlaneWorld::Impl& world, cons
   picture.layers["bounce_error"] = std::move(result.pixels);
 }
 
+// Bodies that are lit within are a colour laid over their light.
 void draw_occluders(const PlaneWorld::Impl& world, PlaneOccluders occluders, const PixelGrid& grid, Picture& picture) {
   if (occluders == PlaneOccluders::black) return;
   const bool clear = occluders == PlaneOccluders::clear;
@@ -86,11 +89,15 @@ void draw_occluders(const PlaneWorld::Impl& world, PlaneOccluders occluders, con
     for (int x = 0; x < grid.width; ++x) {
       const int body = world.occluder_at(grid.at(x, y));
       if (body < 0) continue;
+      const Matter matter = world.extras ? world.extras->matter[static_cast<std::size_t>(body)] : Matter::opaque;
+      const bool lit = matter == Matter::clear || matter == Matter::deep;
+      if (lit && clear) continue;
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
       if (clear)
         (*alpha)[i] = {};
       else
-        picture.pixels[i] = static_cast<Vec3f>(world.scene.bodies[static_cast<std::size_t>(body)].color);
+        picture.pixels[i] =
+            (lit ? picture.pixels[i] : Vec3f{1, 1, 1}) * static_cast<Vec3f>(world.scene.bodies[static_cast<std::size_t>(body)].color);
     }
   });
 }
@@ -161,7 +168,10 @@ void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld&
   arena.execute([&] {
     const auto start = Clock::now();
     const PixelGrid grid = grid_of(inner.scene, picture.width, picture.height);
-    if (options.method != PlaneMethod::exact || options.moments) {
+    if (inner.extras && options.method == PlaneMethod::exact && (options.moments || inner.extras->changes_frames(inner.scene))) {
+      draw_with_extras(inner, options, grid, budget, picture);
+      own.frame_ms = ms_since(start);
+    } else if (options.method != PlaneMethod::exact || options.moments) {
       by_query(world, options, grid_of(scene, picture.width, picture.height), picture);
       own.frame_ms = ms_since(start);
     } else {
@@ -175,6 +185,7 @@ void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld&
         own.prepare_ms = ms_since(start);
         const auto tiles = Clock::now();
         fill(frame, options, grid, picture, own);
+        if (inner.extras) add_extras(inner, grid, budget, picture);
         if (lattice) {
           const LatticeError error = add_by_lattice(walls, options, grid, options.bounce_lattice, picture, own);
           own.lattice_error = error.largest;

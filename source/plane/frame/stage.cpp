@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/budget.h"
+#include "plane/extras/extras.h"
 #include "plane/frame/event_walk.h"
 #include "plane/frame/hull.h"
 #include "plane/frame/preparation.h"
@@ -169,6 +170,7 @@ struct PlaneStage::Impl {
   PlaneScene scene;
   PlaneFrameOptions options;
   std::unique_ptr<plane::Ready> ready;  // what is drawn
+  bool drawn_whole = false;             // the picture is that of a scene with extras
   // Of the bodies: where each is in what is drawn, -1 for a new one; and what has become of it since.
   struct State {
     int place = -1;
@@ -191,16 +193,19 @@ struct PlaneStage::Impl {
     return gone.empty() && std::none_of(states.begin(), states.end(), [](const State& s) { return s.changed || s.recoloured; });
   }
   void draw();
+  void draw_whole();
   void redraw(const plane::PixelGrid& grid, plane::TileSet& tiles);
   bool follow();
 };
 
 void PlaneStage::Impl::draw() {
-  if (ready && is_same()) {
+  if ((ready || drawn_whole) && is_same()) {
     stats.drawn = 0;
     stats.anew = false;
     return;
   }
+  drawn_whole = false;
+  if (plane::extras_of(scene)) return draw_whole();
   // Of a scene that is refused half way, nothing is kept.
   try {
     const plane::PixelGrid unscaled = plane::grid_of(scene, picture.width, picture.height);
@@ -220,6 +225,20 @@ void PlaneStage::Impl::draw() {
     throw;
   }
   gone.clear();
+}
+
+// A scene with extras: what they change is not known to the lists of what a stage keeps.
+void PlaneStage::Impl::draw_whole() {
+  ready.reset();
+  gone.clear();
+  PlaneFrameOptions sized = options;
+  sized.width = picture.width;
+  sized.height = picture.height;
+  render_plane_into(picture, PlaneWorld(scene, options.limits), sized);
+  for (State& s : states) s.changed = s.recoloured = false;
+  drawn_whole = stats.anew = true;
+  const auto tiles = [](int pixels) { return static_cast<std::size_t>((pixels + plane::kTileSide - 1) / plane::kTileSide); };
+  stats.tiles = stats.drawn = tiles(picture.width) * tiles(picture.height);
 }
 
 void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, plane::TileSet& tiles) {

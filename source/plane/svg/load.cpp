@@ -29,7 +29,7 @@ namespace {
 // 1000 pixels, whatever a user unit is.
 constexpr double kFlatness = 1e-5;
 constexpr int kDeepest = 64;  // nested groups and uses: deeper is a cycle or an attack
-constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000;
+constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000, kMostSuns = 1000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
 
 class Reader {
@@ -60,6 +60,8 @@ class Reader {
     scene.height = boxed ? view.box->size.y : document_.length_attribute(root, "height", 512, 512);
     scene.fit = view.fit;
     scene.align = view.align;
+    if (root.attribute("data-fog-density"))
+      scene.fog_density = document_.number_attribute(root, "data-fog-density", 0, "give what is lost of light on a way of one user unit");
     if (!(scene.width > 0 && scene.height > 0 && scene.width < 1e6 && scene.height < 1e6))
       document_.fail(root, "the picture's width and height must be positive and below a million", "set the viewBox");
   }
@@ -131,8 +133,21 @@ class Reader {
     if (name == "g" || name == "a" || name == "switch") return children(n, style, depth + 1);
     if (name == "svg") return box(n, n, style, depth);
     if (name == "use") return use(n, style, depth);
+    if (style.role == Role::sun && style.purpose == Purpose::picture) return sun(n, style);
     if (name == "text") return text(n, style);
     shape(n, name, style);
+  }
+
+  // Whatever the element's shape: its paint is what matters.
+  void sun(pugi::xml_node n, const Style& style) {
+    if (!style.sun)
+      document_.fail(n, "a sun without a place", "write data-sun-direction=\"DIRECTION HALF-WIDTH\", in degrees; -90 stands above");
+    if (result_.scene.suns.size() >= kMostSuns) document_.fail(n, "more than 1000 suns", "take fewer");
+    const bool filled = style.fill != "none";
+    PlaneEmission emission = emission_of(document_, n, {}, style, filled, {result_.scene.width, result_.scene.height});
+    dim(emission, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
+    if (emission.gradient) document_.fail(n, "a sun with a gradient", "give it one colour");
+    result_.scene.suns.push_back({emission.radiance, style.sun->direction, style.sun->half_width, n.attribute("id").as_string("sun")});
   }
 
   void use(pugi::xml_node n, Style style, int depth) {
@@ -366,6 +381,61 @@ class Reader {
     if (!body.light) body.color = color_of(document_, style, filled);
     if (style.purpose == Purpose::mask && !is_plain(style, filled)) body.color = {-1, -1, -1};
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
+    take_extras(n, body, style);
+    if (body.light && n.attribute("data-texture")) return add_textured(n, body, style);
+    finish(n, std::move(body), style);
+  }
+
+  void take_extras(pugi::xml_node n, PlaneBody& body, const Style& style) const {
+    if (style.purpose != Purpose::picture) return;
+    if (body.light) {
+      // What a group says is for the occluders in it.
+      for (const char* key : {"data-transmittance", "data-mirror", "data-light-depth"})
+        if (n.attribute(key)) document_.fail(n, std::string(key) + " of a light", "it is for occluders; make two shapes of it");
+      return;
+    }
+    if (n.attribute("data-texture")) document_.fail(n, "data-texture of an occluder", "make it a light, with fill=\"none\" and a stroke");
+    const bool straight = body.shape == PlaneBody::Shape::polygon || body.shape == PlaneBody::Shape::polyline;
+    const int count = (style.transmittance ? 1 : 0) + (style.mirror ? 1 : 0) + (style.light_depth > 0 ? 1 : 0);
+    if (count > 1) document_.fail(n, "more than one of data-transmittance, data-mirror and data-light-depth", "give one of them");
+    if (style.mirror && !straight) document_.fail(n, "data-mirror of a round shape", "make it a rect, a polygon or a line");
+    if (style.light_depth > 0 && body.shape == PlaneBody::Shape::polyline)
+      document_.fail(n, "data-light-depth of a line, which has no inside", "give it to a filled shape");
+    body.transmittance = style.transmittance;
+    body.mirror = style.mirror;
+    body.light_depth = style.light_depth;
+  }
+
+  // A line with colours along it, semicolons between them.
+  void add_textured(pugi::xml_node n, const PlaneBody& body, const Style& style) {
+    if (body.shape != PlaneBody::Shape::polyline)
+      document_.fail(n, "data-texture of a shape that is not a plain line", "give it fill=\"none\", a stroke, and no round ends");
+    std::vector<Vec3d> texels;
+    std::istringstream list(n.attribute("data-texture").value());
+    for (std::string text; std::getline(list, text, ';');) {
+      if (trimmed(text).empty()) continue;
+      const auto color = parse_color(trimmed(text));
+      if (!color)
+        document_.fail(n, "'" + std::string(trimmed(text)) + "' in data-texture is not a colour",
+                       "write colours with semicolons between them");
+      texels.push_back(*color * (style.intensity * style.opacity * style.stroke_opacity));
+    }
+    if (texels.empty()) document_.fail(n, "data-texture is empty", "write colours with semicolons between them");
+    for (const auto& contour : body.contours) {
+      spend(n, 300 * (texels.size() + contour.size()), sizeof(PlaneStop) * texels.size() + sizeof(PlaneBody) * contour.size());
+      double whole = 0;
+      for (std::size_t i = 0; i + 1 < contour.size(); ++i) whole += length(contour[i + 1] - contour[i]);
+      if (!(whole > 0)) continue;
+      for (PlaneBody& line : plane_textured_line(contour, texels, *body.light)) {
+        line.name = body.name;
+        line.albedo = body.albedo;
+        finish(n, std::move(line), style);
+      }
+    }
+  }
+
+  // Cut by what clips it, into the scene.
+  void finish(pugi::xml_node n, PlaneBody body, const Style& style) {
     if (body.light && body.light->gradient)
       spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
     for (const auto& region : style.clips) {

@@ -74,7 +74,14 @@ void Styles::read_declared(pugi::xml_node n, Declared& d) {
   refuse_misspelt(n);
   read_role(n, d);
   read_profile(n, d);
-  read_albedo(n, d);
+  d.albedo = read_shares(n, "data-albedo");
+  d.transmittance = read_shares(n, "data-transmittance");
+  d.mirror = read_shares(n, "data-mirror");
+  if (n.attribute("data-light-depth"))
+    d.light_depth = document_.number_attribute(n, "data-light-depth", 0, "give a distance in user units; 0 for a body that stays dark");
+  read_sun(n, d);
+  if (n.attribute("data-fog-density") && n != document_.root())
+    document_.fail(n, "data-fog-density is of the whole drawing", "give it to the outermost <svg>");
   if (n.attribute("transform")) {
     d.transform = parse_transform(n.attribute("transform").value());
     if (!d.transform)
@@ -102,6 +109,10 @@ Style Styles::inherit(pugi::xml_node n, Style style) {
   style.intensity = d.intensity.value_or(style.intensity);
   style.range = d.range.value_or(style.range);
   if (d.albedo) style.albedo = d.albedo;
+  if (d.transmittance) style.transmittance = d.transmittance;
+  if (d.mirror) style.mirror = d.mirror;
+  style.light_depth = d.light_depth.value_or(style.light_depth);
+  if (d.sun) style.sun = d.sun;
   style.profile = d.profile.value_or(style.profile);
   style.opacity *= d.opacity;
   style.fill_opacity = d.fill_opacity.value_or(style.fill_opacity);
@@ -123,7 +134,9 @@ std::optional<double> Styles::share(pugi::xml_node n, const char* key) const {
 
 // Other programs write data- attributes of their own; one that is nearly ours is a slip.
 void Styles::refuse_misspelt(pugi::xml_node n) const {
-  static constexpr const char* kOurs[] = {"data-steradian", "data-intensity", "data-range", "data-profile", "data-spot", "data-albedo"};
+  static constexpr const char* kOurs[] = {"data-steradian",   "data-intensity", "data-range",         "data-profile",
+                                          "data-spot",        "data-albedo",    "data-transmittance", "data-mirror",
+                                          "data-light-depth", "data-texture",   "data-sun-direction", "data-fog-density"};
   for (pugi::xml_attribute a : n.attributes()) {
     const std::string_view name = a.name();
     if (!name.starts_with("data-") || std::find(std::begin(kOurs), std::end(kOurs), name) != std::end(kOurs)) continue;
@@ -134,7 +147,8 @@ void Styles::refuse_misspelt(pugi::xml_node n) const {
 
 void Styles::read_role(pugi::xml_node n, Declared& d) const {
   if (d.role == Role::ignore) return;
-  static constexpr std::pair<const char*, Role> kRoles[] = {{"light", Role::light}, {"occluder", Role::occluder}, {"ignore", Role::ignore}};
+  static constexpr std::pair<const char*, Role> kRoles[] = {
+      {"light", Role::light}, {"occluder", Role::occluder}, {"sun", Role::sun}, {"ignore", Role::ignore}};
   for (const std::string& word : words(n.attribute("class").value()))
     for (const auto& [key, role] : kRoles)
       if (word == key) d.role = role;
@@ -151,13 +165,13 @@ void Styles::read_role(pugi::xml_node n, Declared& d) const {
       return;
     }
   document_.fail(n, std::string("data-steradian=\"") + n.attribute("data-steradian").value() + "\" is unknown",
-                 "use light, occluder or ignore");
+                 "use light, occluder, sun or ignore");
 }
 
 // One share, or three.
-void Styles::read_albedo(pugi::xml_node n, Declared& d) const {
-  if (!n.attribute("data-albedo")) return;
-  Scanner scan(n.attribute("data-albedo").value());
+std::optional<Vec3d> Styles::read_shares(pugi::xml_node n, const char* key) const {
+  if (!n.attribute(key)) return {};
+  Scanner scan(n.attribute(key).value());
   double shares[3] = {};
   int count = 0;
   for (; count < 3; ++count) {
@@ -168,9 +182,23 @@ void Styles::read_albedo(pugi::xml_node n, Declared& d) const {
   }
   scan.skip_separators();
   if ((count != 1 && count != 3) || !scan.at_end())
-    document_.fail(n, "data-albedo=\"" + std::string(n.attribute("data-albedo").value()) + "\" is not an albedo",
+    document_.fail(n, std::string(key) + "=\"" + n.attribute(key).value() + "\" is not a share of light",
                    "write one number from 0 to 1, or three: red green blue");
-  d.albedo = count == 1 ? Vec3d{shares[0], shares[0], shares[0]} : Vec3d{shares[0], shares[1], shares[2]};
+  return count == 1 ? Vec3d{shares[0], shares[0], shares[0]} : Vec3d{shares[0], shares[1], shares[2]};
+}
+
+void Styles::read_sun(pugi::xml_node n, Declared& d) const {
+  if (!n.attribute("data-sun-direction")) return;
+  Scanner scan(n.attribute("data-sun-direction").value());
+  const auto direction = scan.number();
+  scan.skip_separators();
+  const auto half_width = scan.at_end() ? std::optional<double>(0) : scan.number();
+  scan.skip_separators();
+  if (!direction || !half_width || !(*half_width >= 0 && *half_width <= 180) || !scan.at_end())
+    document_.fail(n, "data-sun-direction needs one angle in degrees, or two",
+                   "write data-sun-direction=\"DIRECTION HALF-WIDTH\": -90 stands above; a sun is 0.27 wide, 0 gives hard shadows");
+  const double degree = std::numbers::pi / 180;
+  d.sun = SunPlace{*direction * degree, *half_width * degree};
 }
 
 void Styles::read_profile(pugi::xml_node n, Declared& d) const {

@@ -20,7 +20,12 @@ namespace steradian::plane::svg {
 // blacks of a mask.
 enum class Purpose { picture, clip, mask };
 
-enum class Role { by_shape, light, occluder, ignore };
+enum class Role { by_shape, light, occluder, sun, ignore };
+
+// Where a sun stands, and half of its width, in radians.
+struct SunPlace {
+  double direction = 0, half_width = 0;
+};
 
 // What elements inherit.
 struct Style {
@@ -30,7 +35,9 @@ struct Style {
   double stroke_width = 1;
   Role role = Role::by_shape;
   double intensity = 1;
-  std::optional<Vec3d> albedo;
+  std::optional<Vec3d> albedo, transmittance, mirror;
+  double light_depth = 0;
+  std::optional<SunPlace> sun;
   double opacity = 1, fill_opacity = 1, stroke_opacity = 1;
   double range = std::numeric_limits<double>::infinity();
   PlaneProfile profile = PlaneProfile::uniform;
@@ -58,7 +65,9 @@ class Styles {
     double opacity = 1;          // of the whole element
     Role role = Role::by_shape;  // by_shape: says nothing
     std::optional<PlaneProfile> profile;
-    std::optional<Vec3d> albedo;
+    std::optional<Vec3d> albedo, transmittance, mirror;
+    std::optional<double> light_depth;
+    std::optional<SunPlace> sun;
     std::optional<std::pair<Vec2d, double>> spot;
     std::optional<Transform> transform;
   };
@@ -69,7 +78,8 @@ class Styles {
   void refuse_misspelt(pugi::xml_node n) const;
   void read_role(pugi::xml_node n, Declared& d) const;
   void read_profile(pugi::xml_node n, Declared& d) const;
-  void read_albedo(pugi::xml_node n, Declared& d) const;
+  std::optional<Vec3d> read_shares(pugi::xml_node n, const char* key) const;
+  void read_sun(pugi::xml_node n, Declared& d) const;
 
   Document& document_;
   double diagonal_;

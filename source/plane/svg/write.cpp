@@ -32,6 +32,10 @@ std::string color(Vec3d linear) {
   return "rgb(" + percent(linear.x) + "," + percent(linear.y) + "," + percent(linear.z) + ")";
 }
 
+std::string shares(const char* name, Vec3d v) {
+  return std::string(" ") + name + "=\"" + number(v.x) + " " + number(v.y) + " " + number(v.z) + "\"";
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) {
@@ -78,6 +82,13 @@ std::string gradient(const PlaneEmission& e, std::size_t index) {
   return out + "</linearGradient>\n";
 }
 
+std::string sun(const PlaneSun& sun) {
+  const double scale = largest(sun.radiance) > 0 ? largest(sun.radiance) : 1, degree = std::numbers::pi / 180;
+  return "<circle r=\"1\" data-steradian=\"sun\" data-sun-direction=\"" + number(sun.direction / degree) + " " +
+         number(sun.half_width / degree) + "\"" + attribute("data-intensity", scale) + " fill=\"" + color(sun.radiance / scale) +
+         "\" id=\"" + escaped(sun.name) + "\"/>\n";
+}
+
 std::string path(const PlaneBody& body, bool closed) {
   std::string d;
   for (const auto& contour : body.contours) {
@@ -97,7 +108,9 @@ using namespace plane::svg;
 
 std::string plane_scene_to_svg(const PlaneScene& scene) {
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + number(scene.origin.x) + " " + number(scene.origin.y) + " " +
-                    number(scene.width) + " " + number(scene.height) + "\">\n";
+                    number(scene.width) + " " + number(scene.height) + "\"" +
+                    (scene.fog_density > 0 ? attribute("data-fog-density", scene.fog_density) : "") + ">\n";
+  for (const PlaneSun& s : scene.suns) out += sun(s);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const PlaneBody& body = scene.bodies[i];
     if (body.light && body.light->gradient) out += gradient(*body.light, i);
@@ -105,8 +118,10 @@ std::string plane_scene_to_svg(const PlaneScene& scene) {
     const char* paint = stroked ? "stroke" : "fill";
     std::string rest = body.light ? emission(*body.light, i, paint) : std::string(" ") + paint + "=\"" + color(body.color) + "\"";
     if (stroked) rest += " fill=\"none\"";
-    if (body.albedo)
-      rest += " data-albedo=\"" + number(body.albedo->x) + " " + number(body.albedo->y) + " " + number(body.albedo->z) + "\"";
+    if (body.albedo) rest += shares("data-albedo", *body.albedo);
+    if (body.transmittance) rest += shares("data-transmittance", *body.transmittance);
+    if (body.mirror) rest += shares("data-mirror", *body.mirror);
+    if (body.light_depth > 0) rest += attribute("data-light-depth", body.light_depth);
     if (!body.name.empty()) rest += " id=\"" + escaped(body.name) + "\"";
     switch (body.shape) {
       case PlaneBody::Shape::polygon:

@@ -177,7 +177,10 @@ EMSCRIPTEN_KEEPALIVE int plane_replace(Plane* p, int at, const double* numbers, 
   return guarded(-1, [&] {
     const std::size_t i = p->checked(at);
     PlaneBody body = plane::body_of(numbers, static_cast<std::size_t>(count));
-    body.name = p->scene.bodies[i].name;
+    const PlaneBody& old = p->scene.bodies[i];
+    body.name = old.name;
+    // What the list of numbers does not say: a pane that is moved stays a pane.
+    if (!body.light) body.transmittance = old.transmittance, body.mirror = old.mirror, body.light_depth = old.light_depth;
     p->changed();
     if (p->stage) p->stage->replace(i, body);
     p->scene.bodies[i] = std::move(body);

@@ -1,0 +1,85 @@
+#include "plane/extras/frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "plane/extras/extras.h"
+#include "plane/extras/sight.h"
+
+namespace steradian::plane {
+namespace {
+
+constexpr int kSide = 16;
+
+// Every tile looks by every mirror at every body.
+void take_work(const World& world, const PixelGrid& grid, Budget& budget) {
+  std::uint64_t edges = 0;
+  for (std::size_t i : world.extras->mirrors) edges += world.first_curve[i + 1] - world.first_curve[i];
+  if (edges == 0) return;
+  const auto tiles =
+      static_cast<std::uint64_t>((grid.width + kSide - 1) / kSide) * static_cast<std::uint64_t>((grid.height + kSide - 1) / kSide);
+  budget.take_work(world.scene.name, "what " + std::to_string(edges) + " edges of its mirrors show",
+                   tiles * edges * world.scene.bodies.size() * 20);
+}
+
+// Calls f(x, y, light) for all pixels.
+template <class F>
+void for_each_pixel(const World& world, const PixelGrid& grid, const SightRules& rules, const std::function<void(int, int)>& row_done,
+                    F f) {
+  const int columns = (grid.width + kSide - 1) / kSide, rows = (grid.height + kSide - 1) / kSide;
+  std::vector<std::size_t> deep;
+  for (std::size_t i = 0; i < world.scene.bodies.size(); ++i)
+    if (world.extras->matter[i] == Matter::deep) deep.push_back(i);
+  std::atomic<int> done{0};
+  tbb::parallel_for(0, rows, [&](int row) {
+    tbb::parallel_for(0, columns, [&](int column) {
+      const int x0 = column * kSide, y0 = row * kSide, x1 = std::min(x0 + kSide, grid.width), y1 = std::min(y0 + kSide, grid.height);
+      const Vec2d low = grid.at(x0, y0), high = grid.at(x1 - 1, y1 - 1);
+      const Disk tile{(low + high) * 0.5, 0.5 * length(high - low)};
+      const auto overlaps = [&](std::size_t i) {
+        const Box& box = world.boxes[i];
+        return box.low.x <= high.x && box.low.y <= high.y && box.high.x >= low.x && box.high.y >= low.y;
+      };
+      const View view = view_of(world, tile, rules.all || std::any_of(deep.begin(), deep.end(), overlaps));
+      if (view.blocking.empty() && view.all.empty() && world.scene.suns.empty()) return;
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) f(x, y, sight(world, view, grid.at(x, y), rules));
+    });
+    if (row_done) row_done(++done, rows);
+  });
+}
+
+}  // namespace
+
+// Fine enough for single precision.
+constexpr double kTolerance = 1e-7;
+
+void add_extras(const World& world, const PixelGrid& grid, Budget& budget, Picture& picture) {
+  take_work(world, grid, budget);
+  for_each_pixel(world, grid, {kTolerance, false}, nullptr,
+                 [&](int x, int y, const PlaneLight& light) { picture.at(x, y) += static_cast<Vec3f>(light.radiance); });
+}
+
+void draw_with_extras(const World& world, const PlaneFrameOptions& options, const PixelGrid& grid, Budget& budget, Picture& picture) {
+  take_work(world, grid, budget);
+  std::fill(picture.pixels.begin(), picture.pixels.end(), Vec3f{});
+  std::vector<Vec3f>*x_layer = nullptr, *y_layer = nullptr;
+  if (options.moments) {
+    x_layer = &picture.layers["moment_x"], x_layer->assign(picture.pixels.size(), {});
+    y_layer = &picture.layers["moment_y"], y_layer->assign(picture.pixels.size(), {});
+  }
+  const auto row_done = [&](int done, int rows) {
+    if (options.progress) options.progress(static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(rows));
+  };
+  for_each_pixel(world, grid, {kTolerance, true}, row_done, [&](int x, int y, const PlaneLight& light) {
+    picture.at(x, y) = static_cast<Vec3f>(light.radiance);
+    if (!options.moments) return;
+    const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);
+    (*x_layer)[i] = static_cast<Vec3f>(light.moment_x);
+    (*y_layer)[i] = static_cast<Vec3f>(light.moment_y);
+  });
+}
+
+}  // namespace steradian::plane

@@ -1,0 +1,113 @@
+#include "plane/extras/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "plane/exact/emission.h"
+#include "plane/exact/mean_over_directions.h"
+#include "plane/extras/extras.h"
+
+namespace steradian::plane {
+namespace {
+
+using std::numbers::pi;
+
+Vec2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+// A direction as an edge mirrors it.
+Vec2d mirrored(const Curve& edge, Vec2d u) {
+  const Vec2d along = (edge.b - edge.a) / length(edge.b - edge.a);
+  return along * (2 * dot(along, u)) - u;
+}
+
+}  // namespace
+
+// The first that ends a ray or turns it. Of coincident edges a light's, else the last in the file.
+RayHit Tracer::first_hit(Vec2d from, Vec2d u, const Curve* but) const {
+  RayHit best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (const Curve* c : curves_) {
+    if (c == but || passes(world_, start_, c->body)) continue;
+    const RayHit hit = hit_curve(*c, from, u, start_.light);
+    if (hit.curve == nullptr) continue;
+    const double slack = 1e-10 * hit.distance;
+    const bool replaces = best.curve == nullptr || body_of(hit).light.has_value() >= body_of(best).light.has_value();
+    if (hit.distance < best.distance - slack || (hit.distance < best.distance + slack && replaces)) best = hit;
+  }
+  return best;
+}
+
+// way: from the eye to the hit, past a mirror if there is one. Within a light there is no way to it.
+Vec3d Tracer::arriving(const RayHit& hit, Vec2d at, Vec2d u, double way) const {
+  const PlaneEmission& light = *body_of(hit).light;
+  if (hit.curve->body == start_.light) return radiance_at(light, from_);
+  return radiance_along(*hit.curve, light, at - u * way, u, way) * std::exp(-world_.scene.fog_density * way);
+}
+
+// Where nothing is hit.
+Vec3d Tracer::sky(Vec2d u, const PlaneSun* hard) const {
+  if (start_.light >= 0) return {};
+  // By a mirror it is another direction that shows a sun without width.
+  if (hard != nullptr) return std::fabs(std::remainder(angle_of(u) - hard->direction, 2 * pi)) < 1e-9 ? hard->radiance : Vec3d{};
+  Vec3d sum;
+  for (const PlaneSun& sun : world_.scene.suns)
+    if (std::fabs(std::remainder(angle_of(u) - sun.direction, 2 * pi)) < sun.half_width) sum += sun.radiance;
+  return sum;
+}
+
+Vec3d Tracer::look(Vec2d u, const PlaneSun* hard) const {
+  const RayHit hit = first_hit(from_, u, nullptr);
+  const Vec3d share = passage(world_, start_, curves_, from_, u, hit.distance);
+  if (hit.curve == nullptr) return share * sky(u, hard);
+  const PlaneBody& body = body_of(hit);
+  const Vec2d at = from_ + u * hit.distance;
+  if (body.light) return hard != nullptr ? Vec3d{} : share * arriving(hit, at, u, hit.distance);
+  if (!body.mirror) return {};
+  const Vec2d back = mirrored(*hit.curve, u);
+  const RayHit next = first_hit(at, back, hit.curve);
+  const Vec3d left = share * *body.mirror * passage(world_, start_, curves_, at, back, next.distance);
+  if (next.curve == nullptr) return left * sky(back, hard);
+  if (!body_of(next).light || hard != nullptr) return {};
+  return left * arriving(next, at + back * next.distance, back, hit.distance + next.distance);
+}
+
+PlaneLight Tracer::hard_suns() const {
+  PlaneLight sum;
+  if (start_.dark || start_.light >= 0) return sum;
+  std::vector<Vec2d> directions;
+  for (const PlaneSun& sun : world_.scene.suns) {
+    if (sun.half_width > 0) continue;
+    const Vec2d to = direction(sun.direction);
+    directions.assign(1, to);
+    for (const Curve* c : curves_)
+      if (world_.extras->matter[static_cast<std::size_t>(c->body)] == Matter::mirror) {
+        const Vec2d u = mirrored(*c, to);
+        // Parallel edges show it in one direction.
+        if (std::none_of(directions.begin(), directions.end(), [&](Vec2d d) { return length(d - u) < 1e-9; })) directions.push_back(u);
+      }
+    for (Vec2d u : directions) {
+      const Vec3d arrives = look(u, &sun);
+      sum.radiance += arrives;
+      sum.moment_x += arrives * u.x;
+      sum.moment_y += arrives * u.y;
+    }
+  }
+  return sum;
+}
+
+PlaneLight traced_light(const World& world, Vec2d from, const PlaneSampling& sampling) {
+  std::vector<const Curve*> curves;
+  for (const Curve& c : world.curves) curves.push_back(&c);
+  const Tracer tracer(world, curves, from);
+  PlaneLight sum = mean_over_directions(from, sampling, [&](Vec2d u) { return tracer.radiance(u); });
+  const PlaneLight suns = tracer.hard_suns();
+  const double scale = 1 / (2 * pi);
+  sum.radiance += suns.radiance * scale;
+  sum.moment_x += suns.moment_x * scale;
+  sum.moment_y += suns.moment_y * scale;
+  return sum;
+}
+
+}  // namespace steradian::plane
