@@ -11,7 +11,7 @@ function(steradian_shaders target)
   foreach(shader ${ARGN})
     add_custom_command(OUTPUT ${folder}/${shader}.inc
       COMMAND ${STERADIAN_GLSLC} --target-env=vulkan1.2 -O -mfmt=c -MD -MF ${folder}/${shader}.d -MT ${folder}/${shader}.inc
-              -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR}/kernels
+              -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR}/kernels -I ${PROJECT_SOURCE_DIR}/source
               ${PROJECT_SOURCE_DIR}/shaders/${shader} -o ${folder}/${shader}.inc
       DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${shader} DEPFILE ${folder}/${shader}.d VERBATIM)
     target_sources(${target} PRIVATE ${folder}/${shader}.inc)

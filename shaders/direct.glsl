@@ -4,6 +4,7 @@
 // A shader is one lobe by one family of methods: diffuse.comp, ltc.comp, closed_form.comp, representative_point.comp and sheen.comp define which, as LOBE.
 // Drivers compile all that a shader holds for each of its pipelines.
 #include "layout.glsl"
+#include "shadow_layout.glsl"
 
 // A pipeline is one choice of these (source/render/vulkan/direct_light.cpp).
 layout(constant_id = 0) const int KIND = 0;
@@ -21,12 +22,14 @@ layout(constant_id = 11) const int EDGE_SPACE = 34;
 layout(constant_id = 12) const int ARC_SPACE = 34;
 layout(constant_id = 13) const int MATRIX_SIZE = 2;
 layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
+layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something hides the lights from some points, or a part of them
 const bool CAREFUL = CAREFUL_LIGHTS == 1;
 const bool CHUNKED = CHUNKED_EDGES == 1;
 const bool FRESNEL_TABLE = FRESNEL_LOBE == 1;
 const bool BALLS = ONLY_BALLS == 1;
 const bool COMPACT = COMPACT_TABLE == 1;
 const bool TOGETHER = WITH_DIFFUSE == 1;
+const bool SHADOWED = SHADOWED_LIGHTS == 1;
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer surfaces;
@@ -36,9 +39,12 @@ layout(binding = 3) uniform samplerBuffer vertices;
 layout(binding = 4) uniform samplerBuffer radiance_before;  // the same buffer as `radiance`: every thread reads what it alone writes
 layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
+layout(std430, binding = 7) readonly buffer States { uint states[]; };
+layout(std430, binding = 8) readonly buffer Parts { vec4 parts[]; };
 layout(push_constant) uniform Push { uint first_entry; };
 
 #include "kernels.glsl"
+#include "parts.glsl"
 #include "lights.glsl"
 
 PunctualIncident punctual_at(Light light, vec3 p) {
@@ -112,16 +118,21 @@ void main() {
     vec3 sum = vec3(0.0);
     uint i = 0u;
     do {
-        Light light = light_at(lists[first + i]);
+        vec3 sent;
+        if (SHADOWED) take_part(states[lists[first + 2u * i + 1u] + slot]);
+        Light light = light_at(lists[first + (SHADOWED ? 2u : 1u) * i]);
 #if LOBE == LOBE_DIFFUSE
-        sum += light.r[0].xyz * albedo * lambert_radiance(irradiance_below_boundary(light, p, n, v, loss));
+        sent = light.r[0].xyz * albedo * lambert_radiance(irradiance_below_boundary(light, p, n, v, loss));
 #elif LOBE == LOBE_SHEEN
-        sum += light.r[0].xyz * sheen.xyz * sheen_radiance(light, p, n, v, sheen.w);
+        sent = light.r[0].xyz * sheen.xyz * sheen_radiance(light, p, n, v, sheen.w);
 #else
-        Answer answer = specular_answer(light, p, n, v, lobe, loss);
-        sum += light.r[0].xyz * (f0 * (answer.specular.x - answer.specular.y) + f90 * answer.specular.y +
+        // What is seen of a light lies above the surface's horizon, and no coat's normal differs from that but by rounding.
+        vec3 up = COAT_LOBE == 1 && by_pieces() ? normal.xyz : n;
+        Answer answer = specular_answer(light, p, up, v, lobe, loss);
+        sent = light.r[0].xyz * (f0 * (answer.specular.x - answer.specular.y) + f90 * answer.specular.y +
                                  albedo * lambert_radiance(answer.irradiance));
 #endif
+        sum += !SHADOWED ? sent : part.seen ? sent * part.weight : vec3(0.0);
         ++i;
     } while (i < count);
 

@@ -63,7 +63,9 @@ Capsule capsule_in(Light light, mat3 frame, vec3 p) {
 Seen see(Light light, vec3 p) {
     Seen seen;
     seen.reversed = false;
-    if (KIND == kPolygon || KIND == kDisk) {
+    if (by_pieces()) {
+        seen.lit = true;
+    } else if (KIND == kPolygon || KIND == kDisk) {
         float height = dot(p - light.r[2].xyz, light.r[1].xyz);
         bool behind = height < 0.0;
         seen.lit = height > 0.0 || (behind && light.r[1].w > 0.5);
@@ -80,6 +82,7 @@ Seen see(Light light, vec3 p) {
 
 // Mean square of its extent about its middle [m2]; an upper bound of a round light's.
 float deviation2_of(Light light) {
+    if (by_pieces()) return parts[part.first + 1].w;
     if (KIND == kPolygon) return light.r[3].w;
     if (KIND == kDisk) return (dot(light.r[3].xyz, light.r[3].xyz) + dot(light.r[4].xyz, light.r[4].xyz)) / 4.0;
     if (KIND == kEllipsoid)
@@ -90,6 +93,7 @@ float deviation2_of(Light light) {
 float distance2_of(Light light, vec3 p) {
     vec3 to = light.r[2].xyz - p;
     if (KIND == kPolygon) to = light.r[3].xyz - p;
+    if (by_pieces()) to = parts[part.first].xyz;
     if (KIND == kCapsule) to = (light.r[2].xyz + light.r[3].xyz) * 0.5 - p;
     return dot(to, to);
 }
@@ -120,7 +124,12 @@ LightElements capsule_elements(Light light, vec3 p) {
 // In the shading frame, of the side that is seen.
 LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     LightElements e;
-    if (KIND == kPolygon) {
+    if (by_pieces()) {
+        e.center = parts[part.first].xyz;
+        e.reach_a = parts[part.first + 1].xyz;
+        e.reach_b = parts[part.first + 2].xyz;
+        e.area = parts[part.first + 3].xyz;
+    } else if (KIND == kPolygon) {
         e.center = light.r[3].xyz - p;
         e.reach_a = light.r[4].xyz;
         e.reach_b = light.r[5].xyz;

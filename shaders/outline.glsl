@@ -28,6 +28,7 @@ void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
 
 // Places of a walk: at those that are not joined, a contour begins.
 int outline_length(Light light) {
+    if (by_pieces()) return part.places;
     if (KIND == kPolygon) return int(light.r[2].w);
     return corner_count + 1;
 }
@@ -39,7 +40,11 @@ struct Place {
 
 Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     Place place;
-    if (KIND == kPolygon) {
+    if (by_pieces()) {
+        vec4 v = parts[part.first + kPartHeader + i];
+        place.direction = polygon_direction(transform_transposed(frame, v.xyz));
+        place.joined = v.w > 0.5;
+    } else if (KIND == kPolygon) {
         vec4 v = texelFetch(vertices, int(light.r[0].w) + i);
         place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
         place.joined = v.w > 0.5;

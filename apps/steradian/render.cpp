@@ -82,6 +82,7 @@ nlohmann::ordered_json stats_json(const Options& options, const RenderStats& sta
           {"environment_spots", stats.environment_spots},
           {"diffuse_residual", stats.diffuse_residual},
           {"shadow_fallback", stats.shadow_fallback},
+          {"shadow_on_host", stats.shadow_on_host},
           {"light_sum", stats.light_tree ? "tree" : "all"},
           {"light_elements", stats.light_elements},
           {"light_outlines", stats.light_outlines},

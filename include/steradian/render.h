@@ -82,6 +82,7 @@ struct RenderStats {
   double light_bound_max = 0;         // the layer's largest value ...
   double light_bound_mean = 0;        // ... and its mean, over pixels and channels
   double shadow_fallback = 0;         // share of pairs of a surface and a light whose shadows rays have estimated
+  double shadow_on_host = 0;          // of a device's pairs that see a part of the light: share of which the host found that part
   std::vector<std::string> warnings;  // what the method leaves out, a sentence each
 };
 

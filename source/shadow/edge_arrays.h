@@ -30,6 +30,7 @@ class EdgeArrays {
   // For lanes: the edges, and what the ends of one of them are where its point sees them in some cell.
   LaneEdges lane_edges() const;
   std::uint32_t edge_number(std::size_t row) const { return edge_[row]; }
+  std::uint32_t vertex_number(std::size_t place) const { return vertex_[place]; }
   Cell end_of(std::size_t row, int end, std::int32_t x, std::int32_t y) const {
     return vertex_cell(static_cast<std::size_t>(end == 0 ? v0_[row] : v1_[row]), x, y);
   }

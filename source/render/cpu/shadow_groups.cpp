@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "steradian/scene.h"
+
 namespace steradian {
 namespace {
 
@@ -72,7 +74,7 @@ std::uint32_t square_of(std::uint32_t slot) {
 PointGroups groups_of(const SurfaceTile& tile, const std::vector<Vec3d>& positions) {
   std::array<std::vector<Member>, kTilePixels / 64> squares;
   for (std::uint32_t i = 0; i < kTilePixels; ++i) {
-    if (tile.material[i] == nullptr) continue;
+    if (tile.material[i] == nullptr || tile.material[i]->unlit) continue;
     Member m{i, {}};
     m.box.add(positions[i]);
     squares[square_of(i)].push_back(m);

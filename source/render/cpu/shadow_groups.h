@@ -16,7 +16,7 @@ struct PointGroups {
   std::vector<std::vector<std::uint32_t>> clusters;  // numbers of groups
 };
 
-// positions: of every slot with a surface.
+// Of lit surfaces. positions: of every slot with one.
 PointGroups groups_of(const SurfaceTile& tile, const std::vector<Vec3d>& positions);
 
 }  // namespace steradian

@@ -53,22 +53,33 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
   }
 }
 
-void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result,
-                      ShadowCounts& counts) const {
+ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const {
   thread_local Work work;
   work.turned = work.whole_outline = work.cut_outs = false;
   work.in_lanes = true;
   work.points = &points.points;
   work.result = &result;
   work.counts = &counts;
+  work.taker = taker;
   result.clear();
+  return work;
+}
+
+void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts,
+                      ShadowTaker* taker) const {
+  Work& work = begin(points, result, counts, taker);
   const Flat& flat = flats_[light.index];
   if (!light.is_area())
     find_punctual(tile, light, work);
   else if (!flat.polygon.vertices.empty())
-    find_flat(tile, points.groups, light, flat, work);
+    find_flat(points.groups, light, flat, work);
   else
-    find_round(tile, points.groups, light, flat, work);
+    find_round(points.groups, light, flat, work);
+  result.batch_parts();
+}
+
+void ShadowPass::find_flat_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const {
+  find_flat(points.groups, light, flats_[light.index], begin(points, result, counts, nullptr));
   result.batch_parts();
 }
 
@@ -88,7 +99,7 @@ void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, 
   }
 }
 
-void ShadowPass::find_flat(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
+void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
   work.whole_outline = is_disk(light) || light.textured != nullptr;
   std::vector<std::vector<std::uint32_t>> with_light;
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
@@ -101,7 +112,7 @@ void ShadowPass::find_flat(const SurfaceTile& tile, const PointGroups& groups, c
         work.slots.clear();
         for (const std::uint32_t i : groups.groups[g]) {
           const Viewpoint& at = work.at(i);
-          if (tile.material[i]->unlit || flat.polygon.side_of(at.position) != side->side) continue;
+          if (flat.polygon.side_of(at.position) != side->side) continue;
           if (above_horizon(side->frame, at.position, at.normal) == Above::none) continue;
           work.result->seen[i] = Seen::none;
           if (at.geometric_normal && above_horizon(side->frame, at.position, *at.geometric_normal) == Above::none) continue;
@@ -133,6 +144,10 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
   if (!by_rays && !empty && work.in_lanes && !work.cut_outs && !work.group.has_crossing()) {
+    if (work.taker != nullptr && !work.turned && work.taker->find(*side_at(slots.front()), work.group, slots, *work.points)) {
+      for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
+      return;
+    }
     const LightSide* sides[shadow::kPoints];
     std::uint32_t of[shadow::kPoints];
     std::size_t count = 0;

@@ -11,6 +11,7 @@
 #include "render/cpu/open_lights.h"
 #include "render/cpu/ray_scene.h"
 #include "render/cpu/shadow_side.h"
+#include "render/cpu/shadow_taker.h"
 #include "render/cpu/shadow_tile.h"
 #include "render/cpu/shadow_viewpoints.h"
 #include "shadow/edge_arrays.h"
@@ -34,7 +35,11 @@ class ShadowPass {
   void find_open(const TilePoints& points, const std::vector<const PackLight*>& lights, OpenLights::Work& work) const {
     open_.find(points, lights, work);
   }
-  void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
+  // taker: where it is not null, some groups are its to find.
+  void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts,
+            ShadowTaker* taker = nullptr) const;
+  // The same for some points in their slots, before a flat light.
+  void find_flat_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
 
  private:
   struct Flat {
@@ -43,8 +48,9 @@ class ShadowPass {
     std::vector<std::uint32_t> near;    // of a round light: triangles that may reach into the planes that stand for it
   };
   struct Work;
-  void find_flat(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
-  void find_round(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
+  Work& begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const;
+  void find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
+  void find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
   // The side of the light that a slot sees, or null. It may be the same for all, or stay valid for sixteen calls.
   using SideAt = std::function<const LightSide*(std::uint32_t slot)>;

@@ -36,8 +36,7 @@ Extent extent_of(const std::vector<Vec3d>& positions) {
 
 }  // namespace
 
-void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, const PackLight& light, const Flat& flat,
-                            Work& work) const {
+void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
   work.whole_outline = true;
   work.turned = true;
   work.in_lanes = std::holds_alternative<Ellipsoid>(light.area->shape);
@@ -51,7 +50,7 @@ void ShadowPass::find_round(const SurfaceTile& tile, const PointGroups& groups, 
       work.slots.clear();
       for (const std::uint32_t i : groups.groups[g]) {
         const Viewpoint& at = work.at(i);
-        if (tile.material[i]->unlit || dot(ball.center - at.position, at.normal) <= -ball.radius) continue;
+        if (dot(ball.center - at.position, at.normal) <= -ball.radius) continue;
         work.result->seen[i] = Seen::none;
         if (at.geometric_normal && dot(ball.center - at.position, *at.geometric_normal) <= -ball.radius) continue;
         work.slots.push_back(i);

@@ -13,8 +13,9 @@ namespace steradian {
 
 // How one light reaches a tile.
 struct TileShadow {
-  // dark: the surface looks away from all of the light, which sends nothing past its horizon, whatever stands between.
-  enum class Seen : std::uint8_t { dark, none, whole, part, share };
+  // dark: the surface looks away from all of the light, which sends nothing past its horizon, whatever stands between. elsewhere: a
+  // ShadowTaker finds out.
+  enum class Seen : std::uint8_t { dark, none, whole, part, share, elsewhere };
   // Edges, and where it is small the elements that stand for it, relative to the point.
   struct Outline {
     std::size_t first = 0, count = 0;

@@ -24,6 +24,7 @@ struct ShadowPass::Work {
   const std::vector<shadow::Viewpoint>* points = nullptr;
   TileShadow* result = nullptr;
   ShadowCounts* counts = nullptr;
+  ShadowTaker* taker = nullptr;
   shadow::EdgeArrays tile, group;
   shadow::Scratch scratch;
   shadow::VisibleRegion region;

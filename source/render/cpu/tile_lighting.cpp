@@ -84,7 +84,7 @@ void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackL
   put_back_coats(work.coats, tile);
 }
 
-std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker) {
   if (lights.empty() || !shadows_) return lights;
   Work& work = *work_.local();
   if (tile.any_coat && take_coats(tile, work.coats)) {
@@ -93,12 +93,19 @@ std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const 
     for (std::size_t i = 0; i < kTilePixels; ++i)
       if (work.coats.material[i] != nullptr) add_radiance(tile, i, radiance_in(work.coats, i));
   }
-  return add_past_blockers(tile, lights, work);
+  return add_past_blockers(tile, lights, work, taker);
+}
+
+const TileShadow& TileLighting::find_flat_at(const TilePoints& points, const PackLight& light) {
+  Work& work = *work_.local();
+  shadow_clock_.run([&] { shadows_->find_flat_at(points, light, work.shadow, work.counts); });
+  return work.shadow;
 }
 
 // A light before which nothing stands goes the usual way, and is returned; of the others, the slots that see all of it or a part are
 // evaluated side by side.
-std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work) {
+std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
+                                                              ShadowTaker* taker) {
   TilePoints points;
   shadow_clock_.run([&] {
     points = points_for_shadows(tile, options_.terminator);
@@ -110,9 +117,14 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
       plain.push_back(light);
       continue;
     }
-    shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts); });
+    const bool taken = taker != nullptr && taker->lights(*light);
+    shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts, taken ? taker : nullptr); });
     if (work.shadow.is_plain()) {
       plain.push_back(light);
+      continue;
+    }
+    if (taken) {
+      shadow_clock_.run([&] { taker->take(*light, work.shadow); });
       continue;
     }
     add_whole(tile, *light, work);
@@ -182,12 +194,18 @@ void TileLighting::light_pieces(const SurfaceTile& tile, packed::Pieces& pieces,
   std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
 }
 
-double TileLighting::shadow_fallback() const {
+ShadowCounts TileLighting::shadow_counts() const {
   ShadowCounts counts;
   for (const auto& work : work_) {
     counts.points += work->counts.points;
+    counts.parts += work->counts.parts;
     counts.fallback += work->counts.fallback;
   }
+  return counts;
+}
+
+double TileLighting::shadow_fallback() const {
+  const ShadowCounts counts = shadow_counts();
   return counts.points > 0 ? static_cast<double>(counts.fallback) / static_cast<double>(counts.points) : 0;
 }
 

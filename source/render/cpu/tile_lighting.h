@@ -37,19 +37,23 @@ class TileLighting {
   // ... of lights before which something may stand.
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
   // ... of those of them before which something does stand, and returns the others. Coats with a normal of their own are done with for
-  // good: they weigh nothing in the tile then.
-  std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // good: they weigh nothing in the tile then. taker: where it is not null, some lights are its to add.
+  std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker = nullptr);
+  // What some points see of a flat light. It stays until the thread asks for more.
+  const TileShadow& find_flat_at(const TilePoints& points, const PackLight& light);
 
   PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
   PassTime specular_time(int threads) const { return specular_clock_.time(threads); }
   PassTime shadow_time(int threads) const { return shadow_clock_.time(threads); }
   // Share of pairs of a surface and a light whose shadows rays have estimated.
   double shadow_fallback() const;
+  ShadowCounts shadow_counts() const;
 
  private:
   struct Work;
   void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain);
-  std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work);
+  std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
+                                                  ShadowTaker* taker = nullptr);
   void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, Work& work);

@@ -13,7 +13,7 @@ namespace {
 
 #include "shaders/layout.glsl"
 
-constexpr std::size_t kTexels = 5, kBuffers = 2;                // as bound in run
+constexpr std::size_t kTexels = 5, kBuffers = 4;                // as bound in run
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr int kCornersNearRim = 32;
@@ -86,8 +86,8 @@ struct DirectLight::Pass {
 // The lists of a batch: for each pipeline, tiles with their lights.
 struct DirectLight::Work {
   struct Entry {
-    std::uint32_t tile;
-    std::vector<std::uint32_t> lights;
+    std::uint32_t tile, count;
+    std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states
   };
   struct Key {
     std::size_t shader;
@@ -177,19 +177,21 @@ bool DirectLight::brings_diffuse(const Tile& tile, const PackLight& light) const
 }
 
 // Whether some point of a box may see the light as small, or be near its rim; others spare the shaders both.
-bool DirectLight::is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass) const {
+bool DirectLight::is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
   const float along_edges = pass.over_lobe() ? 2000.0f : 4000.0f;
   const bool arcs = pass.over_lobe() ? pass.shader == kClosedForm : light.kind != kPolygon;
   const Distances d = distances(light.middle, where.low, where.high);
+  if (shadowed) return d.farthest > light.deviation2 * 100;  // parts may be small from where all of the light is not; kNeverSmall
   return d.farthest > light.deviation2 * (arcs ? 500.0f : along_edges) || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
-std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful) const {
-  const bool chunked = light.edges > most_edges_;
+std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful,
+                                               const Tile::Shadowed* shadowed) const {
+  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->places / 2 + 2) > kMostEdges : light.edges > most_edges_;
   const bool fine = method_.quality == Quality::high && (pass.shader == kClosedForm || pass.shader == kRepresentativePoint);
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
-  const int edges = light.kind == kPolygon ? (chunked ? kMostEdges : most_edges_) : space + 2;
+  const int edges = light.kind == kPolygon ? (chunked || shadowed != nullptr ? kMostEdges : most_edges_) : space + 2;
   const int arcs = pass.shader == kClosedForm && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
@@ -206,7 +208,8 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           specular ? edges : 1,
           specular ? arcs : 1,
           matrix_size_,
-          magnitude_size_};
+          magnitude_size_,
+          shadowed != nullptr ? 1 : 0};
 }
 
 std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
@@ -214,25 +217,32 @@ std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
 }
 
 void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass) {
-  for (const PackLight* light : tile.lights.lights) {
-    const bool together = brings_diffuse(tile, *light);
-    if (pass.shader == kDiffuse && together) continue;
-    Pass own = pass;
-    own.with_diffuse = together && pass.shader == kLtc && !pass.coat;
-    const bool cut = std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& c) { return c.get() == light; });
-    const std::uint32_t number = number_of(*light, cut);
-    const LightRecord& record = records_.lights[number];
-    Work::Group& group = work.groups[{own.shader, choices(record, own, is_careful(record, tile.lights, own))}];
-    group.name = own.name();
-    if (group.entries.empty() || group.entries.back().tile != place) group.entries.push_back({place, {}});
-    group.entries.back().lights.push_back(number);
-  }
+  for (const PackLight* light : tile.lights.lights) list(work, place, tile, pass, *light, nullptr);
+  for (const Tile::Shadowed& shadowed : tile.shadowed) list(work, place, tile, pass, *shadowed.light, &shadowed);
 }
 
-void DirectLight::run(const std::vector<Tile>& tiles) {
+void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass, const PackLight& light,
+                       const Tile::Shadowed* shadowed) {
+  const bool together = brings_diffuse(tile, light);
+  if (pass.shader == kDiffuse && together) return;
+  Pass own = pass;
+  own.with_diffuse = together && pass.shader == kLtc && !pass.coat;
+  const bool cut = std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& c) { return c.get() == &light; });
+  const std::uint32_t number = number_of(light, cut);
+  const LightRecord& record = records_.lights[number];
+  Work::Group& group = work.groups[{own.shader, choices(record, own, is_careful(record, tile.lights, own, shadowed != nullptr), shadowed)}];
+  group.name = own.name();
+  if (group.entries.empty() || group.entries.back().tile != place) group.entries.push_back({place, 0, {}});
+  ++group.entries.back().count;
+  std::vector<std::uint32_t>& numbers = group.entries.back().lights;
+  numbers.push_back(number);
+  if (shadowed != nullptr) numbers.push_back(shadowed->states);
+}
+
+void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
   records_.keep(scene_lights_, scene_vertices_);
   Work work;
-  for (std::uint32_t place = 0; place < tiles.size(); ++place) {
+  for (auto place = static_cast<std::uint32_t>(first_tile); place < end; ++place) {
     const Tile& tile = tiles[place];
     if (tile.any_diffuse) list(work, place, tile, {});
     if (tile.any_specular) list(work, place, tile, {specular_shader_});
@@ -250,8 +260,7 @@ void DirectLight::run(const std::vector<Tile>& tiles) {
     dispatches.push_back({program_.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfTile),
                           static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
     for (const Work::Entry& entry : group.entries) {
-      entries.insert(entries.end(), {entry.tile, static_cast<std::uint32_t>(after_entries + numbers.size()),
-                                     static_cast<std::uint32_t>(entry.lights.size())});
+      entries.insert(entries.end(), {entry.tile, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
     }
   }
@@ -267,8 +276,11 @@ void DirectLight::run(const std::vector<Tile>& tiles) {
   write(lights_, records_.values);
   write(vertices_, records_.vertices);
 
-  const std::vector<double> ms = program_.run(
-      {surfaces_.get(), tables_.get(), lights_.get(), vertices_.get(), radiance_.get(), radiance_.get(), lists_.get()}, dispatches);
+  const Buffer* none = lists_.get();
+  const std::vector<double> ms =
+      program_.run({surfaces_.get(), tables_.get(), lights_.get(), vertices_.get(), radiance_.get(), radiance_.get(), lists_.get(),
+                    states != nullptr ? states : none, parts != nullptr ? parts : none},
+                   dispatches);
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)
     if (i < ms.size()) times_[group.name] += ms[i++];

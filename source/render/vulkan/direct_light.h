@@ -38,9 +38,19 @@ class DirectLight {
   struct Tile {
     ReachingLights lights;
     bool any_diffuse = false, any_specular = false, any_sheen = false, any_coat = false;
+    // Beside those: lights that something hides from some points, or a part of them.
+    struct Shadowed {
+      const PackLight* light;
+      std::uint32_t states;  // where those of the tile begin
+      int places;            // most of a part
+    };
+    std::vector<Shadowed> shadowed;
   };
-  // Adds the light of the lists to what the tiles had as radiance.
-  void run(const std::vector<Tile>& tiles);
+  // Adds the light of the lists to what some of the tiles had as radiance. states, parts: of the shadowed lights (Shadows), where there
+  // are any.
+  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Buffer* states = nullptr,
+           const Buffer* parts = nullptr);
+  void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size()); }
   void take_radiance(std::size_t place, TileVector& radiance) const;
 
   // Milliseconds on the device so far, by pass; empty where it does not tell.
@@ -51,8 +61,9 @@ class DirectLight {
   struct Work;
   bool brings_diffuse(const Tile& tile, const PackLight& light) const;
   void list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass);
-  bool is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass) const;
-  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful) const;
+  void list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass, const PackLight& light, const Tile::Shadowed* shadowed);
+  bool is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass, bool shadowed) const;
+  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
   Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const;
   bool is_ltc() const;

@@ -18,6 +18,7 @@
 #include "render/vulkan/bounce.h"
 #include "render/vulkan/direct_light.h"
 #include "render/vulkan/raster_surfaces.h"
+#include "render/vulkan/shadows.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -109,10 +110,12 @@ struct Frame::Parts {
     });
   }
 
-  // Adds what the shaders do not have: the light of those before which something stands, and of those that they do not know, which leave
-  // the list; and of the others that of some lobes, which leave the tile.
-  void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching) {
-    reaching = host.add_hidden(tile, reaching);
+  // Adds what the shaders do not have: the light of those before which something stands, but what is left to the device, and of those that
+  // they do not know, which leave the list; and of the others that of some lobes, which leave the tile.
+  void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching, TileShadows& left) {
+    left.clear();
+    const bool all_lobes = DirectLight::has(method) && !tile.any_override;
+    reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
     const auto unknown =
         std::stable_partition(reaching.begin(), reaching.end(), [](const PackLight* light) { return shaders_have(*light); });
     if (unknown != reaching.end()) host.add(tile, {unknown, reaching.end()});
@@ -132,6 +135,7 @@ struct Frame::Parts {
   // The surfaces of the jobs, put on the device, and the lights that may reach them.
   std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
     std::vector<DirectLight::Tile> tiles(jobs.size());
+    if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size());
     each(jobs.size(), [&](std::size_t i) {
       Job& job = jobs[i];
       SurfaceTile& tile = *workspaces.local();
@@ -139,7 +143,7 @@ struct Frame::Parts {
       if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
       surfaces.add_environment(tile);
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
-      light_on_host(tile, tiles[i].lights.lights);
+      light_on_host(tile, tiles[i].lights.lights, shadowed[i]);
       tiles[i].any_diffuse = tile.any_diffuse;
       tiles[i].any_specular = tile.any_specular;
       tiles[i].any_sheen = tile.any_sheen;
@@ -157,12 +161,32 @@ struct Frame::Parts {
     return tiles;
   }
 
+  // As many tiles at once as there is room for what their shadows need.
+  void light_tiles(std::vector<DirectLight::Tile>& tiles) {
+    const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
+    if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
+      return direct.run(tiles);
+    if (!shadows) shadows = std::make_unique<Shadows>(*device, surfaces.rays(), host);
+    for (std::size_t first = 0; first < tiles.size();) {
+      const std::size_t count =
+          shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
+      std::uint32_t states = 0;
+      for (std::size_t i = first; i < first + count; ++i)
+        for (const TileShadows::Light& light : shadowed[i].by_light) {
+          tiles[i].shadowed.push_back({light.light, states, light.places});
+          states += static_cast<std::uint32_t>(kTilePixels);
+        }
+      direct.run(tiles, first, first + count, &shadows->states(), &shadows->parts());
+      first += count;
+    }
+  }
+
   // Lights the jobs and adds them to the picture; returns those behind which there may be more.
   std::vector<Job> light(std::vector<Job> jobs, int sample, int layer, Picture& picture) {
     next_shares.clear();
     next_shares.resize(jobs.size());
-    const std::vector<DirectLight::Tile> tiles = find_surfaces(jobs, sample, layer);
-    device_clock.run([&] { direct.run(tiles); });
+    std::vector<DirectLight::Tile> tiles = find_surfaces(jobs, sample, layer);
+    device_clock.run([&] { light_tiles(tiles); });
     const float weight = 1.0f / static_cast<float>(options.aa);
     each(jobs.size(), [&](std::size_t i) {
       resolve_clock.run([&] {
@@ -200,7 +224,7 @@ struct Frame::Parts {
       lists_clock.run([&] {
         const RasterSurfaces::Found found = RasterSurfaces::found(direct.radiance(), i);
         if (found.any_surface)
-          tiles[i] = {lights_reaching(light_pointers, found.bounds), found.any_diffuse, found.any_specular, false, false};
+          tiles[i] = {lights_reaching(light_pointers, found.bounds), found.any_diffuse, found.any_specular, false, false, {}};
       });
     });
     device_clock.run([&] { direct.run(tiles); });
@@ -258,7 +282,14 @@ struct Frame::Parts {
     for (const auto& [name, ms] : direct.times()) stats.passes.push_back({"device: " + name, ms});
     if (host.has_shadows()) {
       stats.passes.push_back(host.shadow_time(threads));
-      stats.shadow_fallback = host.shadow_fallback();
+      const ShadowCounts counts = host.shadow_counts();
+      const std::uint64_t found = shadows ? shadows->found() : 0, points = counts.points + (shadows ? shadows->points() : 0);
+      const auto share = [](std::uint64_t some, std::uint64_t all) {
+        return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0;
+      };
+      stats.shadow_fallback = share(counts.fallback, points);
+      stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
+      if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
     }
     for (PassTime pass : {host.direct_time(threads), host.specular_time(threads)}) stats.passes.push_back({"host: " + pass.name, pass.ms});
     if (const auto* environment = surfaces.environment()) {
@@ -295,6 +326,8 @@ struct Frame::Parts {
   TileLighting host;
   DirectLight direct;
   std::string kept_on_host;
+  std::unique_ptr<Shadows> shadows;        // made when something needs it
+  std::vector<TileShadows> shadowed;       // by job
   std::unique_ptr<RasterSurfaces> raster;  // null where the host finds the surfaces
   std::unique_ptr<Bounce> bounce;
   std::optional<indirect::Pipeline> bounced;  // of one frame

@@ -139,6 +139,45 @@ class VulkanFrame : public testing::Test {
   }
 };
 
+// A floor under a square light, and triangles between them, here and there.
+Scene under_triangles(int count) {
+  Scene scene;
+  SurfaceMaterial floor;
+  floor.metallic = 0.3f;
+  floor.roughness = 0.4f;
+  floor.clearcoat = 0.5f;
+  floor.clearcoat_roughness = 0.2f;
+  floor.sheen_color = {0.2f, 0.3f, 0.1f};
+  scene.materials = {floor};
+  scene.meshes = {scene::quad_mesh({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 0), Mesh{}};
+  Mesh& triangles = scene.meshes[1];
+  for (int i = 0; i < count; ++i) {
+    const double turn = 2.399963 * i, away = 0.6 * std::sqrt((i + 0.5) / count);  // as seeds of a sunflower
+    for (int corner = 0; corner < 3; ++corner) {
+      const double angle = turn + 2.1 * corner;
+      triangles.indices.push_back(static_cast<std::uint32_t>(triangles.positions.size()));
+      triangles.positions.push_back({static_cast<float>(away * std::cos(turn) + 0.1 * std::cos(angle)),
+                                     static_cast<float>(1.5 + 0.1 * std::sin(3 * angle)),
+                                     static_cast<float>(away * std::sin(turn) + 0.1 * std::sin(angle))});
+      triangles.normals.push_back({0, 1, 0});
+    }
+  }
+  Camera camera;
+  camera.position = {0, 2.5, 5};
+  camera.z = normalized(Vec3d{0, 0.4, 1});
+  camera.y = {0, camera.z.z, -camera.z.y};
+  scene.cameras = {camera};
+  scene.area_lights = {light_of(Polygon{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}}, {3, 2, 1}, true)};
+  return scene;
+}
+
+// Of the pairs of a surface and a light that see a part of it: the share of which the host finds that.
+double shadow_on_host(const Scene& scene, const RenderOptions& options) {
+  RenderStats stats;
+  Frame(scene, options).render(&stats);
+  return stats.shadow_on_host;
+}
+
 // Of this process.
 double resident_mib() {
   std::ifstream file("/proc/self/statm");
@@ -208,6 +247,27 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   }
 }
 
+// Of how many edges a thread has space for, and of how many not, by every method and lobe.
+TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
+  RenderOptions options = small("auto");
+  options.shadows = Shadows::on;
+  for (const char* method : {"auto", "ltc-compact", "representative-point"}) {
+    options.method = method;
+    expect_same("12 triangles", under_triangles(12), options);
+  }
+  EXPECT_EQ(shadow_on_host(under_triangles(12), options), 0);
+  options.method = "ltc-compact";
+  expect_same("30 triangles", under_triangles(30), options);
+  EXPECT_LE(shadow_on_host(under_triangles(30), options), 0.01);
+  expect_same("200 triangles", under_triangles(200), options);
+  EXPECT_GE(shadow_on_host(under_triangles(200), options), 0.5);
+  const Scene room = scene_of("room");
+  expect_same("room, shadows", room, options);
+  const double share = shadow_on_host(room, options);
+  std::printf("room: %.1f %% of the parts by the host\n", 100 * share);
+  EXPECT_LE(share, 0.2);
+}
+
 TEST_F(VulkanFrame, AgreesWithTheCpuWhereTheHostHasTheLobes) {
   const Scene gallery = scene_of("gallery");
   for (const char* method : {"ltc-clipless", "half-vector"}) {
@@ -249,7 +309,9 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
   const auto device = std::make_shared<Device>(DeviceOptions{"", true});
   const Scene scene = everything();
   for (const char* method : {"closed-form", "ltc-compact"}) {
-    Frame frame(scene, small(method), device);
+    RenderOptions options = small(method);
+    options.shadows = Shadows::on;
+    Frame frame(scene, options, device);
     for (int i = 0; i < 2; ++i) frame.render();
   }
   EXPECT_TRUE(device->validation_messages().empty())

@@ -13,6 +13,8 @@ std::span<const std::uint32_t> ltc_shader();
 std::span<const std::uint32_t> closed_form_shader();
 std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
+// What points see of lights behind edges.
+std::span<const std::uint32_t> shadow_parts_shader();
 
 // Of the bounce: lobes of virtual lights; boxes, culling, lighting, filter, resolve.
 std::span<const std::uint32_t> bounce_lobes_shader();

@@ -1,0 +1,188 @@
+// The counts along all segments, and the pieces at the lowest of them: steps 5 and 6 of docs/shadows.md, as arrange() of
+// source/shadow/arrangement.cpp and lanes_cut_pack.cpp have them.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// The three orders of f x (p - scale f.a) in the displacement's infinitely small number. p, shift: a vertex, or twice a midpoint.
+struct Side {
+    Long d0;
+    Long d1;
+    Long d2;
+};
+Side side_of(ivec4 f, ivec4 shift_f, ivec2 p, ivec2 shift, int scale) {
+    ivec2 d = f.zw - f.xy;
+    ivec2 g = shift_f.zw - shift_f.xy;
+    ivec2 q = p - scale * f.xy;
+    ivec2 r = shift - scale * shift_f.xy;
+    return Side(long_cross(d, q), long_sum(long_cross(d, r), long_cross(g, q)), long_cross(g, r));
+}
+Side side_sum(Side a, Side b) { return Side(long_sum(a.d0, b.d0), long_sum(a.d1, b.d1), long_sum(a.d2, b.d2)); }
+bool is_left(Side s) {
+    int sign = sign_of(s.d0);
+    if (sign == 0) sign = sign_of(s.d1);
+    if (sign == 0) sign = sign_of(s.d2);
+    return sign >= 0;
+}
+// The share of the way between two vertices at which the line lies.
+float place_between(Side from, Side to) {
+    float a = to_float(from.d0);
+    float d = a - to_float(to.d0);
+    if (d == 0.0) {
+        a = to_float(from.d1);
+        d = a - to_float(to.d1);
+    }
+    return d == 0.0 ? 0.5 : clamp(a / d, 0.0, 1.0);
+}
+
+// Floats hold differences of cells exactly; a product is off by 2^-24 of itself, and so is the difference of two. 1 left, -1 right, 0: they
+// do not tell.
+int float_side(ivec2 d, ivec2 q) {
+    float a = float(d.x) * float(q.y);
+    float b = float(d.y) * float(q.x);
+    float bound = 4.0e-7 * (abs(a) + abs(b));
+    return a - b > bound ? 1 : a - b < -bound ? -1 : 0;
+}
+
+bool share_an_end(uvec2 e, uvec2 f) {
+    uvec2 a = e & ~kLeftName;
+    uvec2 b = f & ~kLeftName;
+    return a.x == b.x || a.x == b.y || a.y == b.x || a.y == b.y;
+}
+
+// Pieces at the lowest count so far, the lower side on their left.
+vec4 pieces[PIECE_SPACE];
+int piece_segments[PIECE_SPACE];
+int piece_count;
+int level;
+bool too_many_pieces;
+
+void take_piece(vec4 ends, int segment, int left) {
+    int weight = weights[segment];
+    int low = min(left, left - weight);
+    if (low >= kHidden / 2 || low > level || weight == 0) return;
+    if (low < level) {
+        level = low;
+        piece_count = 0;
+        too_many_pieces = false;
+    }
+    if (piece_count == PIECE_SPACE) {
+        too_many_pieces = true;
+        return;
+    }
+    pieces[piece_count] = weight > 0 ? ends.zwxy : ends;
+    piece_segments[piece_count] = segment;
+    ++piece_count;
+}
+
+// Software devices end a thread's loops after 65,535 turns in all, silently, and eight threads turn together: with a space of 128 segments
+// two turns for each pair are half of that, and this bound on the sorting of crossings keeps the rest from as much.
+const int kMostShiftTurns = 1000;
+int shift_turns;
+
+// Crossings of one segment, in their order.
+const int kCrossings = 32;
+float crossing_at[kCrossings];
+int crossing_change[kCrossings];
+
+// What a segment whose start and end lie on different sides of a height adds to a ray to the left along it, from a place on its left or right.
+int left_ray(int weight, bool upwards, bool left) { return upwards ? (left ? 0 : -weight) : (left ? weight : 0); }
+
+void cut_segment(int number, int base) {
+    ivec4 e = cells[number];
+    ivec4 shift_e = shifts[number];
+    uvec2 named = names[number];
+    ivec2 d = e.zw - e.xy;
+    if (d == ivec2(0)) return;
+    ivec2 m = e.xy + e.zw;  // twice the middle
+    ivec2 shift_m = shift_e.xy + shift_e.zw;
+    ivec4 bounds = ivec4(min(e.xy, e.zw), max(e.xy, e.zw));
+    int count = base;
+    int before_middle = 0;
+    int crossings = 0;
+    for (int i = 0; i < segment_count; i++) {
+        ivec4 f = cells[i];
+        ivec4 shift_f = shifts[i];
+        uvec2 named_f = names[i];
+        int weight = weights[i];
+        // Events of the box's left side, and which ends lie above the middle; ties go by displacements.
+        ivec2 height = 2 * f.yw - ivec2(m.y);
+        ivec2 shifted = 2 * shift_f.yw - ivec2(shift_m.y);
+        bool start_above = height.x > 0 || (height.x == 0 && shifted.x > 0);
+        bool end_above = height.y > 0 || (height.y == 0 && shifted.y > 0);
+        bool start_below = height.x < 0 || (height.x == 0 && shifted.x < 0);
+        bool end_below = height.y < 0 || (height.y == 0 && shifted.y < 0);
+        if ((named_f.x & kLeftName) != 0u && start_below) count += weight;
+        if ((named_f.y & kLeftName) != 0u && end_below) count -= weight;
+        if (i == number) continue;
+
+        ivec2 df = f.zw - f.xy;
+        ivec2 low = min(f.xy, f.zw);
+        ivec2 high = max(f.xy, f.zw);
+        bool passes = start_above != end_above && 2 * low.x <= m.x;
+        bool certain = true;
+        if (passes) {
+            int side = 2 * high.x < m.x ? (end_above ? -1 : 1) : float_side(df, m - 2 * f.xy);
+            certain = side != 0;
+            count += left_ray(side == 0 ? 0 : weight, end_above, side > 0);
+        }
+        bool meets = all(lessThanEqual(low, bounds.zw)) && all(greaterThanEqual(high, bounds.xy)) && !share_an_end(named, named_f);
+        if (meets) {
+            int ea = float_side(df, e.xy - f.xy);
+            int eb = float_side(df, e.zw - f.xy);
+            int fa = float_side(d, f.xy - e.xy);
+            int fb = float_side(d, f.zw - e.xy);
+            meets = ea * eb <= 0 && fa * fb <= 0;
+        }
+        for (int turn = certain && !meets ? 1 : 0; turn < 1; turn++) {
+            if (!certain) count += left_ray(weight, end_above, is_left(side_of(f, shift_f, m, shift_m, 2)));
+            if (!meets) break;
+            Side ea = side_of(f, shift_f, e.xy, shift_e.xy, 1);
+            Side eb = side_of(f, shift_f, e.zw, shift_e.zw, 1);
+            bool to_left = is_left(eb);
+            if (is_left(ea) == to_left) break;
+            if (is_left(side_of(e, shift_e, f.xy, shift_f.xy, 1)) == is_left(side_of(e, shift_e, f.zw, shift_f.zw, 1))) break;
+            if (crossings == kCrossings || shift_turns > kMostShiftTurns) {
+                too_much = true;
+                break;
+            }
+            int change = to_left ? weight : -weight;
+            // The middle is still to come where it lies on the end's side.
+            if (is_left(side_sum(ea, eb)) == to_left) before_middle += change;
+            float t = place_between(ea, eb);
+            int k = crossings;
+            shift_turns += k;
+            while (k > 0 && crossing_at[k - 1] > t) {
+                crossing_at[k] = crossing_at[k - 1];
+                crossing_change[k] = crossing_change[k - 1];
+                --k;
+            }
+            crossing_at[k] = t;
+            crossing_change[k] = change;
+            ++crossings;
+        }
+    }
+    // The count is on the -x side: the left if the segment runs up.
+    bool up = d.y > 0 || (d.y == 0 && shift_e.w > shift_e.y);
+    int left = (up ? count : count + weights[number]) - before_middle;
+    float from = 0.0;
+    vec2 a = vec2(e.xy);
+    vec2 reached = a;
+    for (int k = 0; k <= crossings; k++) {
+        float to = k < crossings ? crossing_at[k] : 1.0;
+        if (to > from) {
+            vec2 next = to < 1.0 ? a + to * vec2(d) : vec2(e.zw);
+            take_piece(vec4(reached, next), number, left);
+            from = to;
+            reached = next;
+        }
+        if (k < crossings) left += crossing_change[k];
+    }
+}
+
+void cut_segments(int base) {
+    piece_count = 0;
+    level = 2147483647;
+    too_many_pieces = false;
+    shift_turns = 0;
+    for (int i = 0; i < segment_count; i++) cut_segment(i, base);
+    too_much = too_much || too_many_pieces;
+}

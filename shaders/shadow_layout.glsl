@@ -1,0 +1,46 @@
+// What the host and shadow_parts.comp agree on. This text is C++ and GLSL at once.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// Groups of points, vectors of four uints each, the headers of all of them first. Where a vector holds floats, it holds their bits.
+//   0  where the vertices, planes and edges begin; number of edges
+//   1  where the incidences, corners and points begin; number of corners
+//   2  number of points, of their first answer; half sides of the box
+//   3  height below which edges block; axis x of the light's frame
+//   4  half side x of the light; axis y
+//   5  half side y; axis z
+const int kShadowHeader = 6;
+// Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. Those of
+// more than two triangles: where in the incidences theirs begin, and how many. Incidences: plane, walk, four a vector. Corners: cells of
+// the outline's edge that begins there; numbers of its ends.
+const int kWalks0 = 1;      // there is a first triangle ...
+const int kAgainst0 = 2;    // ... that walks against the edge
+const int kWalks1 = 4;      // and a second one
+const int kAgainst1 = 8;
+const int kManyWalks = 16;
+const int kAgainst = 65536;  // of an incidence
+const int kShadowCorner = 2;
+
+// Points: place in the frame, flags; shading normal; cells of the horizons by it and by the triangle.
+const int kShadowPoint = 4;
+const int kArranged = 1;      // even if no occluder is seen
+const int kCutByTriangle = 2;
+const int kHorizon = 4;       // twice that: of the triangle
+const int kHorizonLeft = 16;  // the box's left side cuts: start, end; of the triangle's: start, end
+const int kBase = 256;        // times how often the lower left corner is hidden
+
+// Answers: a place in cells, what is known, number of places of the outline.
+const int kSeesNone = 0;
+const int kSeesWhole = 1;    // if the way to its place is free; so is a part
+const int kAskHost = 2;
+const int kNoRoom = 3;       // for what it sees
+const int kSeesPart = 4;     // and where its record begins
+
+// States of slots before a light: kSeesNone, kSeesWhole or kSeesPart.
+//
+// Parts: records, vectors of four floats each.
+//   0  centre of the elements relative to the point; number of places of the outline, 0: the light's own
+//   1  reach_a; mean square deviation
+//   2  reach_b; weight
+//   3  area
+// and its places, relative to the point: 1 where they go on with an edge, 0 where they begin one.
+const int kPartHeader = 4;

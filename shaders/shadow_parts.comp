@@ -1,0 +1,142 @@
+// What points see of flat lights behind edges: a work group is a group of neighbouring points, a thread a point. docs/shadows.md.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "shadow_layout.glsl"
+
+layout(constant_id = 0) const int SEGMENT_SPACE = 32;
+layout(constant_id = 1) const int PIECE_SPACE = 32;
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Groups { uvec4 groups[]; };
+layout(std430, binding = 1) writeonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 2) buffer Answers {
+    uint parts_begin;
+    uint parts_used;  // of all that there are, with those that had no room
+    uint parts_room;
+    uint unused;
+    uvec4 answers[];
+};
+layout(push_constant) uniform Push { uint first_group; };
+
+#include "prelude/prelude.glsl"
+#include "math/constants.glsl"
+#include "shadow/shadow.glsl"
+
+#include "shadow_exact.glsl"
+#include "shadow_segments.glsl"
+#include "shadow_count.glsl"
+#include "shadow_region.glsl"
+
+// Of the light in work.
+struct View {
+    vec3 eye;
+    vec3 normal;
+    vec2 scale;  // of cells
+    vec2 extent; // half sides of the light
+    mat3 axes;
+};
+
+// A place in cells, relative to the point; on or above its horizon, so that no rounding puts an edge below.
+vec3 corner_at(View view, vec2 cell) {
+    vec3 d = view.axes * vec3(cell * view.scale - view.eye.xy, view.eye.z);
+    return d + view.normal * max(1.0e-6 * length(d) - dot(d, view.normal), 0.0);
+}
+
+// The four elements that stand for the region where it is small: quarters_of of source/shapes/area_moments.h, about a place inside it.
+void write_elements(View view, vec2 inside, uint at, int places) {
+    float area = 0.0;
+    vec2 first = vec2(0.0);
+    vec3 second = vec3(0.0);
+    for (int i = 0; i < piece_count; i++) {
+        vec2 a = (pieces[i].xy - inside) * view.scale;
+        vec2 b = (pieces[i].zw - inside) * view.scale;
+        float twice = a.x * b.y - a.y * b.x;
+        area += twice / 2.0;
+        first += twice * (a + b) / 6.0;
+        second.xz += twice * (a * a + a * b + b * b) / 12.0;
+        second.y += twice * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y) / 24.0;
+    }
+    vec2 c = first / area;
+    second = second / area - vec3(c.x * c.x, c.x * c.y, c.y * c.y);
+    float middle = (second.x + second.z) / 2.0;
+    float apart = length(vec2((second.x - second.z) / 2.0, second.y));
+    float turn = 0.5 * atan(2.0 * second.y, second.x - second.z);
+    vec2 along = vec2(cos(turn), sin(turn));
+    vec2 reach = sqrt(max(2.0 * vec2(middle + apart, middle - apart), 0.0));
+    bool small = area > 0.0 && dot(view.eye, view.eye) > 100.0 * dot(view.extent, view.extent);  // kNeverSmall
+    parts[at] = vec4(view.axes * vec3(inside * view.scale + c - view.eye.xy, view.eye.z), float(places));
+    parts[at + 1u] = vec4(view.axes * vec3(along, 0.0) * reach.x, small ? dot(reach, reach) / 2.0 : 1.0e30);
+    parts[at + 2u] = vec4(view.axes * vec3(-along.y, along.x, 0.0) * reach.y, 1.0);
+    parts[at + 3u] = vec4(-view.axes[2] * area, 0.0);
+}
+
+void write_part(View view, vec2 inside, uint at) {
+    write_elements(view, inside, at, 2 * piece_count);
+    at += uint(kPartHeader);
+    for (int i = 0; i < piece_count; i++) {
+        parts[at + 2u * uint(i)] = vec4(corner_at(view, pieces[i].xy), 0.0);
+        parts[at + 2u * uint(i) + 1u] = vec4(corner_at(view, pieces[i].zw), 1.0);
+    }
+}
+
+void main() {
+    uint header = (first_group + gl_WorkGroupID.x) * uint(kShadowHeader);
+    uvec4 h2 = groups[header + 2u];
+    uint number = gl_LocalInvocationID.x;
+    if (number >= h2.x) return;
+    uvec4 begins = groups[header];
+    uvec4 h1 = groups[header + 1u];
+    vec4 h3 = uintBitsToFloat(groups[header + 3u]);
+    vec4 h4 = uintBitsToFloat(groups[header + 4u]);
+    vec4 h5 = uintBitsToFloat(groups[header + 5u]);
+    uint at = h1.z + uint(kShadowPoint) * number;
+    uvec4 first = groups[at];
+    int flags = int(first.w);
+    int base = kHidden * (flags / kBase);
+
+    Eye eye;
+    eye.eye = uintBitsToFloat(first.xyz);
+    eye.at = vec3(eye.eye.xy, -eye.eye.z);
+    eye.box = uintBitsToFloat(h2.zw);
+    eye.height = h3.x;
+
+    segment_count = 0;
+    piece_count = 0;
+    too_much = false;
+    see_edges(eye, begins, h1.x);
+    bool occluded = segment_count > 0;
+    uvec4 answer = uvec4(0u, 0u, uint(kSeesWhole), 0u);
+    if (!too_much && (occluded || (flags & kArranged) != 0)) {
+        see_surroundings(h1.y, h1.w, at, flags);
+        cut_segments(base);
+        vec3 place = vec3(0.0);
+        bool wide = !too_much && piece_count > 0 && region_is_wide();
+        if (wide) place = place_inside(base);
+        answer.xy = floatBitsToUint(place.xy);
+        if (too_much || (piece_count > 0 && !(place.z > kLeastRoom))) {
+            answer.z = uint(kAskHost);
+        } else if (piece_count == 0) {
+            answer.z = uint(kSeesNone);
+        } else if (occluded || (flags & kCutByTriangle) != 0) {
+            View view;
+            view.eye = eye.eye;
+            view.normal = uintBitsToFloat(groups[at + 1u].xyz);
+            view.scale = eye.box * kCellSize;
+            view.axes = mat3(h3.yzw, h4.yzw, h5.yzw);
+            view.extent = vec2(h4.x, h5.x);
+            uint room = uint(kPartHeader + 2 * piece_count);
+            uint begin = atomicAdd(parts_used, room);
+            answer.w = uint(2 * piece_count);
+            if (begin + room <= parts_room) {
+                write_part(view, place.xy, parts_begin + begin);
+                answer.z = uint(kSeesPart) + parts_begin + begin;
+            } else {
+                answer.z = uint(kNoRoom);
+            }
+        }
+    }
+    if (too_much) answer.z = uint(kAskHost);
+    answers[h2.y + number] = answer;
+}

@@ -1,0 +1,94 @@
+// The region that the pieces bound: whether it is thin, and a place well inside it, as source/shadow/lanes_region_pack.cpp finds them.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+const float kCellSize = 1.0 / 4194304.0;      // in half sides of the box
+const float kThin = 1.0 / 4096.0;
+const float kRoomEnough = 4194304.0 / 1024.0;
+const float kLeastRoom = 4194304.0 / 8192.0;
+const int kTrials = 4;
+
+bool region_is_wide() {
+    float twice = 0.0;
+    float perimeter = 0.0;
+    for (int i = 0; i < piece_count; i++) {
+        vec4 p = pieces[i] * kCellSize;
+        vec2 d = p.zw - p.xy;
+        twice += p.x * d.y - p.y * d.x;
+        perimeter += length(d);
+    }
+    return twice > 2.0 * kThin * perimeter;
+}
+
+// From a place along a unit direction, how far it is to the next segment but one.
+float distance_to_next(vec2 from, vec2 n, int but) {
+    float nearest = 1.0e30;
+    for (int i = 0; i < segment_count; i++) {
+        vec2 a = vec2(cells[i].xy);
+        vec2 f = vec2(cells[i].zw) - a;
+        vec2 p = a - from;
+        float det = n.x * f.y - n.y * f.x;
+        float inverse = 1.0 / (det != 0.0 ? det : 1.0);
+        float distance = (p.x * f.y - p.y * f.x) * inverse;
+        float t = (p.x * n.y - p.y * n.x) * inverse;
+        if (i != but && det != 0.0 && distance > 0.0 && t >= 0.0 && t <= 1.0) nearest = min(nearest, distance);
+    }
+    return nearest;
+}
+
+// The distance of a place from all segments, 0 where its count is above the level or not certain.
+float room_at(vec2 q, int base) {
+    float least2 = 1.0e30;
+    int count = base;
+    bool certain = true;
+    for (int i = 0; i < segment_count; i++) {
+        vec4 s = vec4(cells[i]);
+        vec2 f = s.zw - s.xy;
+        vec2 p = q - s.xy;
+        vec2 r = p - clamp(dot(p, f) / max(dot(f, f), 1.0), 0.0, 1.0) * f;
+        least2 = min(least2, dot(r, r));
+        // The place is no whole number: differences round as well.
+        bool start_above = s.y > q.y;
+        bool end_above = s.w > q.y;
+        float a = f.x * p.y;
+        float b = f.y * p.x;
+        if (start_above != end_above) {
+            certain = certain && abs(a - b) > 1.0e-6 * (abs(a) + abs(b));
+            count += left_ray(weights[i], end_above, a > b);
+        }
+        if ((names[i].x & kLeftName) != 0u && s.y < q.y) count += weights[i];
+        if ((names[i].y & kLeftName) != 0u && s.w < q.y) count -= weights[i];
+    }
+    return certain && count <= level ? sqrt(least2) : 0.0;
+}
+
+// From the middles of the longest pieces along their normals, half way to what comes next: z: the room there.
+vec3 place_inside(int base) {
+    vec3 best = vec3(0.0);
+    float last = 1.0e30;
+    int last_number = -1;
+    for (int trial = 0; trial < kTrials; trial++) {
+        float longest = 0.0;
+        int number = -1;
+        for (int i = 0; i < piece_count; i++) {
+            vec2 d = pieces[i].zw - pieces[i].xy;
+            float length2 = dot(d, d);
+            if ((length2 < last || (length2 == last && i > last_number)) && length2 > longest) {
+                longest = length2;
+                number = i;
+            }
+        }
+        if (number < 0) break;
+        last = longest;
+        last_number = number;
+        vec4 p = pieces[number];
+        vec2 n = vec2(p.y - p.w, p.z - p.x) * inversesqrt(longest);
+        vec2 middle = 0.5 * (p.xy + p.zw);
+        float distance = distance_to_next(middle, n, piece_segments[number]);
+        if (distance > 1.0e9) continue;
+        vec2 q = middle + 0.5 * distance * n;
+        float room = room_at(q, base);
+        if (room > best.z) best = vec3(q, room);
+        if (best.z > kRoomEnough) break;
+    }
+    return best;
+}

@@ -1,0 +1,145 @@
+// What a point sees of a group's edges, of the light's outline and of its own horizons: segments in cells, as source/shadow/edge_arrays.cpp
+// and lanes_see_pack.cpp find them.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+ivec4 cells[SEGMENT_SPACE];   // start, end
+ivec4 shifts[SEGMENT_SPACE];  // displacements of both
+uvec2 names[SEGMENT_SPACE];
+int weights[SEGMENT_SPACE];
+int segment_count;
+bool too_much;  // for the space there is
+
+const int kHidden = 1048576;  // source/shadow/segments.h
+
+void add_segment(ivec4 ends, uvec2 named, int weight) {
+    if (segment_count == SEGMENT_SPACE) {
+        too_much = true;
+        return;
+    }
+    cells[segment_count] = ends;
+    shifts[segment_count] = ivec4(displacement(named.x), displacement(named.y));
+    names[segment_count] = named;
+    weights[segment_count] = weight;
+    ++segment_count;
+}
+
+struct Eye {
+    vec3 at;       // in the light's frame, below its plane
+    vec3 eye;      // shadow_project
+    vec2 box;
+    float height;  // only what lies below blocks
+};
+
+const int kAboveOut = 16;  // beside one bit for each side: left, right, bottom, top
+
+struct End {
+    vec3 h;
+    vec2 cell;
+    int outside;
+};
+
+End look_at(Eye eye, vec3 v) {
+    End end;
+    end.h = shadow_project(eye.eye, v);
+    end.cell = shadow_cell(end.h, eye.box, 0.0);
+    vec2 side = eye.box * end.h.z;
+    end.outside = (side.x + end.h.x <= 0.0 ? 1 : 0) | (side.x - end.h.x <= 0.0 ? 2 : 0) | (side.y + end.h.y <= 0.0 ? 4 : 0) |
+                  (side.y - end.h.y <= 0.0 ? 8 : 0) | (v.z >= eye.height ? kAboveOut : 0);
+    return end;
+}
+
+// A distance from a side with the sign that `outside` has: all edges of a vertex agree.
+float side_distance(float d, int outside, int bit) { return (outside & bit) != 0 ? min(d, 0.0) : max(d, 1.0e-30); }
+
+void add_clipped(Eye eye, End a, End b, uvec2 named, uint number, int weight) {
+    if ((a.outside & b.outside & 15) != 0) return;
+    ivec4 ends = ivec4(ivec2(a.cell), ivec2(b.cell));
+    ShadowSpan span;
+    span.t0 = 0.0;
+    span.t1 = 1.0;
+    span.sides = vec2(0.0);
+    span.inside = true;
+    vec2 sa = eye.box * a.h.z;
+    vec2 sb = eye.box * b.h.z;
+    span = shadow_clip_side(span, side_distance(sa.x + a.h.x, a.outside, 1), side_distance(sb.x + b.h.x, b.outside, 1), 1.0);
+    span = shadow_clip_side(span, side_distance(sa.x - a.h.x, a.outside, 2), side_distance(sb.x - b.h.x, b.outside, 2), 2.0);
+    span = shadow_clip_side(span, side_distance(sa.y + a.h.y, a.outside, 4), side_distance(sb.y + b.h.y, b.outside, 4), 3.0);
+    span = shadow_clip_side(span, side_distance(sa.y - a.h.y, a.outside, 8), side_distance(sb.y - b.h.y, b.outside, 8), 4.0);
+    bool at_a = span.sides.x > 0.5;
+    bool at_b = span.sides.y > 0.5;
+    // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+    if (!(span.t0 < span.t1) && at_a && at_b) return;
+    vec3 d = b.h - a.h;
+    if (at_a) {
+        ends.xy = ivec2(shadow_cell(a.h + d * span.t0, eye.box, span.sides.x));
+        named.x = kClipName | (2u * number) | (span.sides.x < 1.5 ? kLeftName : 0u);
+    }
+    if (at_b) {
+        ends.zw = ivec2(shadow_cell(a.h + d * span.t1, eye.box, span.sides.y));
+        named.y = kClipName | (2u * number + 1u) | (span.sides.y < 1.5 ? kLeftName : 0u);
+    }
+    add_segment(ends, named, weight);
+}
+
+// 1 where the point sees the front of a plane, else -1.
+int facing_of(Eye eye, uint plane) {
+    vec4 p = uintBitsToFloat(groups[plane]);
+    return int(shadow_facing(p.xyz, p.w, eye.at));
+}
+
+// The segments of the group's edges.
+void see_edges(Eye eye, uvec4 begins, uint incidences) {
+    for (uint e = 0u; e < begins.w; e++) {
+        uvec4 edge = groups[begins.z + e];
+        int flags = int(edge.w);
+        int weight = 0;
+        if ((flags & kManyWalks) != 0) {
+            uint first = edge.y & 0xffffu;
+            uint count = edge.y >> 16;
+            for (uint i = first; i < first + count; i++) {
+                uint one = groups[incidences + i / 4u][i % 4u];
+                int facing = facing_of(eye, begins.y + (one & 0xffffu));
+                weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
+            }
+        } else {
+            if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
+            if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+        }
+        // A loop of one turn at most, here and below: software devices skip those, but no branch.
+        for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
+            uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
+            uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
+            vec3 v0 = uintBitsToFloat(bits0.xyz);
+            vec3 v1 = uintBitsToFloat(bits1.xyz);
+            End a = look_at(eye, v0);
+            End b = look_at(eye, v1);
+            bool above_a = (a.outside & kAboveOut) != 0;
+            bool above_b = (b.outside & kAboveOut) != 0;
+            if (above_a && above_b) break;
+            uvec2 named = uvec2(bits0.w, bits1.w);
+            if (above_a || above_b) {
+                End cut = look_at(eye, shadow_cut(v0, v1, eye.height));
+                if (above_a) a = cut;
+                if (above_b) b = cut;
+                if (above_a) named.x = kCutName | edge.z;
+                if (above_b) named.y = kCutName | edge.z;
+            }
+            add_clipped(eye, a, b, named, edge.z, weight);
+        }
+    }
+}
+
+// The outline, and the horizons that the host found.
+void see_surroundings(uint corners, uint corner_count, uint at, int flags) {
+    for (uint i = 0u; i < corner_count; i++) {
+        uvec4 named = groups[corners + 2u * i + 1u];
+        add_segment(ivec4(groups[corners + 2u * i]), kCornerName | named.xy, -kHidden);
+    }
+    for (int h = 0; h < 2; h++) {
+        if ((flags & (kHorizon << h)) == 0) continue;
+        int left = flags >> (2 * h);
+        uvec2 named = uvec2(kHorizonName | (2u * uint(h))) + uvec2(0u, 1u);
+        named |= uvec2((left & kHorizonLeft) != 0 ? kLeftName : 0u, (left & (2 * kHorizonLeft)) != 0 ? kLeftName : 0u);
+        add_segment(ivec4(groups[at + 2u + uint(h)]), named, -kHidden);
+    }
+}

@@ -1,0 +1,243 @@
+#include "render/vulkan/shadows.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/budget.h"
+#include "render/vulkan/shaders.h"
+#include "shadow/visible.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/shadow_layout.glsl"
+
+constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
+// Of one search: work groups in a row, points whose parts fill a quarter of a buffer, lights and groups whose values fill half of one.
+constexpr std::size_t kMostGroups = 65535, kMostPoints = 65536, kMostLights = 16384,
+                      kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
+constexpr std::size_t kVectorsOfPart = 32;  // what a part takes, in the beginning
+constexpr int kMorePieces = 16;             // than segments
+
+// As Answers of shaders/shadow_parts.comp.
+struct AnswersHead {
+  std::uint32_t parts_begin, parts_used, parts_room, unused;
+};
+struct Answer {
+  float x, y;
+  std::uint32_t sees, places;
+};
+static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kVector);
+
+std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
+
+// What of a tile begins where among a batch's.
+struct Begin {
+  std::size_t light = 0, point = 0, record = 0, row = 0, group = 0;
+};
+
+}  // namespace
+
+struct Shadows::Batch {
+  explicit Batch(std::span<TileShadows> t) : tiles(t), begins(t.size() + 1) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      const TileShadows& tile = tiles[i];
+      const Begin& b = begins[i];
+      begins[i + 1] = {b.light + tile.by_light.size(), b.point + tile.points.size(), 0, b.row + tile.values.size() / 4,
+                       b.group + tile.groups.size()};
+    }
+  }
+  const Begin& all() const { return begins.back(); }
+
+  std::span<TileShadows> tiles;
+  std::vector<Begin> begins;
+  const Answer* answers = nullptr;
+  std::size_t device_records = 0;
+  std::vector<std::uint8_t> free;  // by point
+};
+
+Shadows::Shadows(const Device& device, const RayScene& rays, TileLighting& host)
+    : device_(device), rays_(rays), host_(host), program_(device, {shadow_parts_shader()}, 3) {}
+
+Buffer& Shadows::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const char* what) const {
+  const std::size_t most = std::min<std::size_t>(kLargestBuffer, device_.info().storage_buffer);
+  if (bytes > most)
+    throw Error(
+        "Vulkan",
+        std::string(what) + " of one tile take " + readable_bytes(bytes) + ", more than the " + readable_bytes(most) + " of a buffer",
+        "use --backend cpu");
+  const bool read = &buffer == &answers_;
+  if (buffer == nullptr || buffer->bytes() < bytes)
+    buffer =
+        std::make_unique<Buffer>(device_, buffer == nullptr ? std::max<std::size_t>(bytes, kVector) : std::min(bytes + bytes / 2, most),
+                                 read ? BufferUse::host_reads : BufferUse::host_writes);
+  return *buffer;
+}
+
+void Shadows::upload(const Batch& batch) {
+  constexpr std::size_t kHeader = static_cast<std::size_t>(kShadowHeader);
+  const std::size_t headers = batch.all().group * kHeader;
+  auto* to = static_cast<std::uint32_t*>(fitting(groups_, (headers + batch.all().row) * kVector, "the edges before lights").mapped());
+  std::size_t row = 0;
+  for (int space : kSpaces)
+    for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+      for (const TileShadows::Group& group : batch.tiles[i].groups) {
+        if (group.space != space) continue;
+        auto header = group.header;
+        for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + batch.begins[i].row);
+        header[9] += number(batch.begins[i].point);
+        std::memcpy(to + 4 * row, header.data(), sizeof header);
+        row += kHeader;
+      }
+  for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+    std::memcpy(to + 4 * (headers + batch.begins[i].row), batch.tiles[i].values.data(),
+                batch.tiles[i].values.size() * sizeof(std::uint32_t));
+}
+
+// Returns how many vectors the parts' records want.
+std::size_t Shadows::search(Batch& batch) {
+  AnswersHead head{0, 0, number(parts_->bytes() / kVector), 0};
+  Buffer& answers = fitting(answers_, (1 + batch.all().point) * kVector, "points before lights");
+  answers.write(&head, sizeof head);
+  std::vector<ComputeProgram::Dispatch> dispatches;
+  std::uint32_t first = 0;
+  for (const int space : kSpaces) {
+    std::uint32_t count = 0;
+    for (const TileShadows& tile : batch.tiles)
+      count += number(
+          static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return g.space == space; })));
+    if (count > 0) dispatches.push_back({program_.pipeline(0, {space, space + kMorePieces}), count, 1, first});
+    first += count;
+  }
+  for (const double ms : program_.run({groups_.get(), parts_.get(), &answers}, dispatches)) time_ += ms;
+  std::memcpy(&head, answers.mapped(), sizeof head);
+  batch.answers = reinterpret_cast<const Answer*>(static_cast<const char*>(answers.mapped()) + sizeof head);
+  return batch.device_records = head.parts_used;
+}
+
+// Whether the way to the places that were found is free.
+void Shadows::trace(Batch& batch, const Each& each) {
+  batch.free.assign(batch.all().point, 0);
+  each(batch.tiles.size(), [&](std::size_t i) {
+    constexpr std::size_t kRays = 16;
+    const std::vector<TileShadows::Point>& points = batch.tiles[i].points;
+    const std::size_t begin = batch.begins[i].point;
+    RayScene::Sixteen rays;
+    for (std::size_t first = 0; first < points.size(); first += kRays) {
+      std::uint32_t asked = 0;
+      for (std::size_t k = 0; k < std::min(kRays, points.size() - first); ++k) {
+        const Answer& answer = batch.answers[begin + first + k];
+        if (answer.sees == kSeesNone || answer.sees == kAskHost) continue;
+        const TileShadows::Point& point = points[first + k];
+        const shadow::LightFrame& frame = point.side->frame;
+        const double z = -frame.to_local(point.at.position).z;
+        const Vec3d place = frame.to_world({static_cast<double>(answer.x) / shadow::kCells * frame.box_x,
+                                            static_cast<double>(answer.y) / shadow::kCells * frame.box_y, 0});
+        rays.set(k, point.at.position, (place - point.at.position) * std::max((z - frame.eta) / z, 0.0));
+        asked |= 1u << k;
+      }
+      if (asked == 0) continue;
+      const std::uint32_t free = asked & ~rays_.blocked_among(rays, asked);
+      for (std::size_t k = 0; k < kRays && first + k < points.size(); ++k) batch.free[begin + first + k] = free >> k & 1;
+    }
+  });
+}
+
+void Shadows::ask_host(Batch& batch, const Each& each) {
+  each(batch.tiles.size(), [&](std::size_t i) {
+    TileShadows& tile = batch.tiles[i];
+    const std::size_t begin = batch.begins[i].point;
+    TilePoints points;
+    points.points.resize(kTilePixels);
+    std::vector<std::uint32_t> slots;
+    for (std::size_t g = 0; g < tile.groups.size(); ++g) {
+      const std::size_t first = tile.groups[g].header[9], count = tile.groups[g].header[8];
+      const std::uint32_t light = tile.points[first].light;
+      points.groups.groups.emplace_back();
+      for (std::size_t k = first; k < first + count; ++k) {
+        if (batch.answers[begin + k].sees != kAskHost) continue;
+        const std::uint32_t slot = tile.points[k].slot;
+        points.points[slot] = tile.points[k].at;
+        points.groups.groups.back().push_back(slot);
+        slots.push_back(slot);
+      }
+      if (points.groups.groups.back().empty())
+        points.groups.groups.pop_back();
+      else
+        points.groups.clusters.push_back({number(points.groups.groups.size() - 1)});
+      const bool last = g + 1 == tile.groups.size() || tile.points[tile.groups[g + 1].header[9]].light != light;
+      if (!last || slots.empty()) continue;
+      tile.set(light, slots, host_.find_flat_at(points, *tile.by_light[light].light));
+      points.groups = {};
+      slots.clear();
+    }
+  });
+}
+
+void Shadows::write_states(Batch& batch, const Each& each) {
+  auto* states =
+      static_cast<std::uint32_t*>(fitting(states_, batch.all().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
+  auto* records = static_cast<Vec4Floats*>(parts_->mapped());
+  each(batch.tiles.size(), [&](std::size_t i) {
+    TileShadows& tile = batch.tiles[i];
+    const Begin& begin = batch.begins[i];
+    std::copy(tile.records.begin(), tile.records.end(), records + begin.record);
+    std::uint32_t* to = states + begin.light * kTilePixels;
+    for (std::size_t l = 0; l < tile.by_light.size(); ++l)
+      for (std::size_t slot = 0; slot < kTilePixels; ++slot) {
+        const std::uint32_t state = tile.by_light[l].states[slot];
+        to[l * kTilePixels + slot] = state < kSeesPart ? state : state + number(begin.record);
+      }
+    for (std::size_t k = 0; k < tile.points.size(); ++k) {
+      const Answer& answer = batch.answers[begin.point + k];
+      if (batch.free[begin.point + k] == 0) continue;
+      const TileShadows::Point& point = tile.points[k];
+      to[point.light * kTilePixels + point.slot] = answer.sees;
+      int& places = tile.by_light[point.light].places;
+      places = std::max(places, static_cast<int>(answer.places));
+    }
+  });
+}
+
+std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
+  const Batch all(tiles);
+  std::size_t count = 1;
+  const auto fits = [&](const Begin& b) {
+    return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues;
+  };
+  while (count < tiles.size() && fits(all.begins[count + 1])) ++count;
+  bool asked = false;
+  while (true) {
+    Batch batch(tiles.first(count));
+    fitting(parts_, batch.all().point * kVectorsOfPart * kVector, "parts of lights");
+    upload(batch);
+    std::size_t wanted = search(batch);
+    if (!asked && wanted * kVector <= parts_->bytes()) {
+      ask_host(batch, each);
+      asked = true;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      batch.begins[i].record = wanted;
+      wanted += batch.tiles[i].records.size();
+    }
+    if (wanted * kVector > parts_->bytes()) {
+      // Once more, with more room or fewer tiles.
+      if (wanted * kVector > kLargestBuffer && count > 1)
+        count /= 2;
+      else
+        fitting(parts_, wanted * kVector, "parts of lights");
+      continue;
+    }
+    trace(batch, each);
+    write_states(batch, each);
+    for (std::size_t k = 0; k < batch.all().point; ++k) {
+      points_ += batch.answers[k].sees != kAskHost;
+      found_ += batch.answers[k].sees >= kSeesPart && batch.free[k] != 0;
+    }
+    return count;
+  }
+}
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,209 @@
+#include "render/vulkan/tile_shadows.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "shadow/collect.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/shadow_layout.glsl"
+
+using shadow::Viewpoint;
+
+constexpr std::size_t kMostEdges = 2048, kMostIncidences = 1024;  // of a group: software devices end loops after 65,535 turns
+constexpr std::uint32_t kMostNumber = 1 << 27;                    // of a vertex or edge: names have 28 bits
+constexpr std::size_t kMostPlaces = 1 << 16;                      // of vertices and planes in a group
+
+static_assert(std::tuple_size_v<decltype(TileShadows::Group::header)> == 4 * static_cast<std::size_t>(kShadowHeader));
+
+std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
+std::uint32_t bits(double x) { return bits(static_cast<float>(x)); }
+std::uint32_t whole(std::size_t n) { return static_cast<std::uint32_t>(n); }
+std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
+
+Vec4Floats with(Vec3f v, float w = 0) { return {v.x, v.y, v.z, w}; }
+
+// Vectors of four, one after another.
+class Rows {
+ public:
+  explicit Rows(std::vector<std::uint32_t>& values) : values_(values) {}
+  std::uint32_t size() const { return whole(values_.size() / 4); }
+  void add(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t w) { values_.insert(values_.end(), {x, y, z, w}); }
+  void add(const shadow::Segment& s) {
+    add(static_cast<std::uint32_t>(s.a.x), static_cast<std::uint32_t>(s.a.y), static_cast<std::uint32_t>(s.b.x),
+        static_cast<std::uint32_t>(s.b.y));
+  }
+  void fill() {
+    while (values_.size() % 4 != 0) values_.push_back(0);
+  }
+
+ private:
+  std::vector<std::uint32_t>& values_;
+};
+
+std::uint32_t walks_of(float walks, int there, int against) { return walks == 0 ? 0u : flag(there) | (walks < 0 ? flag(against) : 0u); }
+
+void add_edges(const shadow::EdgeArrays& arrays, std::vector<std::uint32_t>& values, std::array<std::uint32_t, 24>& header) {
+  const shadow::LaneEdges edges = arrays.lane_edges();
+  Rows rows(values);
+  header[0] = rows.size();
+  for (std::size_t i = 0; i < edges.vertex_count; ++i)
+    rows.add(bits(edges.vertices.x[i]), bits(edges.vertices.y[i]), bits(edges.vertices.z[i]), arrays.vertex_number(i));
+  header[1] = rows.size();
+  for (std::size_t i = 0; i < edges.plane_count; ++i)
+    rows.add(bits(edges.normals.x[i]), bits(edges.normals.y[i]), bits(edges.normals.z[i]), bits(edges.offsets[i]));
+  header[2] = rows.size();
+  header[3] = whole(edges.edge_count);
+  std::size_t more = 0, incidences = 0;
+  const shadow::EdgeView& e = edges.edges;
+  const auto pair = [](auto a, auto b) { return static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b) << 16; };
+  for (std::size_t i = 0; i < edges.edge_count; ++i) {
+    std::uint32_t planes = pair(e.plane0[i], e.plane1[i]);
+    std::uint32_t walks = walks_of(e.walks0[i], kWalks0, kAgainst0) | walks_of(e.walks1[i], kWalks1, kAgainst1);
+    if (more < edges.more_count && edges.more[more].edge == i) {
+      planes = pair(edges.more[more].first, edges.more[more].count);
+      incidences = edges.more[more].first + edges.more[more].count;
+      walks = flag(kManyWalks);
+      ++more;
+    }
+    rows.add(pair(e.v0[i], e.v1[i]), planes, arrays.edge_number(i), walks);
+  }
+  header[4] = rows.size();
+  for (std::size_t i = 0; i < incidences; ++i)
+    values.push_back(edges.incidences[i].plane | (edges.incidences[i].walks < 0 ? flag(kAgainst) : 0u));
+  rows.fill();
+}
+
+// The place of a point, what it asks, its horizons.
+void add_point(const LightSide& side, const Viewpoint& at, std::vector<std::uint32_t>& values) {
+  const shadow::LightFrame& frame = side.frame;
+  const Vec3d local = frame.to_local(at.position), eye{local.x, local.y, -local.z};
+  const bool cut = is_cut(frame, at), simple = side.middle && dot(*side.middle - at.position, at.normal) > 0 && !cut;
+  shadow::SegmentSet set;
+  std::uint32_t flags = (simple ? 0 : flag(kArranged)) | (cut ? flag(kCutByTriangle) : 0);
+  std::int32_t base = shadow::kHidden;
+  shadow::Segment horizons[2];
+  for (int h = 0; h < (at.geometric_normal ? 2 : 1); ++h) {
+    set.clear();
+    base += shadow::add_horizon(frame, eye, frame.axes.to_local(h == 0 ? at.normal : *at.geometric_normal),
+                                h == 0 ? shadow::Source::shading_horizon : shadow::Source::geometric_horizon, set);
+    if (set.segments.empty()) continue;
+    horizons[h] = set.segments.front();
+    flags |= flag(kHorizon << h);
+    for (const shadow::LeftEvent& event : set.events)
+      flags |= flag((event.weight == horizons[h].weight ? kHorizonLeft : 2 * kHorizonLeft) << (2 * h));
+  }
+  flags += flag(kBase) * static_cast<std::uint32_t>(base / shadow::kHidden);
+  Rows rows(values);
+  rows.add(bits(eye.x), bits(eye.y), bits(eye.z), flags);
+  rows.add(bits(at.normal.x), bits(at.normal.y), bits(at.normal.z), 0);
+  for (const shadow::Segment& h : horizons) rows.add(h);
+}
+
+}  // namespace
+
+void TileShadows::clear() {
+  by_light.clear();
+  records.clear();
+  groups.clear();
+  values.clear();
+  points.clear();
+}
+
+bool TileShadows::lights(const PackLight& light) const { return light.is_polygon() && light.textured == nullptr; }
+
+bool TileShadows::find(const LightSide& side, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
+                       const std::vector<Viewpoint>& at) {
+  const shadow::LaneEdges all = edges.lane_edges();
+  if (all.edge_count > kMostEdges || all.vertex_count >= kMostPlaces || all.plane_count >= kMostPlaces) return false;
+  for (std::size_t i = 0; i < all.edge_count; ++i)
+    if (edges.edge_number(i) >= kMostNumber) return false;
+  for (std::size_t i = 0; i < all.vertex_count; ++i)
+    if (edges.vertex_number(i) >= kMostNumber) return false;
+  std::size_t incidences = 0;
+  for (std::size_t i = 0; i < all.more_count; ++i) incidences += all.more[i].count;
+  const std::size_t corners = side.outline->size();
+  if (incidences > kMostIncidences || corners + 2 > static_cast<std::size_t>(kSpaces.back()) / 2) return false;
+
+  Group group{};
+  const std::size_t segments = all.edge_count + corners + 2;
+  group.space = *std::find_if(kSpaces.begin(), kSpaces.end() - 1, [&](int space) { return static_cast<std::size_t>(space) >= segments; });
+  add_edges(edges, values, group.header);
+  Rows rows(values);
+  group.header[5] = rows.size();
+  for (const shadow::Segment& s : *side.outline) {
+    rows.add(s);
+    rows.add(static_cast<std::uint32_t>(s.a.id & ~shadow::kCornerId), static_cast<std::uint32_t>(s.b.id & ~shadow::kCornerId), 0, 0);
+  }
+  group.header[6] = rows.size();
+  group.header[7] = whole(corners);
+  const shadow::LightFrame& f = side.frame;
+  const std::uint32_t rest[] = {whole(slots.size()), whole(points.size()), bits(f.box_x),    bits(f.box_y),
+                                bits(-f.eta),        bits(f.axes.x.x),     bits(f.axes.x.y), bits(f.axes.x.z),
+                                bits(f.half_x),      bits(f.axes.y.x),     bits(f.axes.y.y), bits(f.axes.y.z),
+                                bits(f.half_y),      bits(f.axes.z.x),     bits(f.axes.z.y), bits(f.axes.z.z)};
+  std::copy(std::begin(rest), std::end(rest), group.header.begin() + 8);
+  for (const std::uint32_t slot : slots) {
+    add_point(side, at[slot], values);
+    points.push_back({whole(by_light.size()), slot, &side, at[slot]});
+  }
+  groups.push_back(group);
+  return true;
+}
+
+std::uint32_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b,
+                                      const Vec4Floats& area) {
+  const std::uint32_t number = whole(records.size());
+  records.insert(records.end(), {center, reach_a, reach_b, area});
+  return flag(kSeesPart) + number;
+}
+
+std::uint32_t TileShadows::add_part(const packed::Pieces& pieces, std::size_t point, float weight, int& places) {
+  constexpr std::size_t kBlock = packed::Pieces::kBlock;
+  const float* e = pieces.elements(point);
+  const auto element = [&](std::size_t first, float w) {
+    return with({e[first * kBlock], e[(first + 1) * kBlock], e[(first + 2) * kBlock]}, w);
+  };
+  const std::uint32_t state = add_record(element(0, 0), element(3, e[12 * kBlock]), element(6, weight), element(9, 0));
+  const std::size_t first = records.size();
+  for (std::size_t k = 0; k < pieces.edge_count(point); ++k) {
+    const float* edge = pieces.edge(point, k);
+    const Vec3f a{edge[0], edge[kBlock], edge[2 * kBlock]}, b{edge[3 * kBlock], edge[4 * kBlock], edge[5 * kBlock]};
+    if (a == b) continue;
+    records.push_back(with(a, 0));
+    records.push_back(with(b, 1));
+  }
+  const std::size_t count = records.size() - first;
+  records[first - static_cast<std::size_t>(kPartHeader)][3] = static_cast<float>(count);
+  places = std::max(places, static_cast<int>(count));
+  return count > 0 ? state : flag(kSeesNone);
+}
+
+void TileShadows::set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow) {
+  using Seen = TileShadow::Seen;
+  Light& to = by_light[light];
+  for (const std::uint32_t i : slots) {
+    const Seen seen = shadow.seen[i];
+    to.states[i] = flag(seen == Seen::whole ? kSeesWhole : kSeesNone);
+    if (seen == Seen::share) to.states[i] = add_record({}, {}, {0, 0, 0, shadow.share[i]}, {});
+  }
+  for (std::size_t b = 0; b < shadow.batch_count; ++b) {
+    const TileShadow::Batch& batch = shadow.batches[b];
+    for (std::size_t k = 0; k < batch.slots.size(); ++k)
+      if (batch.slots[k] != kNoSlot) to.states[batch.slots[k]] = add_part(batch.visible, k, batch.passes[k], to.places);
+  }
+}
+
+void TileShadows::take(const PackLight& light, const TileShadow& shadow) {
+  by_light.push_back({&light});
+  static const std::vector<std::uint32_t> all = [] {
+    std::vector<std::uint32_t> slots(kTilePixels);
+    for (std::uint32_t i = 0; i < kTilePixels; ++i) slots[i] = i;
+    return slots;
+  }();
+  set(by_light.size() - 1, all, shadow);
+}
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,54 @@
+// What of the shadows of a tile is a device's: how its lights reach the slots, as far as the host knows it, and the groups of points for
+// which the device finds out. Numbers as shaders/shadow_layout.glsl has them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/cpu/shadow_taker.h"
+#include "render/vulkan/light_records.h"
+
+namespace steradian::vulkan {
+
+// Segments that a thread may have space for: shaders/shadow_count.glsl says why not more.
+inline constexpr std::array<int, 3> kSpaces = {32, 64, 128};
+
+class TileShadows : public ShadowTaker {
+ public:
+  void clear();
+
+  bool lights(const PackLight& light) const override;
+  bool find(const LightSide& side, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
+            const std::vector<shadow::Viewpoint>& points) override;
+  void take(const PackLight& light, const TileShadow& shadow) override;
+
+  // Writes what some slots of a light see.
+  void set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow);
+
+  struct Light {
+    const PackLight* light;
+    std::array<std::uint32_t, kTilePixels> states{};  // records of parts: counted from the tile's first one
+    int places = 0;                                   // most of a part
+  };
+  struct Point {
+    std::uint32_t light, slot;
+    const LightSide* side;
+    shadow::Viewpoint at;
+  };
+  struct Group {
+    std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
+    int space;                             // for segments: a thread's
+  };
+  std::vector<Light> by_light;
+  std::vector<Vec4Floats> records;  // of parts
+  std::vector<Group> groups;
+  std::vector<std::uint32_t> values;  // of groups
+  std::vector<Point> points;
+
+ private:
+  std::uint32_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
+  std::uint32_t add_part(const packed::Pieces& pieces, std::size_t point, float weight, int& places);
+};
+
+}  // namespace steradian::vulkan
