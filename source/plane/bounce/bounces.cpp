@@ -271,7 +271,9 @@ PlaneBounces::PlaneBounces(const PlaneWorld& world, const PlaneBounceOptions& op
   if (options.bounces < kAllBounces) throw Error("bounces", "must be a number of bounces, or all of them");
   if (!(options.tolerance > 0)) throw Error("tolerance", "must be positive");
   impl_->world = &world.impl();
-  plane::refuse_extras(world.scene(), world.impl().extras.get(), "the bounces of light", "leave bounces out, or what they know nothing of");
+  if (const auto& extras = world.impl().extras)
+    throw Error(world.scene().name, "has " + extras->names + ", of which bounces know nothing",
+                "leave bounces out, or what they know nothing of");
   if (options.bounces == 0)
     impl_->elements = plane::Elements(world.impl(), 1e300, 0);  // none: nothing reflects
   else

@@ -51,7 +51,10 @@ std::unique_ptr<const Extras> extras_of(const PlaneScene& scene) {
     throw Error(scene.name, "the fog's density is not a number of at least 0");
   Extras extras;
   const auto add = [&](const std::string& name) { extras.names += (extras.names.empty() ? "" : ", ") + name; };
-  for (const PlaneSun& sun : scene.suns) check(sun);
+  for (const PlaneSun& sun : scene.suns) {
+    check(sun);
+    if (sun.half_width == 0) ++extras.hard_suns;
+  }
   if (!scene.suns.empty()) add("a sun");
   if (scene.fog_density > 0) add("fog");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -72,10 +75,6 @@ std::unique_ptr<const Extras> extras_of(const PlaneScene& scene) {
   }
   if (extras.names.empty()) return nullptr;
   return std::make_unique<const Extras>(std::move(extras));
-}
-
-void refuse_extras(const PlaneScene& scene, const Extras* extras, const std::string& what, const std::string& hint) {
-  if (extras != nullptr) throw Error(scene.name, "has " + extras->names + ", of which " + what + " knows nothing", hint);
 }
 
 }  // namespace steradian::plane

@@ -22,6 +22,7 @@ struct Extras {
   std::vector<Matter> matter;        // by body
   std::vector<std::size_t> mirrors;  // bodies
   bool clear = false, deep = false;  // is there such a body?
+  std::size_t hard_suns = 0;         // without width
   std::string names;                 // "a sun, fog, 'pane', which lets light through": for messages
   // Does the light that a frame without extras knows of change, too?
   bool changes_frames(const PlaneScene& scene) const { return clear || scene.fog_density > 0; }
@@ -29,8 +30,5 @@ struct Extras {
 
 // Null where the scene has none. Throws Error, with the body's name, for values that mean nothing.
 std::unique_ptr<const Extras> extras_of(const PlaneScene& scene);
-
-// For what knows nothing of extras: throws Error where the scene has one, and names it. what: "the bounces of light".
-void refuse_extras(const PlaneScene& scene, const Extras* extras, const std::string& what, const std::string& hint);
 
 }  // namespace steradian::plane

@@ -18,6 +18,9 @@ void take_work(const World& world, const PixelGrid& grid, Budget& budget) {
   std::uint64_t edges = 0;
   for (std::size_t i : world.extras->mirrors) edges += world.first_curve[i + 1] - world.first_curve[i];
   if (edges == 0) return;
+  const auto pixels = static_cast<std::uint64_t>(grid.width) * static_cast<std::uint64_t>(grid.height);
+  budget.take_work(world.scene.name, "what " + std::to_string(edges) + " edges of its mirrors show of suns without width",
+                   pixels * edges * world.extras->hard_suns * world.curves.size() * 4);
   const auto tiles =
       static_cast<std::uint64_t>((grid.width + kSide - 1) / kSide) * static_cast<std::uint64_t>((grid.height + kSide - 1) / kSide);
   budget.take_work(world.scene.name, "what " + std::to_string(edges) + " edges of its mirrors show",

@@ -50,7 +50,7 @@ class Seen {
     // On a light's edge its own outline leaves directions open: the point counts as inside.
     if (lights && start_.light >= 0 && open > 0)
       sum_.radiance += radiance_at(*world_.scene.bodies[static_cast<std::size_t>(start_.light)].light, from_) * open;
-    add_hard_suns();
+    add_hard_suns(std::move(blocking));
     const double scale = 1 / (2 * pi);
     return {sum_.radiance * scale, sum_.moment_x * scale, sum_.moment_y * scale};
   }
@@ -155,9 +155,16 @@ class Seen {
         [&](Vec2d, double) { return sun.radiance; });
   }
 
-  void add_hard_suns() {
-    if (view_.all.empty()) return;
-    const PlaneLight suns = Tracer(world_, view_.all, from_).hard_suns();
+  // blocking: all that ends light in the view.
+  void add_hard_suns(Curves blocking) {
+    if (world_.extras->hard_suns == 0) return;
+    Curves curves = view_.all;
+    if (curves.empty()) {
+      curves = std::move(blocking);
+      curves.insert(curves.end(), view_.clear.begin(), view_.clear.end());
+      curves.insert(curves.end(), deep_.begin(), deep_.end());
+    }
+    const PlaneLight suns = Tracer(world_, curves, from_).hard_suns();
     sum_.radiance += suns.radiance;
     sum_.moment_x += suns.moment_x;
     sum_.moment_y += suns.moment_y;

@@ -77,8 +77,7 @@ class Viewer {
       for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c)
         if (add_mirror(world_.curves[c])) direct.add(disk_of(world_.curves[c]));
     for_each_touching(direct, [&](const Curve& c) { (is_clear(c) ? view_.clear : view_.blocking).push_back(&c); });
-    const auto& suns = world_.scene.suns;
-    if (std::any_of(suns.begin(), suns.end(), [](const PlaneSun& sun) { return sun.half_width == 0; }))
+    if (world_.extras->hard_suns > 0 && !world_.extras->mirrors.empty())
       for (const Curve& c : world_.curves) view_.all.push_back(&c);
     return std::move(view_);
   }

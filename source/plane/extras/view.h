@@ -26,7 +26,7 @@ struct View {
   std::vector<const Curve*> blocking;  // what ends light: lights, occluders, mirrors, bodies that take light in
   std::vector<const Curve*> clear;     // what light passes
   std::vector<MirrorView> mirrors;
-  std::vector<const Curve*> all;  // of the world, where a sun without width asks for them
+  std::vector<const Curve*> all;  // of the world, where mirrors may show suns without width
 };
 
 // lights: are they looked at, too, or only suns and mirrors?
