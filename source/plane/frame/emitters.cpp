@@ -14,12 +14,6 @@ using std::numbers::pi;
 // In the space where an ellipse is round, floats lose as much as its half axes differ: 1e-7 times this in a direction.
 constexpr double kThinnest = 60;
 
-double stretch(const Ellipse& e) {
-  const double sum = dot(e.x, e.x) + dot(e.y, e.y), det = cross(e.x, e.y);
-  const double root = std::sqrt(std::max(sum * sum - 4 * det * det, 0.0));
-  return std::sqrt((sum + root) / std::max(sum - root, 1e-300));
-}
-
 bool is_spot(const PlaneEmission& e) { return e.spot_axis.x != 0 || e.spot_axis.y != 0; }
 
 // A gradient between two of its stops: radiance c + slope dot(axis, p - origin), for all p whose colour lies there.
@@ -57,7 +51,7 @@ class Taking {
         e.radius = length(curve.ellipse.x);
         add(e);
       } else {
-        if (stretch(curve.ellipse) > kThinnest) return {};
+        if (stretch_of(curve.ellipse) > kThinnest) return {};
         add_arcs(curve);
       }
     }
@@ -140,6 +134,12 @@ class Taking {
 bool is_round(const Ellipse& e) {
   const double xx = dot(e.x, e.x);
   return std::fabs(xx - dot(e.y, e.y)) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
+}
+
+double stretch_of(const Ellipse& e) {
+  const double sum = dot(e.x, e.x) + dot(e.y, e.y), det = cross(e.x, e.y);
+  const double root = std::sqrt(std::max(sum * sum - 4 * det * det, 0.0));
+  return std::sqrt((sum + root) / std::max(sum - root, 1e-300));
 }
 
 bool is_full_circle(const Curve& c) { return c.kind == Curve::Kind::arc && c.tau_span > 2 * pi - 1e-9 && is_round(c.ellipse); }

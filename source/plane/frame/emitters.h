@@ -13,6 +13,7 @@ namespace steradian::plane {
 std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t body);
 
 bool is_round(const Ellipse& e);
+double stretch_of(const Ellipse& e);  // the longer half axis over the other
 bool is_full_circle(const Curve& c);
 
 }  // namespace steradian::plane

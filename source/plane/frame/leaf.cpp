@@ -4,12 +4,33 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/frame/emitters.h"
 #include "plane/frame/overlap.h"
 
 namespace steradian::plane {
 namespace {
 
 float f(double x) { return static_cast<float>(x); }
+
+// How many nodes Gauss' rule takes in the angle of incidence, 0 for more than sixteen. An eye at d in the space where the ellipse is the
+// unit circle; `stretch` its longer half axis over the other, `span` the arc's part of the unit circle, `reach` the longer half axis over
+// the light's range.
+//
+// Off by at most 3e-6 of a light all around: largest differences from 100 nodes, over parts of the outline, with linear radiance, Lambert,
+// 1/r and a range. Where the range ends on the outline, 12 nodes: 1e-6.
+int nodes_for(double d, double stretch, double span, bool lambert, bool within_range, double reach) {
+  const bool round = stretch < 1 + 1e-9;
+  if (!within_range && 5 * reach > 1) return 0;
+  if (lambert && !round) return stretch > 3 || d < 3 ? 0 : stretch > 2 ? 16 : 12;
+  const double x = d / stretch;
+  if (x < (round ? 1.15 : 1.2)) return 0;
+  // The angle of incidence is the place on the unit circle and psi, of which it is d times as much, or more.
+  const double widest = span / (1 - 1 / d);
+  if (!within_range) return 12;
+  if (widest < 1.2 ? x > 1.6 : widest < 1.7 && x > 4) return 4;
+  if (widest < 1.7 || x > (round ? 3 : 4)) return 6;
+  return x > (round ? 1.5 : 2.4) ? 8 : 12;
+}
 
 // An edge of size 1 at this distance from one of its ends is at least 5 from a pixel: TilePart::small.
 constexpr double kSmallParts = 6;
@@ -275,7 +296,14 @@ TileArc LeafBuilder::arc_of(const Emitter& e) const {
   arc.least_cosine = f(std::cos(0.5 * e.tau_span));
   arc.whole = e.whole;
   arc.between_tangents = seen_.margin > 1e29;
-  arc.det = f(cross(e.ellipse.x, e.ellipse.y));
+  const double det = cross(e.ellipse.x, e.ellipse.y);
+  arc.det = f(det);
+  arc.det_if_round = is_round(e.ellipse) ? arc.det : 0;
+  const PlaneEmission& emission = emission_of(frame_, e);
+  const double stretch = is_round(e.ellipse) ? 1 : stretch_of(e.ellipse), longer = std::sqrt(det * stretch);
+  arc.nodes = nodes_for(length(light_.ellipse.to_unit({0, 0})) - tile_.radius * stretch / longer, stretch, e.tau_span,
+                        emission.profile == PlaneProfile::lambert, length(light_.center) + e.bound + tile_.radius < emission.range,
+                        longer / emission.range);
   arc.ramp_x = f(e.ramp.x);
   arc.ramp_y = f(e.ramp.y);
   return arc;

@@ -62,6 +62,8 @@ struct TileArc {
   bool whole;                    // all of the ellipse
   bool between_tangents;         // slopes are from the middle of the tangents, not from the centre
   float det;                     // of the half axes
+  float det_if_round;            // 0 where they differ
+  int nodes;                     // of Gauss' rule that serves all of the tile; 0: none does
   float ramp_x, ramp_y;          // radiance at p: red + red_slope dot(ramp, p - centre), ...
 };
 

@@ -1,9 +1,10 @@
-// What a visible piece of an arc sends, where that has no closed form: Gauss-Kronrod quadrature on as many pixels at once
-// as a register holds. For *_pack.cpp only.
+// What a visible piece of an arc sends, where that has no closed form: quadrature on as many pixels at once as a register
+// holds. For *_pack.cpp only.
 //
 // In the space where the ellipse is the unit circle, a ray at the angle psi from the centre's direction passes it at the
-// distance d sin psi = sin beta, beta being the angle at which it hits. In beta nothing is singular at the tangents, and
-// z = tan(beta / 2) makes sines of it without trigonometry.
+// distance d sin psi = sin beta, beta being the angle at which it hits. In beta nothing is singular at the tangents. Away from the arc
+// Gauss' rule of a few nodes serves, by what the tile knows of its distance (TileArc::nodes); near it, Gauss-Kronrod's in
+// z = tan(beta / 2), halved where it has to be.
 #pragma once
 
 #include "plane/frame/tile_cut.h"
@@ -15,25 +16,89 @@ struct ArcSum {
   PackReal constant{0.0}, ramp{0.0};  // integrals over directions: of 1, and of TileArc's ramp; times profile and range
 };
 
+// Gauss-Legendre, the nodes above 0: to polynomials of degree 2 n - 1. Abramowitz and Stegun, table 25.4.
+struct ArcRule {
+  float node[8], weight[8];
+};
+STERADIAN_INLINE const ArcRule& arc_rule(int nodes) {
+  static constexpr ArcRule four = {{0.861136312f, 0.339981044f}, {0.347854845f, 0.652145155f}};
+  static constexpr ArcRule six = {{0.932469514f, 0.661209386f, 0.238619186f}, {0.171324492f, 0.360761573f, 0.467913935f}};
+  static constexpr ArcRule eight = {{0.960289856f, 0.796666477f, 0.525532410f, 0.183434642f},
+                                    {0.101228536f, 0.222381034f, 0.313706646f, 0.362683783f}};
+  static constexpr ArcRule twelve = {{0.981560634f, 0.904117256f, 0.769902674f, 0.587317954f, 0.367831499f, 0.125233409f},
+                                     {0.047175336f, 0.106939326f, 0.160078329f, 0.203167427f, 0.233492537f, 0.249147046f}};
+  static constexpr ArcRule sixteen = {
+      {0.989400935f, 0.944575023f, 0.865631202f, 0.755404408f, 0.617876244f, 0.458016778f, 0.281603551f, 0.095012510f},
+      {0.027152459f, 0.062253524f, 0.095158512f, 0.124628971f, 0.149595989f, 0.169156519f, 0.182603415f, 0.189450610f}};
+  return nodes == 4 ? four : nodes == 6 ? six : nodes == 8 ? eight : nodes == 12 ? twelve : sixteen;
+}
+
 class ArcIntegrand {
  public:
   STERADIAN_INLINE ArcIntegrand(const TileLight& light, const UnitPoint& eye)
       : light_(light), eye_(eye), d2_(max(eye.outside2, PackReal(1e-6)) + PackReal(1.0)), inverse_d2_(PackReal(1.0) / d2_) {}
 
-  // The place z of the direction of a slope.
-  STERADIAN_INLINE PackReal place_of(const Axis& axis, PackReal m) const {
+  // What is seen between two slopes.
+  STERADIAN_INLINE void add(const Axis& axis, PackReal from, PackReal to, ArcSum& sum) const {
+    if (light_.arc.nodes > 0)
+      add_smooth(incidence(sine_of(axis, from)), incidence(sine_of(axis, to)), sum);
+    else
+      add_halving(place_of(sine_of(axis, from)), place_of(sine_of(axis, to)), sum);
+  }
+
+ private:
+  // Of the angle of incidence, for the direction of a slope.
+  STERADIAN_INLINE PackReal sine_of(const Axis& axis, PackReal m) const {
     const TileRound& r = light_.shape;
     const PackReal x = axis.x - m * axis.y, y = axis.y + m * axis.x;
     const PackReal u = x * broadcast(r.ux) + y * broadcast(r.uy), v = x * broadcast(r.vx) + y * broadcast(r.vy);
     const PackReal s = (eye_.v * u - eye_.u * v) * inversesqrt(max(u * u + v * v, PackReal(1e-30)));
-    const PackReal sine = clamp(s, PackReal(-1.0), PackReal(1.0));
+    return clamp(s, PackReal(-1.0), PackReal(1.0));
+  }
+  STERADIAN_INLINE static PackReal place_of(PackReal sine) {
     return sine / (PackReal(1.0) + sqrt(max(PackReal(1.0) - sine * sine, PackReal(0.0))));
+  }
+  STERADIAN_INLINE static PackReal incidence(PackReal sine) {
+    PackKernels k;
+    const PackReal size = abs(sine), cosine = k.plane_root(max(PackReal(1.0) - size * size, PackReal(0.0)));
+    const PackReal angle = PackReal(1.57079632679489662) - k.trig_angle_over_sine_acute(PackReal(1.0) - size) * cosine;
+    return select(sine < PackReal(0.0), -angle, angle);
+  }
+
+  // To 1e-7 within a right angle: the series leave out x^13 / 13! and x^14 / 14!.
+  STERADIAN_INLINE static void sine_and_cosine(PackReal x, PackReal& s, PackReal& c) {
+    const PackReal q = x * x;
+    s = x * (PackReal(1.0) +
+             q * (PackReal(-1.0 / 6) +
+                  q * (PackReal(1.0 / 120) + q * (PackReal(-1.0 / 5040) + q * (PackReal(1.0 / 362880) + q * PackReal(-1.0 / 39916800))))));
+    c = PackReal(1.0) +
+        q * (PackReal(-1.0 / 2) +
+             q * (PackReal(1.0 / 24) + q * (PackReal(-1.0 / 720) +
+                                            q * (PackReal(1.0 / 40320) + q * (PackReal(-1.0 / 3628800) + q * PackReal(1.0 / 479001600))))));
+  }
+
+  // Gauss' rule in the angle of incidence; nodes in pairs about the middle share the sine and cosine of their distance from it.
+  STERADIAN_INLINE void add_smooth(PackReal from, PackReal to, ArcSum& sum) const {
+    const ArcRule& rule = arc_rule(light_.arc.nodes);
+    const PackReal half = PackReal(0.5) * (to - from);
+    PackReal middle_s, middle_c, constant(0.0), ramp(0.0);
+    sine_and_cosine(PackReal(0.5) * (from + to), middle_s, middle_c);
+    for (int i = 0; i < light_.arc.nodes / 2; ++i) {
+      PackReal s, c;
+      sine_and_cosine(half * broadcast(rule.node[i]), s, c);
+      const PackReal ss = middle_s * c, sc = middle_c * s, cc = middle_c * c, cs = middle_s * s;
+      const Node a = at(ss - sc, max(cc + cs, PackReal(0.0))), b = at(ss + sc, max(cc - cs, PackReal(0.0)));
+      constant += broadcast(rule.weight[i]) * (a.weight + b.weight);
+      ramp += broadcast(rule.weight[i]) * (a.ramp + b.ramp);
+    }
+    sum.constant += half * constant;
+    sum.ramp += half * ramp;
   }
 
   // Halves what 15 nodes do not serve. Beside the outline, directions change within a small part of the arc; the halves
   // then shrink towards it. What is still not served after so many halvings, or is no number, is taken as it is: the right half of a
   // half waits in its place, so that the depth alone would not end it.
-  STERADIAN_INLINE void add(PackReal from, PackReal to, ArcSum& sum) const {
+  STERADIAN_INLINE void add_halving(PackReal from, PackReal to, ArcSum& sum) const {
     alignas(64) float ends[kDeepest * kLanes];
     int waiting = 0, halvings = 0;
     for (;;) {
@@ -53,7 +118,6 @@ class ArcIntegrand {
     }
   }
 
- private:
   static constexpr int kDeepest = 12, kMostHalvings = 64;
   // Of 2 pi, the emission of a light all around: what the two rules may differ by. Where Gauss' 7 nodes, exact to degree 13, are off
   // by rho^-14, Kronrod's 15, exact to degree 22, are off by rho^-23: by (2e-4)^(23/14) = 8e-7.
@@ -63,32 +127,50 @@ class ArcIntegrand {
     PackReal weight, ramp;
   };
 
-  STERADIAN_INLINE Node at(PackReal z) const {
+  // At an angle of incidence with this sine and cosine: what there is for each unit of it.
+  STERADIAN_INLINE Node at(PackReal s, PackReal c) const {
     const TileRound& r = light_.shape;
-    const PackReal over = PackReal(1.0) / (PackReal(1.0) + z * z), s = PackReal(2.0) * z * over, c = (PackReal(1.0) - z * z) * over;
-    const PackReal root = PackKernels().plane_root(max(d2_ - s * s, PackReal(1e-12))), t = root - c;
-    // The ray's direction in unit space, from there in the plane: as long as the two spaces differ along it.
-    const PackReal u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
-    const PackReal x = u * broadcast(r.xx) + v * broadcast(r.yx), y = u * broadcast(r.xy) + v * broadcast(r.yy);
-    const PackReal m2 = x * x + y * y, hit_u = eye_.u + u * t, hit_v = eye_.v + v * t;
-    // d beta = 2 dz over, d psi = c / root d beta, and the angle in the plane is det / m2 times as much.
+    const PackReal root2 = max(d2_ - s * s, PackReal(1e-12)), inverse_root = inversesqrt(root2), root = root2 * inverse_root, t = root - c;
     Node node;
-    node.weight = PackReal(2.0) * over * quotient(c * broadcast(light_.arc.det), root * m2);
-    if (light_.profile == 1) {
-      const PackReal nx = hit_u * broadcast(r.yx) - hit_v * broadcast(r.xx), ny = hit_u * broadcast(r.yy) - hit_v * broadcast(r.xy);
-      node.weight *= c * broadcast(light_.arc.det) * inversesqrt(max((nx * nx + ny * ny) * m2, PackReal(1e-30)));
+    node.ramp = PackReal(0.0);
+    // d psi = c / root d beta.
+    node.weight = c * inverse_root;
+    PackReal far2, u, v;
+    if (light_.arc.det_if_round > 0.0f) {
+      if (light_.profile == 1) node.weight *= c;
+      far2 = t * t * broadcast(light_.arc.det_if_round);
+      if (light_.linear) u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
+    } else {
+      // The ray's direction in unit space, from there in the plane: as long as the two spaces differ along it, and the angle in the
+      // plane is det / m2 times as much.
+      u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
+      const PackReal x = u * broadcast(r.xx) + v * broadcast(r.yx), y = u * broadcast(r.xy) + v * broadcast(r.yy), m2 = x * x + y * y;
+      node.weight *= quotient(broadcast(light_.arc.det), m2);
+      if (light_.profile == 1) {
+        const PackReal hit_u = eye_.u + u * t, hit_v = eye_.v + v * t;
+        const PackReal nx = hit_u * broadcast(r.yx) - hit_v * broadcast(r.xx), ny = hit_u * broadcast(r.yy) - hit_v * broadcast(r.xy);
+        node.weight *= c * broadcast(light_.arc.det) * inversesqrt(max((nx * nx + ny * ny) * m2, PackReal(1e-30)));
+      }
+      far2 = t * t * m2;
     }
-    if (light_.profile == 2) node.weight *= inversesqrt(max(t * t * m2, PackReal(1e-24)));
+    if (light_.profile == 2) node.weight *= inversesqrt(max(far2, PackReal(1e-24)));
     if (light_.inverse_range > 0.0f) {
-      const PackReal q = t * t * m2 * broadcast(light_.inverse_range * light_.inverse_range);
-      const PackReal window = max(PackReal(1.0) - q, PackReal(0.0));
+      const PackReal window = max(PackReal(1.0) - far2 * broadcast(light_.inverse_range * light_.inverse_range), PackReal(0.0));
       node.weight *= window * window;
     }
-    node.ramp = PackReal(0.0);
     if (light_.linear) {
+      const PackReal hit_u = eye_.u + u * t, hit_v = eye_.v + v * t;
       const PackReal hx = hit_u * broadcast(r.xx) + hit_v * broadcast(r.yx), hy = hit_u * broadcast(r.xy) + hit_v * broadcast(r.yy);
       node.ramp = node.weight * (hx * broadcast(light_.arc.ramp_x) + hy * broadcast(light_.arc.ramp_y));
     }
+    return node;
+  }
+  STERADIAN_INLINE Node at_place(PackReal z) const {
+    const PackReal over = PackReal(1.0) / (PackReal(1.0) + z * z);
+    Node node = at(PackReal(2.0) * z * over, (PackReal(1.0) - z * z) * over);
+    // d beta = 2 dz over.
+    node.weight *= PackReal(2.0) * over;
+    node.ramp *= PackReal(2.0) * over;
     return node;
   }
 
@@ -105,7 +187,7 @@ class ArcIntegrand {
     for (int i = 0; i < 15; ++i) {
       const int k = i < 8 ? i : 14 - i;
       const PackReal place(i < 8 ? -kNode[k] : kNode[k]);
-      const Node node = at(middle + half * place);
+      const Node node = at_place(middle + half * place);
       constant += PackReal(kKronrod[k]) * node.weight;
       ramp += PackReal(kKronrod[k]) * node.ramp;
       gauss += PackReal(kGauss[k]) * node.weight;

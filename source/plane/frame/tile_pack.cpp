@@ -388,7 +388,7 @@ STERADIAN_INLINE void add_arc(const TileLight& light, TileBuffer& tile, int i) {
     if (plain)
       sum.constant += PackKernels().trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
     else
-      integrand.add(integrand.place_of(axis, from), integrand.place_of(axis, to), sum);
+      integrand.add(axis, from, to, sum);
   });
   const PackReal scale(0.159154943091895336), constant = sum.constant * scale, ramp = sum.ramp * scale;
   add(tile.red + i, broadcast(light.red) * constant + broadcast(light.red_slope) * ramp);
