@@ -22,6 +22,7 @@ constexpr double kInitialParts = 32;  // elements to the picture's larger side, 
 constexpr int kMostRounds = 5;
 constexpr int kMostSweeps = 2000;
 constexpr double kSettled = 1e-7;         // a sweep that changes less than this share of the brightest node is the last
+constexpr double kErrorSettled = 1e-3;    // the same of what errors are estimated to be
 constexpr double kRoughlySettled = 1e-4;  // while elements are still halved
 
 double largest(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
@@ -46,6 +47,12 @@ struct Node {
   }
 };
 
+// All of the curve behind the line through a point, which a normal points away from.
+bool lies_behind(const Curve& c, Vec2d at, Vec2d normal) {
+  if (c.kind == Curve::Kind::segment) return dot(c.a - at, normal) < 0 && dot(c.b - at, normal) < 0;
+  return dot(c.ellipse.center - at, normal) < -std::hypot(dot(c.ellipse.x, normal), dot(c.ellipse.y, normal));
+}
+
 Node look(const World& world, const Elements& elements, const Element& element, double share) {
   Node node;
   node.place = place_on(world, element, share);
@@ -54,7 +61,7 @@ Node look(const World& world, const Elements& elements, const Element& element, 
   thread_local std::vector<const Curve*> curves;
   curves.clear();
   for (std::size_t c = 0; c < world.curves.size(); ++c)
-    if (c != element.curve) curves.push_back(&world.curves[c]);
+    if (c != element.curve && !lies_behind(world.curves[c], at, normal)) curves.push_back(&world.curves[c]);
   PlaneLight lights;
   for (const Visible& v : lower_envelope(curves, at, world.scene.bodies, {-1})) {
     const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
@@ -67,30 +74,55 @@ Node look(const World& world, const Elements& elements, const Element& element, 
   return node;
 }
 
-// The integral of what the elements send, over the directions of some pieces, times the cosine.
-struct Row {
+// The integral of what the elements send, over the directions of a node's pieces, times the cosine.
+class Row {
+ public:
   struct Weight {
     std::size_t element;
     double constant, slope;
   };
-  std::vector<Weight> weights;
+
+  Row() = default;
+  Row(const World& world, const Elements& elements, const Node& node) {
+    for (const Visible& v : node.walls) add(world, elements, node, v);
+  }
+
+  // After some elements have been halved: what other walls send stays as it is.
+  void follow(const World& world, const Elements& before, const Elements& elements, const Node& node) {
+    const Row old = std::move(*this);
+    *this = {};
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < node.walls.size(); ++k) {
+      const auto [was_first, was_last] = before.of(node.walls[k], world);
+      const auto [first, last] = elements.of(node.walls[k], world);
+      if (last - first != was_last - was_first) {
+        add(world, elements, node, node.walls[k]);
+      } else {
+        for (std::size_t i = at; i < old.ends_[k]; ++i)
+          weights_.push_back({old.weights_[i].element - was_first + first, old.weights_[i].constant, old.weights_[i].slope});
+        ends_.push_back(weights_.size());
+      }
+      at = old.ends_[k];
+    }
+  }
 
   template <class Value>
   Vec3d gather(const std::vector<Element>& elements, Value value) const {
     Vec3d sum;
-    for (const Weight& w : weights) sum += value(elements[w.element], w);
+    for (const Weight& w : weights_) sum += value(elements[w.element], w);
     return sum;
   }
-};
 
-Row row_of(const World& world, const Elements& elements, const Node& node) {
-  Row row;
-  for (const Visible& v : node.walls)
+ private:
+  void add(const World& world, const Elements& elements, const Node& node, const Visible& v) {
     weigh(world, elements, v, node.place.at, &node.place.normal, [&](std::size_t element, double w0, double w1) {
-      row.weights.push_back({element, w0, w1});
+      weights_.push_back({element, w0, w1});
     });
-  return row;
-}
+    ends_.push_back(weights_.size());
+  }
+  std::vector<Weight> weights_;
+  std::vector<std::size_t> ends_;  // by piece of the node's walls
+};
 
 class Solver {
  public:
@@ -105,7 +137,6 @@ class Solver {
     std::vector<char> all(elements_.all().size(), 1);
     look_at(all);
     for (stats_.rounds = 0;; ++stats_.rounds) {
-      make_rows();
       solve(kRoughlySettled);
       const std::vector<char> marked = check();
       if (stats_.rounds == kMostRounds || std::none_of(marked.begin(), marked.end(), [](char m) { return m != 0; })) break;
@@ -138,13 +169,10 @@ class Solver {
     nodes_.resize(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       if (fresh[i] == 0) return;
-      for (int k = 0; k < 3; ++k) nodes_[i].at[k] = look(world_, elements_, elements_.all()[i], kShares[k]);
-    });
-  }
-
-  void make_rows() {
-    tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
-      for (int k = 0; k < 3; ++k) nodes_[i].rows[k] = row_of(world_, elements_, nodes_[i].at[k]);
+      for (int k = 0; k < 3; ++k) {
+        nodes_[i].at[k] = look(world_, elements_, elements_.all()[i], kShares[k]);
+        nodes_[i].rows[k] = Row(world_, elements_, nodes_[i].at[k]);
+      }
     });
   }
 
@@ -174,7 +202,7 @@ class Solver {
       ++stats_.sweeps;
       double change = 0, most = 0;
       for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < (all ? 2 : 3); ++k) {
           const Vec3d next = sent(i, k);
           change = std::max(change, largest(next - nodes_[i].radiance[k]));
           most = std::max(most, largest(next));
@@ -192,6 +220,8 @@ class Solver {
   // How far each element is off at its middle; those that are too far.
   std::vector<char> check() {
     std::vector<char> marked(nodes_.size(), 0);
+    if (options_.bounces == kAllBounces)
+      for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].radiance[2] = sent(i, 2);
     double brightest = 0;
     for (const Nodes& n : nodes_) brightest = std::max({brightest, largest(n.radiance[0]), largest(n.radiance[1])});
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -215,7 +245,12 @@ class Solver {
       }
     }
     nodes_ = std::move(next);
+    const Elements before = elements_;
     elements_.halve(world_, marked);
+    tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
+      if (fresh[i] != 0) return;
+      for (int k = 0; k < 3; ++k) nodes_[i].rows[k].follow(world_, before, elements_, nodes_[i].at[k]);
+    });
     look_at(fresh);
   }
 
@@ -224,12 +259,17 @@ class Solver {
     std::vector<Element>& all = elements_.all();
     std::vector<Vec3d> own(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) own[i] = all[i].error;
-    for (int sweep = 0; sweep < 50; ++sweep)
-      for (std::size_t i = 0; i < all.size(); ++i)
-        all[i].error =
-            own[i] + times(all[i].albedo,
-                           nodes_[i].rows[2].gather(all, [](const Element& e, const Row::Weight& w) { return e.error * w.constant; })) *
-                         0.5;
+    for (int sweep = 0; sweep < 50; ++sweep) {
+      double change = 0, most = 0;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const Vec3d arrives = nodes_[i].rows[2].gather(all, [](const Element& e, const Row::Weight& w) { return e.error * w.constant; });
+        const Vec3d next = own[i] + times(all[i].albedo, arrives) * 0.5;
+        change = std::max(change, largest(next - all[i].error));
+        most = std::max(most, largest(next));
+        all[i].error = next;
+      }
+      if (change <= kErrorSettled * most) break;
+    }
     double size = 0, squares = 0, mean = 0;
     for (const Element& e : all) {
       const Vec3d light = magnitude(e.constant);

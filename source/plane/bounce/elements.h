@@ -52,8 +52,11 @@ class Elements {
     const std::size_t k = 2 * curve + (back ? 1 : 0);
     return {first_[k], first_[k + 1]};
   }
+  std::pair<std::size_t, std::size_t> of(const Visible& v, const World& world) const {
+    return of(static_cast<std::size_t>(v.curve - world.curves.data()), v.back);
+  }
   bool reflects(const Visible& v, const World& world) const {
-    const auto [first, last] = of(static_cast<std::size_t>(v.curve - world.curves.data()), v.back);
+    const auto [first, last] = of(v, world);
     return first < last;
   }
 

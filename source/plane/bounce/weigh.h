@@ -3,7 +3,8 @@
 //
 //   u = m t + c,  integral of u^k (nc + ns t) (1 + t^2)^(-3/2) dt from I0 = t/s, I1 = -1/s, I2 = asinh t - t/s,  s = sqrt(1 + t^2);
 //
-// narrow pieces, on which these cancel, and arcs by Gauss-Legendre in the angle and in the ellipse's own parameter.
+// narrow pieces, on which these cancel, and arcs by Gauss-Legendre, in the tangent of the angle from the piece's middle and in the
+// ellipse's own parameter.
 #pragma once
 
 #include <algorithm>
@@ -43,36 +44,47 @@ class SegmentWeights {
     if (first_ > last_) std::swap(first_, last_);
   }
 
+  // Of the curve, where the piece begins and ends: with room for rounding.
+  std::pair<double, double> shares() const { return {(first_ * d_ + foot_) / size_ - 1e-9, (last_ * d_ + foot_) / size_ + 1e-9}; }
+
   // The piece's part that lies between two shares of the curve, with u = -1 and 1 at `low` and `high`.
   template <class F>
   void add(double low, double high, F f) const {
     const double t0 = std::max(first_, (low * size_ - foot_) / d_), t1 = std::min(last_, (high * size_ - foot_) / d_);
     if (!(t1 > t0)) return;
     const double half = 0.5 * (high - low) * size_, m = d_ / half, c = (foot_ - 0.5 * (high + low) * size_) / half;
-    // The angle between the two, without the difference of two angles.
-    const double angle = std::atan2(t1 - t0, 1 + t0 * t1);
+    const double s0 = std::sqrt(1 + t0 * t0), s1 = std::sqrt(1 + t1 * t1), product = s0 * s1, cosine = 1 + t0 * t1;
+    // The tangent of half the angle between the two, without the difference of two angles.
+    const double q = (t1 - t0) / (product + cosine);
     double w0 = 0, w1 = 0;
-    if (angle < 0.15) {
-      const double first = std::atan(t0);
-      for (const auto& [x, weight] : kGauss6) {
-        const double t = std::tan(first + 0.5 * angle * (1 + x)), cosine = weighed_ ? (nc_ + ns_ * t) / std::sqrt(1 + t * t) : 1;
-        const double w = 0.5 * angle * weight * cosine;
-        w0 += w;
-        w1 += w * std::clamp(m * t + c, -1.0, 1.0);
-      }
+    if (q > 0 && q < kNarrow) {
+      add_narrow(q, (t0 * s1 + t1 * s0) / (s0 + s1), m, c, w0, w1);
     } else if (weighed_) {
-      const double s0 = std::sqrt(1 + t0 * t0), s1 = std::sqrt(1 + t1 * t1);
       const double i0 = t1 / s1 - t0 / s0, i1 = 1 / s0 - 1 / s1, i2 = std::asinh(t1) - std::asinh(t0) - i0;
       w0 = nc_ * i0 + ns_ * i1;
       w1 = m * (nc_ * i1 + ns_ * i2) + c * w0;
     } else {
-      w0 = angle;
-      w1 = m * 0.5 * std::log((1 + t1 * t1) / (1 + t0 * t0)) + c * angle;
+      w0 = std::atan2(t1 - t0, cosine);
+      w1 = m * std::log(s1 / s0) + c * w0;
     }
     f(w0, w1);
   }
 
  private:
+  // The tangent of half an angle of 0.15, below which the closed forms cancel.
+  static constexpr double kNarrow = 0.0751;
+
+  // Gauss' rule in the tangent p of the angle from the middle, whose own tangent is t: no trigonometry.
+  void add_narrow(double q, double t, double m, double c, double& w0, double& w1) const {
+    for (const auto& [x, weight] : kGauss6) {
+      const double p = q * x, ahead = 1 - t * p, across = t + p;
+      double w = q * weight / (1 + p * p);
+      if (weighed_) w *= (nc_ * ahead + ns_ * across) / std::sqrt(ahead * ahead + across * across);
+      w0 += w;
+      w1 += w * std::clamp(m * across / ahead + c, -1.0, 1.0);
+    }
+  }
+
   double tangent(double angle) const {
     const Vec2d u{std::cos(angle), std::sin(angle)};
     return dot(u, along_) / std::max(dot(u, across_), 1e-15);
@@ -106,11 +118,15 @@ inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2
 template <class F>
 void weigh(const World& world, const Elements& elements, const Visible& piece, Vec2d from, const Vec2d* normal, F f) {
   const Curve& curve = *piece.curve;
-  const auto [first, last] = elements.of(static_cast<std::size_t>(piece.curve - world.curves.data()), piece.back);
+  const auto [first, last] = elements.of(piece, world);
   if (first == last) return;
   if (curve.kind == Curve::Kind::segment) {
     const SegmentWeights weights(piece, from, normal);
-    for (std::size_t k = first; k < last; ++k) {
+    const auto [low, high] = weights.shares();
+    const auto of_curve = elements.all().begin();
+    const auto at = std::partition_point(of_curve + static_cast<std::ptrdiff_t>(first), of_curve + static_cast<std::ptrdiff_t>(last),
+                                         [low](const Element& e) { return e.to <= low; });
+    for (auto k = static_cast<std::size_t>(at - of_curve); k < last && elements.all()[k].from < high; ++k) {
       const Element& e = elements.all()[k];
       weights.add(e.from, e.to, [&](double w0, double w1) { f(k, w0, w1); });
     }

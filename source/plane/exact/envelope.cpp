@@ -159,6 +159,7 @@ class Builder {
 
   // Two candidates over one interval: cut at their crossings; in each part the nearer at the middle wins.
   void append_nearer(const Visible& a, const Visible& b, double begin, double end, std::size_t first, std::vector<Visible>& out) const {
+    if (const Visible* hit = nearer_everywhere(a, b)) return append(*hit, begin, end, first, out);
     std::array<double, 6> cuts;
     std::size_t count = 0;
     cuts[count++] = begin;
@@ -177,6 +178,26 @@ class Builder {
       const double middle = 0.5 * (cuts[k] + cuts[k + 1]);
       append(nearer(a, b, middle), cuts[k], cuts[k + 1], first, out);
     }
+  }
+
+  // Of two segments of which one lies clearly to one side of the other's line, the one that every ray hits first; else null.
+  const Visible* nearer_everywhere(const Visible& a, const Visible& b) const {
+    if (a.curve->kind != Curve::Kind::segment || b.curve->kind != Curve::Kind::segment) return nullptr;
+    const Vec2d p = a.curve->a - from_, q = a.curve->b - from_, r = b.curve->a - from_, s = b.curve->b - from_;
+    const auto size = [](Vec2d v) { return std::fabs(v.x) + std::fabs(v.y); };
+    // More than `nearer` takes for coincident.
+    const double clear = 4e-10 * (size(p) + size(q) + size(r) + size(s)) + 1e-13 * size(from_);
+    // Is v, w on the point's side of the line through l, m: 1; on the other: -1; neither: 0.
+    const auto side_of = [&](Vec2d v, Vec2d w, Vec2d l, Vec2d m) {
+      const Vec2d along = m - l;
+      const double here = -cross(along, l), sign = here < 0 ? -1.0 : 1.0, least = clear * size(along);
+      const double at_v = cross(along, v - l) * sign, at_w = cross(along, w - l) * sign;
+      return at_v > least && at_w > least ? 1 : at_v < -least && at_w < -least ? -1 : 0;
+    };
+    const int first = side_of(p, q, r, s);
+    if (first != 0) return first > 0 ? &a : &b;
+    const int second = side_of(r, s, p, q);
+    return second == 0 ? nullptr : second > 0 ? &b : &a;
   }
 
   const Visible& nearer(const Visible& a, const Visible& b, double angle) const {
