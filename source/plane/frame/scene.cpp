@@ -56,8 +56,8 @@ Preparation::Preparation(const World& world, Budget& budget, const FrameLights& 
   if (!frame_.emitters.empty()) check_pairs();
   check_general();
   find_interiors(frame_, bins_, budget_, [this](std::uint64_t steps) { spend(steps); });
-  made_blockers_ = frame_.blockers.size();
   for (std::size_t e = 0; e < frame_.emitters.size(); ++e) make_list(e);
+  made_blockers_ = frame_.blockers.size();
   frame_.first_nearby.resize(frame_.emitters.size() + 1, frame_.nearby.size);
   frame_.first_nearby.back() = frame_.nearby.size;
   spend(0);

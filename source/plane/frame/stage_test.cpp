@@ -95,6 +95,20 @@ TEST(PlaneStage, EqualsTheColdFrameAfterAnySequence) {
   }
 }
 
+// Room for what stands in for blockers that overlap lights is counted from what a scene has of it to begin with.
+TEST(PlaneStage, KeepsWhatIsReadyWhereManyThingsOverlap) {
+  PlaneFrameOptions options;
+  options.width = 192;
+  options.height = 108;
+  PlaneStage stage(make_light_field({4096, 5000, 60, 4, 8}, 1), options);
+  stage.draw();
+  for (std::size_t i = 0; i < 6; ++i) {
+    stage.move(5000 + i, {3.6, 0});
+    stage.draw();
+    EXPECT_FALSE(stage.stats().anew) << "move " << i;
+  }
+}
+
 TEST(PlaneStage, DrawsNothingWhereNothingHasChanged) {
   PlaneStage stage(make_light_field({4, 10, 120, 7, 9, 200, 100}, 5));
   stage.draw();
