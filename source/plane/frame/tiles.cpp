@@ -2,14 +2,12 @@
 // hull of tile and light, and is dropped where one of them hides it from all of the tile.
 #include "plane/frame/tiles.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 #include "core/float_mode.h"
 #include "plane/frame/event_walk.h"
@@ -317,30 +315,18 @@ void work_on_squares(const FrameScene& frame, const PlaneFrameOptions& options, 
                      PlaneFrameStats& stats, const TileSet* only, ShareStore* store, const ListsOfSquare* lists) {
   const TileTable& table = tile_table_for(active_simd());
   const int columns = (grid.width + kSides[0] - 1) / kSides[0], rows = (grid.height + kSides[0] - 1) / kSides[0];
-  std::atomic<std::uint64_t> done{0};
-  std::uint64_t lights = 0, blockers = 0;
-  const auto count = [&](const Worker& worker) { lights += worker.tile_lights(), blockers += worker.tile_blockers(); };
-  std::mutex counting;
-  // What a thread has made room for, it keeps for its next square; lists are each square's own.
-  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
+  std::atomic<std::uint64_t> done{0}, lights{0}, blockers{0};
   tbb::parallel_for(0, columns * rows, [&](int i) {
     const int x = i % columns * kSides[0], y = i / columns * kSides[0];
     if (only != nullptr && !only->any(x, y, kSides[0])) return;
     const FlushDenormals flush;
-    if (lists != nullptr) {
-      const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only, store, &(*lists)(static_cast<std::size_t>(i)));
-      worker->run(x, y);
-      const std::lock_guard lock(counting);
-      count(*worker);
-    } else {
-      std::unique_ptr<Worker>& worker = workers.local();
-      if (!worker) worker = std::make_unique<Worker>(frame, grid, table, picture, only, store, nullptr);
-      worker->run(x, y);
-    }
+    TileLists* own = lists != nullptr ? &(*lists)(static_cast<std::size_t>(i)) : nullptr;
+    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only, store, own);
+    worker->run(x, y);
+    lights += worker->tile_lights();
+    blockers += worker->tile_blockers();
     if (options.progress) options.progress(++done, static_cast<std::uint64_t>(columns * rows));
   });
-  for (const std::unique_ptr<Worker>& worker : workers)
-    if (worker) count(*worker);
   stats.tile_lights = lights;
   stats.tile_blockers = blockers;
 }
