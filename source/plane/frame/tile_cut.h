@@ -14,6 +14,8 @@ namespace {
 using PackMask = Mask<Pack>;
 constexpr double kBeyond = 1e9;
 
+STERADIAN_INLINE void add(float* p, PackReal x) { store(p, load(p) + x); }
+
 // The light's slopes that are still visible.
 struct Cut {
   PackReal low, high;
