@@ -104,7 +104,8 @@ LampValues values_of(const Document& document, const Lamp& lamp) {
     return v;
   }
   v.color = color(document, at + "/color", {1, 1, 1});
-  v.intensity = document.number(at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"), 1);
+  v.intensity = document.number(at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"),
+                                lamp.kind == LampKind::area ? 1000 : 1);  // the draft's
   if (lamp.kind == LampKind::punctual && lamp.type == "spot") {
     v.inner_angle = document.number(at + "/spot/innerConeAngle", 0);
     v.outer_angle = document.number(at + "/spot/outerConeAngle", kPi / 4);
@@ -146,7 +147,12 @@ int add_area_light(Document& document, const std::string& type, Vec3d position, 
   const std::size_t light = document.count(std::string("/extensions/") + kArea + "/lights"), node = document.count("/nodes");
   use_extension(document, kArea);
   document.set(std::string("/extensions/") + kArea + "/lights/" + std::to_string(light),
-               {{"type", type}, {"name", "light " + std::to_string(light + 1)}, {"size", size}, {"color", {1, 1, 1}}, {"intensity", 5}});
+               {{"type", type},
+                {"name", "light " + std::to_string(light + 1)},
+                {"size", size},
+                {"color", {1, 1, 1}},
+                {"intensity", 5},
+                {"extras", {{"steradian", {{"scale", "axes"}}}}}});  // so that each handle of the gizmo scales one side
   // The light shines along the node's -z.
   const Frame frame = Frame::from_normal(-normalized(direction));
   Json json = {{"name", "light " + std::to_string(light + 1)}, {"extensions", {{kArea, {{"light", light}}}}}};

@@ -22,7 +22,8 @@ def light_and_scale(light):
     width = light.size
     height = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
     kind = "disk" if light.shape in ("DISK", "ELLIPSE") else "rect"
-    definition = {"name": light.name, "type": kind, "color": list(light.color), "size": 1.0}
+    definition = {"name": light.name, "type": kind, "color": list(light.color), "size": 1.0,
+                  "extras": {"steradian": {"scale": "axes"}}}  # an addition of ours: the draft takes the largest scale alone
     if kind == "rect":
         definition["rect"] = {"aspect": 1.0}
     return definition, (width, height)

@@ -1,10 +1,12 @@
 // AreaLight: a light with an extent: a shape that shines with one radiance, or with a texture.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "steradian/light_profile.h"
 #include "steradian/polygon_light.h"
 #include "steradian/shape.h"
 #include "steradian/texture.h"
@@ -20,13 +22,23 @@ struct LightTexture {
   Vec3d factor{1, 1, 1};  // radiance = factor times the texel
 };
 
+// Light that leaves a flat light by a measured profile: every point of it has `intensity` times the profile's candela over the area, so
+// that from afar the light is the lamp that was measured, and near to it no point.
+struct LightEmission {
+  std::shared_ptr<const LightProfile> profile;  // never null
+  ProfileAxes axes;                             // aim: the light's normal
+  Vec3d intensity{1, 1, 1};
+  double area = 0;  // [m2]
+};
+
 struct AreaLight {
   Shape shape;
   Vec3d radiance{1, 1, 1};  // linear RGB, W/(m2 sr) or nits; of a line, radiance times width
   bool two_sided = false;   // of flat shapes
   std::string name{};
-  std::optional<LightTexture> texture{};  // of polygons; radiance is then the mean
-  double power = 0;                       // luminance of the radiance times area: what max_lights ranks by
+  std::optional<LightTexture> texture{};    // of polygons; radiance is then the mean
+  double power = 0;                         // luminance of the radiance times area: what max_lights ranks by
+  std::optional<LightEmission> emission{};  // of rects and disks; radiance is then the mean of all directions and both sides
 
   bool is_flat() const { return std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ellipse>(shape); }
 };
@@ -52,6 +64,14 @@ PolygonLight flat_polygon(const AreaLight& light, int vertices = 64);
 
 // Radiance of a textured light at a point of its plane.
 Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& images, Vec3d p);
+
+// Has a rect (a polygon of four corners) or a disk shine by a profile. Sets its mean radiance, its power, and two_sided by whether the
+// profile shines to the back. The profile's plane of angle 0 is nearest to towards_x. Throws Error for other shapes.
+void set_emission(AreaLight& light, std::shared_ptr<const LightProfile> profile, Vec3d towards_x, Vec3d intensity = {1, 1, 1});
+
+// Radiance that leaves the light in a unit direction: intensity over area, over the cosine from the normal. Without bound towards the
+// light's plane, where what it sends is not: a flat light whose profile is not dark there has no radiance.
+Vec3d emitted_radiance(const LightEmission& emission, Vec3d direction);
 
 // Rec. 709 luminance of linear RGB.
 double luminance(Vec3d rgb);

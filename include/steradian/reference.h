@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
@@ -25,9 +26,13 @@ struct ReferenceResult {
 ReferenceResult reference_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                                    const ReferenceOptions& options = {});
 
+// What a light sends more or less of towards the point, by the unit direction to it: a factor on its radiance. Empty: 1.
+using EmissionFactor = std::function<double(Vec3d)>;
+
 struct SampledOptions {
   int spp = 256;  // pairs of a light sample and a lobe sample
   std::uint64_t seed = 1;
+  EmissionFactor emission{};
 };
 
 struct SampledResult {

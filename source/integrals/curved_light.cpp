@@ -6,6 +6,7 @@
 
 #include "integrals/outline_answer.h"
 #include "integrals/point_light.h"
+#include "integrals/profiled_light.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/error.h"
@@ -201,6 +202,7 @@ struct AnswerOfShape {
 
 RadianceResult curved_light_answer(const AreaLight& light, const ShadingPoint& there, const Material& m, const Row& entry,
                                    const RadianceOptions& options) {
+  if (light.emission) return profiled_light_answer(light, there, m, entry, options);
   const AreaLight seen = seen_from(light, there.position);
   const ShadingPoint at = {{}, there.normal, there.view};
   return std::visit(AnswerOfShape{seen, at, m, entry, options}, seen.shape);

@@ -56,7 +56,8 @@ SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const Sha
   const auto contribution = [&](Vec3d l, double light_pdf) -> lobes::LobeValue {
     const double pdf = light_pdf + lobe.pdf(l);
     if (!(light_pdf > 0) || !(pdf > 0) || (sees != nullptr && !(*sees)(frame.to_world(l)))) return {};
-    return lobe.evaluate(l) * (1 / pdf);
+    const double emitted = options.emission ? options.emission(frame.to_world(l)) : 1;
+    return lobe.evaluate(l) * (emitted / pdf);
   };
   Statistics statistics;
   for (int i = 0; i < options.spp; ++i) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace steradian::scene {
@@ -16,11 +17,18 @@ constexpr double kMostIntensity = 1e30;
 // What the light's shape takes as a mesh of its own: an ellipsoid's rows, or a tube's, with its material.
 constexpr std::uint64_t kLargestLightMesh = 200'000;
 
-// Colour times intensity.
-Vec3d read_emission(const JsonCursor& light) {
+// Of an area light whose file says none, as the draft of EXT_lights_area has it [nits]; of a punctual one, 1.
+constexpr double kNitsByDefault = 1000;
+
+Vec3d read_color(const JsonCursor& light) {
   const Vec3d c = light.vector("color", {1, 1, 1});
   if (c.x < 0 || c.y < 0 || c.z < 0) light.at("color").fail("components must not be negative");
-  const Vec3d emission = c * light.number("intensity", 1, 0, kMostIntensity);
+  return c;
+}
+
+// Colour times intensity.
+Vec3d read_emission(const JsonCursor& light, double by_default) {
+  const Vec3d emission = read_color(light) * light.number("intensity", by_default, 0, kMostIntensity);
   if (std::max({emission.x, emission.y, emission.z}) > kMostIntensity)
     light.fail("color times intensity is more than 1e30", "choose a smaller unit");
   return emission;
@@ -44,6 +52,14 @@ void for_each_light(const GltfDocument& document, const GltfNodes& nodes, const 
   }
 }
 
+// What a flat light takes of its node's transform, as the draft says: place, rotation, and one scale, the largest in size of the node's
+// three in the world. Where a parent's uneven scale shears, z and then x keep their directions. A visible node is flat nowhere.
+Affine evenly_scaled(const Affine& world) {
+  const double scale = std::max({length(world.x), length(world.y), length(world.z)});
+  const Vec3d z = normalized(world.z), x = normalized(world.x - z * dot(z, world.x));
+  return {x * scale, cross(z, x) * scale, z * scale, world.t};
+}
+
 // Half axes of a flat light in the node's plane z = 0, x cross y along the node's -z after the transform.
 Ellipse flat_axes(const Affine& world, double half_x, double half_y) {
   Ellipse e{world.t, world.x * -half_x, world.y * half_y};
@@ -58,20 +74,32 @@ double ellipsoid_area(Vec3d x, Vec3d y, Vec3d z) {
   return 4 * kPi * std::pow((a * b + a * c + b * c) / 3, 1 / p);
 }
 
-// "extras": {"steradian": {"two_sided": true}}: the extension has no word for it.
-bool shines_to_both_sides(const JsonCursor& light) {
+// "extras": {"steradian": ...}: what the draft has no word for (docs/lights.md, "EXT_lights_area").
+std::optional<JsonCursor> extra_of_ours(const JsonCursor& light) {
   const auto extras = light.find("extras");
-  if (!extras || !extras->value().is_object()) return false;
-  const auto ours = extras->find("steradian");
-  return ours && ours->value().is_object() && ours->flag("two_sided", false);
+  if (!extras || !extras->value().is_object()) return {};
+  auto ours = extras->find("steradian");
+  if (!ours || !ours->value().is_object()) return {};
+  return ours;
 }
 
-AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const Affine& world) {
+// "scale": "axes" has a flat light take all of its node's transform.
+Affine transform_of(const std::optional<JsonCursor>& ours, const Affine& world) {
+  if (!ours || !ours->has("scale")) return evenly_scaled(world);
+  const std::string scale = ours->at("scale").as_text();
+  if (scale != "axes" && scale != "largest") ours->at("scale").fail("\"" + scale + "\" is not known", "axes, or largest: the draft's rule");
+  return scale == "axes" ? world : evenly_scaled(world);
+}
+
+AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const Affine& node_world) {
   AreaLight light;
   light.name = json.text("name", node.text("name", ""));
-  const std::string type = json.at("type").as_text();
-  const Vec3d radiance = read_emission(json);
+  const auto ours = extra_of_ours(json);
+  const std::string type = ours && ours->has("type") ? ours->at("type").as_text() : json.at("type").as_text();
+  const Vec3d radiance = read_emission(json, kNitsByDefault);
   const double half = json.number("size", 1, 0, 1e30) / 2;
+  const bool flat = type == "rect" || type == "disk";
+  const Affine world = flat ? transform_of(ours, node_world) : node_world;
   double area = 0;
   if (type == "rect") {
     const auto rect = json.find("rect");
@@ -80,7 +108,8 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     light.shape = Polygon{{e.center - e.x - e.y, e.center + e.x - e.y, e.center + e.x + e.y, e.center - e.x + e.y}, {}};
     area = 4 * length(cross(e.x, e.y));
   } else if (type == "disk") {
-    const Ellipse e = flat_axes(world, half, half);
+    const double aspect = ours ? ours->number("aspect", 1, 0, 1e9) : 1;
+    const Ellipse e = flat_axes(world, half * aspect, half);
     light.shape = e;
     area = kPi * length(cross(e.x, e.y));
   } else if (type == "sphere") {
@@ -89,7 +118,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     area = ellipsoid_area(e.x, e.y, e.z);
   } else if (type == "capsule") {
     // Along the node's x. Across it the tube stays round: with the geometric mean of the node's two scales there.
-    const auto capsule = json.find("capsule");
+    const auto capsule = json.has("capsule") || !ours ? json.find("capsule") : ours->find("capsule");
     const double between = capsule ? capsule->number("length", 1, 0, 1e30) : 1;
     const Vec3d half_axis = world.x * (between / 2);
     const Capsule c{world.t - half_axis, world.t + half_axis, half * std::sqrt(length(world.y)) * std::sqrt(length(world.z))};
@@ -99,7 +128,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk, sphere and capsule");
   }
   light.radiance = radiance;
-  light.two_sided = light.is_flat() && shines_to_both_sides(json);
+  light.two_sided = light.is_flat() && ours && ours->flag("two_sided", false);
   light.power = luminance(radiance) * area;
   if (!std::isfinite(light.power)) json.fail("the light leaves the range of numbers");
   return light;
@@ -174,40 +203,6 @@ Mesh mesh_of(const Capsule& capsule) {
   return mesh;
 }
 
-}  // namespace
-
-Mesh mesh_of_light(const AreaLight& light) {
-  const auto* ellipsoid = std::get_if<Ellipsoid>(&light.shape);
-  const auto* capsule = std::get_if<Capsule>(&light.shape);
-  Mesh mesh = ellipsoid != nullptr ? mesh_of(*ellipsoid) : capsule != nullptr ? mesh_of(*capsule) : flat_mesh(flat_polygon(light));
-  mesh.name = light.name;
-  mesh.is_light_shape = true;
-  return mesh;
-}
-
-std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
-  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor&, const JsonCursor& node, const GltfNode&) {
-    document.budget().take_memory(node.place(), "its light's mesh", kLargestLightMesh);
-  });
-  std::vector<int> nodes_of_meshes;
-  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
-    AreaLight light = read_area_light(json, node, visible.world);
-    if (light.power > 0) {
-      Mesh mesh = mesh_of_light(light);
-      for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
-      mesh.material = static_cast<int>(scene.materials.size());
-      mesh.triangle_lights.assign(mesh.triangle_count(), static_cast<std::int32_t>(scene.area_lights.size()));
-      scene.materials.push_back(material_of_light(light));
-      scene.meshes.push_back(std::move(mesh));
-      nodes_of_meshes.push_back(visible.index);
-    }
-    scene.area_lights.push_back(std::move(light));
-  });
-  return nodes_of_meshes;
-}
-
-namespace {
-
 std::shared_ptr<const LightProfile> read_profile(const GltfDocument& document, const JsonCursor& json) {
   std::span<const std::uint8_t> bytes;
   std::string name = json.place();
@@ -224,24 +219,88 @@ std::shared_ptr<const LightProfile> read_profile(const GltfDocument& document, c
       read_light_profile_from_memory({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, document.budget().limits()));
 }
 
+constexpr const char* kProfiles = "EXT_lights_ies";
+
+// Each file of the extension is read once.
+class Profiles {
+ public:
+  explicit Profiles(const GltfDocument& document) : document_(document) {}
+
+  std::shared_ptr<const LightProfile> of(const JsonCursor& definition) {
+    auto& profile = read_[definition.place()];
+    if (profile == nullptr) profile = read_profile(document_, definition);
+    return profile;
+  }
+
+  // Has the light shine by the profile that its extra names, if it does: candela times color and the extra's multiplier.
+  void give_to(AreaLight& light, const JsonCursor& json, const Affine& world) {
+    const auto ours = extra_of_ours(json);
+    if (!ours || !ours->has("profile")) return;
+    const JsonCursor use = ours->at("profile");
+    const JsonElements definitions = lights_of(document_, kProfiles);
+    const JsonCursor definition = definitions[static_cast<std::size_t>(use.at("light").as_index(definitions.size(), "light"))];
+    if (!light.is_flat()) use.fail("only rects and disks shine by a profile", "use another type, or EXT_lights_ies on the node: a point");
+    set_emission(light, of(definition), world.x, read_color(json) * use.number("multiplier", 1, 0, kMostIntensity));
+    ProfileAxes& axes = light.emission->axes;
+    if (dot(axes.y, world.y) < 0) axes.y = -axes.y;
+    if (!std::isfinite(light.power)) json.fail("the light leaves the range of numbers");
+  }
+
+ private:
+  const GltfDocument& document_;
+  std::map<std::string, std::shared_ptr<const LightProfile>> read_;  // by place
+};
+
+}  // namespace
+
+Mesh mesh_of_light(const AreaLight& light) {
+  const auto* ellipsoid = std::get_if<Ellipsoid>(&light.shape);
+  const auto* capsule = std::get_if<Capsule>(&light.shape);
+  Mesh mesh = ellipsoid != nullptr ? mesh_of(*ellipsoid) : capsule != nullptr ? mesh_of(*capsule) : flat_mesh(flat_polygon(light));
+  mesh.name = light.name;
+  mesh.is_light_shape = true;
+  return mesh;
+}
+
+std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
+  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor&, const JsonCursor& node, const GltfNode&) {
+    document.budget().take_memory(node.place(), "its light's mesh", kLargestLightMesh);
+  });
+  std::vector<int> nodes_of_meshes;
+  Profiles profiles(document);
+  for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
+    AreaLight light = read_area_light(json, node, visible.world);
+    profiles.give_to(light, json, visible.world);
+    const auto ours = extra_of_ours(json);
+    if (light.power > 0 && !(ours && !ours->flag("seen", true))) {
+      Mesh mesh = mesh_of_light(light);
+      for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
+      mesh.material = static_cast<int>(scene.materials.size());
+      mesh.triangle_lights.assign(mesh.triangle_count(), static_cast<std::int32_t>(scene.area_lights.size()));
+      scene.materials.push_back(material_of_light(light));
+      scene.meshes.push_back(std::move(mesh));
+      nodes_of_meshes.push_back(visible.index);
+    }
+    scene.area_lights.push_back(std::move(light));
+  });
+  return nodes_of_meshes;
+}
+
+namespace {
+
 // Lights that a profile describes: candela times the node's multiplier and colour, aimed along its -z.
 void add_profile_lights(const GltfDocument& document, const GltfNodes& nodes, std::vector<PunctualLight>& lights) {
-  constexpr const char* kExtension = "EXT_lights_ies";
-  std::map<std::string, std::shared_ptr<const LightProfile>> read;  // by place
-  for_each_light(document, nodes, kExtension, [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
+  Profiles profiles(document);
+  for_each_light(document, nodes, kProfiles, [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
     const Affine& world = visible.world;
     PunctualLight light;
     light.name = json.text("name", node.text("name", ""));
     light.position = world.t;
     check_reach(node, light.position, "the light");
     light.direction = normalized(world.vector({0, 0, -1}));
-    const JsonCursor use = *find_extension(node, kExtension);
-    const Vec3d color = use.vector("color", {1, 1, 1});
-    if (color.x < 0 || color.y < 0 || color.z < 0) use.at("color").fail("components must not be negative");
-    light.intensity = color * use.number("multiplier", 1, 0, kMostIntensity);
-    auto& profile = read[json.place()];
-    if (profile == nullptr) profile = read_profile(document, json);
-    light.profile = profile;
+    const JsonCursor use = *find_extension(node, kProfiles);
+    light.intensity = read_color(use) * use.number("multiplier", 1, 0, kMostIntensity);
+    light.profile = profiles.of(json);
     light.profile_axes = profile_axes(light.direction, world.x);
     if (dot(light.profile_axes.y, world.y) < 0) light.profile_axes.y = -light.profile_axes.y;
     lights.push_back(std::move(light));
@@ -266,7 +325,7 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
     light.position = world.t;
     check_reach(node, light.position, "the light");
     light.direction = normalized(world.vector({0, 0, -1}));
-    light.intensity = read_emission(json);
+    light.intensity = read_emission(json, 1);
     light.range = json.number("range", kInfinity, 1e-30, kInfinity);
     if (const auto spot = json.find("spot")) {
       const double outer = spot->number("outerConeAngle", kPi / 4, 1e-9, kPi / 2 + 1e-6);

@@ -124,6 +124,7 @@ void grow(AreaLight& light, double factor) {
   light.radiance = light.radiance * factor;
   light.power *= factor;
   if (light.texture) light.texture->factor = light.texture->factor * factor;
+  if (light.emission) light.emission->intensity = light.emission->intensity * factor;
 }
 
 // Gives the power of the lights that go to those that stay.

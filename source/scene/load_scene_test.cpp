@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/gltf_test_file.h"
+#include "scene/test_meshes.h"
 #include "steradian/error.h"
 
 namespace steradian::scene {
@@ -24,16 +25,6 @@ void expect_near(Vec3d a, Vec3d b, double tolerance) {
   EXPECT_LE(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y << " " << b.z;
 }
 void expect_near(Vec3f a, Vec3d b, double tolerance = 1e-6) { expect_near(static_cast<Vec3d>(a), b, tolerance); }
-
-// Area with the sign of agreement between the winding and the stored normals.
-double signed_area(const Mesh& mesh) {
-  double sum = 0;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vec3f a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
-    sum += static_cast<double>(dot(cross(b - a, c - a), mesh.normals[mesh.indices[i]])) / 2;
-  }
-  return sum;
-}
 
 TEST(LoadScene, ReadsASquareFromGltfAndGlbAlike) {
   for (const char* name : {"a.gltf", "a.glb"}) {
@@ -279,76 +270,6 @@ TEST(LoadScene, ReadsPunctualLights) {
   expect_near(light.intensity, {10, 5, 0}, 0);
   EXPECT_NEAR(light.cos_outer, std::cos(0.5), 1e-15);
   EXPECT_TRUE(loaded.scene.area_lights.empty()) << "no default light where there is one";
-}
-
-GltfTestFile with_area_light(const json& light, const json& node) {
-  GltfTestFile f = GltfTestFile::square();
-  f.json["extensions"]["EXT_lights_area"]["lights"] = {light};
-  json n = node;
-  n["extensions"]["EXT_lights_area"]["light"] = 0;
-  f.append("nodes", n);
-  return f;
-}
-
-TEST(LoadScene, ReadsRectLightsThatShineAlongMinusZ) {
-  for (const double mirror : {1.0, -1.0}) {
-    const LoadedScene loaded =
-        load(with_area_light({{"type", "rect"}, {"size", 2}, {"rect", {{"aspect", 1.5}}}, {"color", {1, 0.5, 0}}, {"intensity", 10}},
-                             {{"translation", {0, 0, 9}}, {"scale", {mirror, 1, 1}}}));
-    ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
-    const AreaLight& light = loaded.scene.area_lights[0];
-    const PreparedPolygon p = prepare_polygon(flat_polygon(light));
-    EXPECT_NEAR(p.area, 6, 1e-12);
-    expect_near(p.normal, {0, 0, -1}, 1e-12);
-    expect_near(p.centroid, {0, 0, 9}, 1e-12);
-    expect_near(light.radiance, {10, 5, 0}, 1e-12);
-    EXPECT_NEAR(light.power, 6 * (0.2126 * 10 + 0.7152 * 5), 1e-12);
-    // The camera sees it as a mesh of its own, facing the same way.
-    ASSERT_EQ(loaded.scene.meshes.size(), 2u);
-    const Mesh& mesh = loaded.scene.meshes[1];
-    EXPECT_TRUE(mesh.is_light_shape && mesh.is_emitter());
-    EXPECT_EQ(mesh.triangle_lights, (std::vector<std::int32_t>{0, 0}));
-    EXPECT_NEAR(signed_area(mesh), 6, 1e-5);
-    expect_near(mesh.normals[0], {0, 0, -1});
-  }
-}
-
-TEST(LoadScene, ReadsDisksAndSpheresUnderUnevenScale) {
-  const LoadedScene disk = load(with_area_light({{"type", "disk"}, {"size", 2}}, {{"scale", {3, 1, 1}}}));
-  ASSERT_EQ(disk.scene.area_lights.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<Ellipse>(disk.scene.area_lights[0].shape));
-  EXPECT_NEAR(prepare_polygon(flat_polygon(disk.scene.area_lights[0])).area, 3 * std::numbers::pi, 1e-12) << "the polygon in its place";
-  expect_near(prepare_polygon(flat_polygon(disk.scene.area_lights[0])).normal, {0, 0, -1}, 1e-12);
-
-  const LoadedScene sphere = load(with_area_light({{"type", "sphere"}, {"size", 2}}, {{"scale", {3, 1, 1}}, {"translation", {0, 5, 0}}}));
-  const auto& ellipsoid = std::get<Ellipsoid>(sphere.scene.area_lights[0].shape);
-  expect_near(ellipsoid.center, {0, 5, 0}, 0);
-  expect_near(ellipsoid.x, {3, 0, 0}, 1e-15);
-  expect_near(ellipsoid.z, {0, 0, 1}, 1e-15);
-  EXPECT_GT(signed_area(sphere.scene.meshes[1]), 0) << "faces outwards";
-}
-
-TEST(LoadScene, ReadsCapsulesAlongX) {
-  const LoadedScene loaded =
-      load(with_area_light({{"type", "capsule"}, {"size", 0.2}, {"capsule", {{"length", 3}}}, {"intensity", 2}},
-                           {{"scale", {2, 4, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {0, 5, 0}}}));
-  ASSERT_EQ(loaded.scene.area_lights.size(), 1u);
-  const AreaLight& light = loaded.scene.area_lights[0];
-  const auto& capsule = std::get<Capsule>(light.shape);
-  expect_near(capsule.end_a, {0, 2, 0}, 1e-12);
-  expect_near(capsule.end_b, {0, 8, 0}, 1e-12);
-  EXPECT_NEAR(capsule.radius, 0.2, 1e-12) << "0.1 times the geometric mean of 4 and 1";
-  const double area = 2 * std::numbers::pi * 0.2 * 6 + 4 * std::numbers::pi * 0.04;
-  EXPECT_NEAR(light.power, 2 * area, 1e-12);
-  // Facing outwards, each triangle: 64 x 33 quadrilaterals inscribed lose (pi / 64)^2 * 2/3 of the area at most.
-  EXPECT_NEAR(signed_area(loaded.scene.meshes[1]) / area, 1, 0.002);
-  EXPECT_LT(signed_area(loaded.scene.meshes[1]), area);
-
-  const LoadedScene line = load(with_area_light({{"type", "capsule"}, {"size", 0}}, json::object()));
-  for (const AreaLight& l : line.scene.area_lights) EXPECT_FALSE(std::holds_alternative<Capsule>(l.shape)) << "a line has no area";
-  const LoadedScene ball = load(with_area_light({{"type", "capsule"}, {"size", 2}, {"capsule", {{"length", 0}}}}, json::object()));
-  ASSERT_EQ(ball.scene.area_lights.size(), 1u);
-  EXPECT_NEAR(ball.scene.area_lights[0].power, 4 * std::numbers::pi, 1e-12);
 }
 
 TEST(LoadScene, MergesAnEmissiveSquareIntoOneLight) {

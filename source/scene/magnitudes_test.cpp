@@ -29,7 +29,7 @@ std::string file_of(const Parts& p) {
   f.node()["translation"] = {p.floor_at, 0, 0};
   f.json["extensionsUsed"] = {"EXT_lights_area"};
   f.json["extensions"]["EXT_lights_area"]["lights"] = {
-      {{"type", p.light_type}, {"size", p.light_size}, {"capsule", {{"length", p.light_size}}}}};
+      {{"type", p.light_type}, {"intensity", 1}, {"size", p.light_size}, {"capsule", {{"length", p.light_size}}}}};
   f.append("nodes", {{"name", "Lamp"},
                      {"translation", {0, p.light_height, 0}},
                      {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},

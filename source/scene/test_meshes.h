@@ -16,4 +16,14 @@ inline Mesh quad_mesh(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
   return mesh;
 }
 
+// Area with the sign of agreement between the winding and the stored normals.
+inline double signed_area(const Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Vec3f a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+    sum += static_cast<double>(dot(cross(b - a, c - a), mesh.normals[mesh.indices[i]])) / 2;
+  }
+  return sum;
+}
+
 }  // namespace steradian::scene

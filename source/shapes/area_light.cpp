@@ -86,4 +86,54 @@ Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& im
   return texture.factor * static_cast<Vec3d>(Vec3f{t.x, t.y, t.z});
 }
 
+namespace {
+
+// x cross y along the normal; the area is factor times that of the axes' rectangle.
+struct FlatAxes {
+  Vec3d x, y;
+  double factor;
+};
+
+FlatAxes axes_of(const Shape& shape) {
+  if (const auto* disk = std::get_if<Ellipse>(&shape)) return {disk->x, disk->y, kPi};
+  const auto* polygon = std::get_if<Polygon>(&shape);
+  if (polygon == nullptr || polygon->vertices.size() != 4 || !polygon->holes.empty())
+    throw Error("profile", "only rects and disks shine by a profile", "give one of those, or a point");
+  const auto& v = polygon->vertices;
+  return {v[1] - v[0], v[3] - v[0], 1};
+}
+
+// Whether anything is sent beyond a quarter turn from z.
+bool shines_back(const LightProfile& profile) {
+  if (profile.type == LightProfile::Type::b) return false;
+  for (std::size_t i = 0; i < profile.candela.size(); ++i)
+    if (profile.vertical[i % profile.vertical.size()] > 90 && profile.candela[i] > 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void set_emission(AreaLight& light, std::shared_ptr<const LightProfile> profile, Vec3d towards_x, Vec3d intensity) {
+  const FlatAxes flat = axes_of(light.shape);
+  const Vec3d normal = cross(flat.x, flat.y);
+  light.two_sided = shines_back(*profile);
+  light.radiance = {};
+  light.power = 0;
+  LightEmission emission{std::move(profile), {}, intensity, flat.factor * length(normal)};
+  if (emission.area > 0) {
+    emission.axes = profile_axes(normal, towards_x);
+    const double flux = luminous_flux(*emission.profile);
+    light.radiance = intensity * (flux / (kPi * emission.area * (light.two_sided ? 2 : 1)));
+    light.power = luminance(intensity) * flux / kPi;
+  }
+  light.emission = std::move(emission);
+}
+
+Vec3d emitted_radiance(const LightEmission& e, Vec3d direction) {
+  const double ahead = dot(direction, e.axes.aim);
+  if (ahead == 0) return {};
+  const double candela = intensity(*e.profile, {dot(direction, e.axes.x), dot(direction, e.axes.y), ahead});
+  return e.intensity * (candela / (e.area * std::fabs(ahead)));
+}
+
 }  // namespace steradian

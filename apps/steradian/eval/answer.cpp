@@ -99,7 +99,7 @@ namespace {
 void add_light(Sum& sum, const Query& query, const Light& source, const ShadingPoint& at, RadianceOptions options) {
   const bool seen = dot(at.normal, at.view) > 0.0;
   const auto* light = std::get_if<AreaLight>(&source);
-  const bool is_polygon = light != nullptr && std::holds_alternative<Polygon>(light->shape);
+  const bool is_polygon = light != nullptr && std::holds_alternative<Polygon>(light->shape) && !light->emission;
   const PolygonLight polygon = is_polygon ? flat_polygon(*light) : PolygonLight{};
   const PreparedPolygon prepared = is_polygon ? prepare(polygon) : PreparedPolygon{};
   for (const Material& material : query.materials) {
@@ -124,6 +124,7 @@ void check_derivatives(const Query& query) {
   if (!query.derivatives) return;
   const auto* light = std::get_if<AreaLight>(&query.lights.front());
   if (query.lights.size() > 1) throw Error("derivatives", "there are none of a list of lights", "ask for each light in a line of its own");
+  if (light != nullptr && light->emission) throw Error("derivatives", "there are none of a light with a profile", "leave the key out");
   if (light == nullptr || !std::holds_alternative<Polygon>(light->shape))
     throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
 }

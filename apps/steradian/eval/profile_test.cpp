@@ -40,6 +40,59 @@ TEST(EvalProfile, IntensityFollowsTheAngle) {
   EXPECT_EQ(red(answer_to(light + R"(,"aim":[0,1,0]})")), 0);                               // it shines upwards
 }
 
+// Points over the area, each with its share.
+TEST(EvalProfile, RectsAndDisksShineByIt) {
+  const std::string file = lamp_file();
+  const auto red = [](const nlohmann::json& a) { return a.at("radiance").at(0).get<double>(); };
+  constexpr int kSteps = 60;
+  for (const bool round : {false, true}) {
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+      for (int k = 0; k < kSteps; ++k) {
+        double u = 2 * (i + 0.5) / kSteps - 1, v = 2 * (k + 0.5) / kSteps - 1;
+        if (round) {
+          const double r = std::sqrt((i + 0.5) / kSteps), phi = 2 * std::numbers::pi * (k + 0.5) / kSteps;
+          u = r * std::cos(phi), v = r * std::sin(phi);
+        }
+        const std::string place = std::to_string(0.5 * u) + ",2," + std::to_string(0.3 * v);
+        sum += red(answer_to(R"({"type":"point","position":[)" + place + R"(],"intensity":3,"profile":")" + file + "\"}", "[1,0,0.4]"));
+      }
+    const std::string lamp = std::string(R"({"type":")") + (round ? "disk" : "rect") +
+                             R"(","center":[0,2,0],"x":[0.5,0,0],"y":[0,0,0.3],"intensity":3,"profile":")" + file + "\"}";
+    // x cross y looks down, and x is the plane of angle 0, as the points' tangent is.
+    EXPECT_NEAR(red(answer_to(lamp, "[1,0,0.4]")), sum / (kSteps * kSteps), 1e-3 * sum / (kSteps * kSteps)) << lamp;
+  }
+}
+
+// Occluders that hide nothing, half of the light by its middle, all of it. Past occluders a point looks from a hundred-thousandth above.
+TEST(EvalProfile, OccludersHideTheirShareOfIt) {
+  const std::string lamp = R"({"type":"rect","center":[0,2,0],"x":[0.5,0,0],"y":[0,0,0.3],"profile":")" + lamp_file() + "\"}";
+  const auto red = [&](const std::string& occluders, const std::string& method = "") {
+    QueryReader reader;
+    std::string out, line = R"({"light":)" + lamp + R"(,"position":[0,0,0],"normal":[0,1,0],"material":{"brdf":"lambert"})" + method +
+                            (occluders.empty() ? "" : ",\"occluders\":[" + occluders + "]") + "}";
+    const std::size_t size = line.size();
+    line.resize(size + kQueryPadding);
+    answer_line(reader, std::string_view(line).substr(0, size), out);
+    const auto answer = nlohmann::json::parse(out);
+    return answer.contains("error") ? -1 : answer.at("radiance").at(0).get<double>();
+  };
+  const double whole = red("");
+  EXPECT_GT(whole, 1);
+  EXPECT_NEAR(red("[[9,1,0],[10,1,0],[9,1,1]]"), whole, 3e-5 * whole);
+  EXPECT_NEAR(red("[[0,1,-9],[9,1,0],[0,1,9]]"), whole / 2, 3e-5 * whole);
+  EXPECT_EQ(red("[[-9,1,-9],[9,1,-9],[0,1,9]]"), 0);
+  EXPECT_EQ(red("[[9,1,0],[10,1,0],[9,1,1]]", ",\"method\":\"reference\""), -1);
+}
+
+TEST(EvalProfile, KeysThatDoNotGoTogetherAreRefused) {
+  const std::string rect = R"({"type":"rect","center":[0,2,0],"x":[1,0,0],"y":[0,0,1],)", profile = R"("profile":")" + lamp_file() + "\"";
+  const auto error = [](const nlohmann::json& a) { return a.at("error").get<std::string>(); };
+  EXPECT_NE(error(answer_to(rect + profile + R"(,"radiance":1})")).find("light.radiance"), std::string::npos);
+  EXPECT_NE(error(answer_to(rect + R"("intensity":1})")).find("without \"profile\""), std::string::npos);
+  EXPECT_NE(error(answer_to(R"({"type":"sphere","center":[0,2,0],"radius":1,)" + profile + "}")).find("profile"), std::string::npos);
+}
+
 TEST(EvalProfile, ABadFileIsNamedByTheKey) {
   const auto error = answer_to(R"({"type":"point","position":[0,2,0],"profile":"/nowhere/lamp.ies"})").at("error").get<std::string>();
   EXPECT_NE(error.find("light.profile"), std::string::npos) << error;

@@ -2,6 +2,7 @@
 #include "eval/query.h"
 
 #include <limits>
+#include <optional>
 
 #include "eval/json_object.h"
 #include "lobes/lobe.h"
@@ -22,7 +23,11 @@ struct LightKeys {
   double radius = 0;
   Capsule shape;  // without its radius
   PointLight point_light;
-  Vec3d aim{0, -1, 0}, towards_x{1, 0, 0};  // of its profile
+  std::shared_ptr<const LightProfile> profile;  // of a point, a rect or a disk
+  Vec3d intensity{1, 1, 1};                     // of a point, or what the profile of the others is multiplied by
+  bool has_radiance = false;
+  Vec3d aim{0, -1, 0};             // of a point's profile
+  std::optional<Vec3d> towards_x;  // of a profile
   DirectionalLight directional_light;
 };
 
@@ -43,8 +48,15 @@ std::shared_ptr<const LightProfile> read_profile(Problems& problems, const Place
   }
 }
 
-constexpr LightField kRadiance = {"radiance",
-                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radiance = read_colour(p, at, v); }};
+constexpr LightField kRadiance = {"radiance", [](Problems& p, const Place& at, Json v, LightKeys& k) {
+                                    k.radiance = read_colour(p, at, v);
+                                    k.has_radiance = true;
+                                  }};
+constexpr LightField kIntensity = {"intensity",
+                                   [](Problems& p, const Place& at, Json v, LightKeys& k) { k.intensity = read_colour(p, at, v); }};
+constexpr LightField kProfile = {"profile", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.profile = read_profile(p, at, v); }};
+constexpr LightField kTowardsX = {"tangent",
+                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.towards_x = read_direction(p, at, v); }};
 constexpr LightField kTwoSided = {"two_sided",
                                   [](Problems& p, const Place& at, Json v, LightKeys& k) { k.two_sided = read_bool(p, at, v); }};
 constexpr LightField kCenter = {"center", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.center = read_vector(p, at, v); },
@@ -66,7 +78,7 @@ constexpr LightField kPolygonFields[] = {
     kRadiance,
     kTwoSided,
 };
-constexpr LightField kRectFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kRadiance, kTwoSided};
+constexpr LightField kRectFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kRadiance, kTwoSided, kProfile, kIntensity, kTowardsX};
 constexpr LightField kSphereFields[] = {kCenter, kRadius, kRadiance};
 constexpr LightField kEllipsoidFields[] = {kCenter, kHalfAxisX, kHalfAxisY, kHalfAxisZ, kRadiance};
 constexpr LightField kCapsuleFields[] = {
@@ -82,10 +94,10 @@ constexpr LightField kCapsuleFields[] = {
 };
 constexpr LightField kPointFields[] = {
     {"position", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
-    {"intensity", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.intensity = read_colour(p, at, v); }},
-    {"profile", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.profile = read_profile(p, at, v); }},
+    kIntensity,
+    kProfile,
     {"aim", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.aim = read_direction(p, at, v); }},
-    {"tangent", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.towards_x = read_direction(p, at, v); }},
+    kTowardsX,
 };
 
 constexpr LightField kDirectionalFields[] = {
@@ -106,16 +118,25 @@ Light flat(Shape shape, const LightKeys& k) {
   return light;
 }
 
+// A rect or a disk, which may shine by a profile.
+Light lamp(Shape shape, const LightKeys& k) {
+  Light light = flat(std::move(shape), k);
+  if (k.profile != nullptr) set_emission(std::get<AreaLight>(light), k.profile, k.towards_x.value_or(k.x), k.intensity);
+  return light;
+}
+
 Light polygon_of(LightKeys&& k) { return flat(std::move(k.polygon), k); }
 Light rect_of(LightKeys&& k) {
-  return flat(Polygon{{k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y}, {}}, k);
+  return lamp(Polygon{{k.center - k.x - k.y, k.center + k.x - k.y, k.center + k.x + k.y, k.center - k.x + k.y}, {}}, k);
 }
-Light disk_of(LightKeys&& k) { return flat(Ellipse{k.center, k.x, k.y}, k); }
+Light disk_of(LightKeys&& k) { return lamp(Ellipse{k.center, k.x, k.y}, k); }
 Light ellipsoid_of(LightKeys&& k) { return solid(Ellipsoid{k.center, k.x, k.y, k.z}, k); }
 Light sphere_of(LightKeys&& k) { return solid(Ellipsoid{k.center, {k.radius, 0, 0}, {0, k.radius, 0}, {0, 0, k.radius}}, k); }
 Light capsule_of(LightKeys&& k) { return solid(capsule_or_line(k.shape.end_a, k.shape.end_b, k.radius), k); }
 Light point_of(LightKeys&& k) {
-  k.point_light.axes = profile_axes(k.aim, k.towards_x);
+  k.point_light.profile = k.profile;
+  k.point_light.intensity = k.intensity;
+  k.point_light.axes = profile_axes(k.aim, k.towards_x.value_or(Vec3d{1, 0, 0}));
   return k.point_light;
 }
 Light directional_of(LightKeys&& k) { return k.directional_light; }
@@ -136,11 +157,20 @@ constexpr LightRow kLights[] = {
     {"directional", kDirectionalFields, directional_of},
 };
 
+bool has_axes(const LightRow& row) { return row.finish == rect_of || row.finish == disk_of; }
+
 void read_light(Problems& problems, const Place& place, Json value, Query& query) {
   const LightRow* row = read_tag<LightRow>(problems, place, value, "type", kLights);
   if (row == nullptr) return;
   LightKeys keys;
   read_fields(problems, place, value, "type", row->fields, keys);
+  if (keys.profile != nullptr && keys.has_radiance)
+    problems.add(place.in("radiance"), "given beside \"profile\"", "its factor is \"intensity\"");
+  if (keys.profile == nullptr && has_axes(*row)) {
+    Json given;
+    for (const char* key : {"intensity", "tangent"})
+      if (value.at_key(key).get(given) == simdjson::SUCCESS) problems.add(place.in(key), "given without \"profile\"", "use \"radiance\"");
+  }
   query.lights.push_back(row->finish(std::move(keys)));
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrals/curved_light.h"
 #include "integrals/point_light.h"
+#include "integrals/profiled_light.h"
 #include "reference/sampled.h"
 #include "shadow/round_light.h"
 #include "shadow/visible_part.h"
@@ -52,6 +54,21 @@ shadow::Viewpoint viewpoint_of(const Query& query) {
   return from;
 }
 
+// A light that shines by a profile: what is seen of it as an even one, times the mean that the lobe sees of all of it.
+RadianceResult profiled_answer(const Query& query, const AreaLight& light, const ShadingPoint& surface, const Material& m,
+                               const methods::Row& entry, const RadianceOptions& options) {
+  if (entry.method == Method::reference || entry.method == Method::sampled)
+    throw Error("method", std::string(entry.name) + " has no profiles past occluders", "leave occluders or the profile out, or use auto");
+  AreaLight even = light;
+  even.emission.reset();
+  even.radiance = {1, 1, 1};
+  const RadianceResult whole = methods::curved_light_answer(even, surface, m, entry, options);
+  const Vec3d mean = ProfiledLight(light).seen_by(m, surface, std::max({whole.radiance.x, whole.radiance.y, whole.radiance.z}));
+  RadianceResult answer = shadowed_answer(query, even, surface, m, entry, options, [&] { return whole; });
+  answer.radiance = answer.radiance * mean;
+  return answer;
+}
+
 }  // namespace
 
 RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& surface, const Material& m,
@@ -72,6 +89,7 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
     return blocked ? methods::nothing(entry.method) : unoccluded();
   }
   const auto& light = std::get<AreaLight>(source);
+  if (light.emission) return profiled_answer(query, light, surface, m, entry, options);
   if (std::holds_alternative<Polygon>(light.shape)) {
     const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
     if (polygon.vertices.empty()) return methods::nothing(entry.method);

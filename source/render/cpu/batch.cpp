@@ -43,7 +43,7 @@ struct Question {
         lobe(m),
         row(methods::resolve(o.method, m, o.precision, o.quality)),
         options(o),
-        is_polygon(std::holds_alternative<Polygon>(l.shape)),
+        is_polygon(std::holds_alternative<Polygon>(l.shape) && !l.emission),
         polygon(is_polygon ? prepare_polygon(flat_polygon(l)) : PreparedPolygon{}) {}
 
   RadianceResult answer(std::size_t i, const ShadingPoint& at) const {
@@ -259,7 +259,7 @@ void radiance(const AreaLight& light, const PointRows<float>& points, const Mate
   const Question question(light, lobe, in_float);
   const std::vector<PackLight> lights = prepare_lights({}, {&light, 1});  // none where it has no extent or does not shine
   std::optional<PackMethod> method;
-  if (!lights.empty()) method = pack_method(question, lights.front());
+  if (!lights.empty() && !light.emission) method = pack_method(question, lights.front());
   if (!method) return answer_points(question, points, result, options.threads);
   const Widths widths(lobe);
   const Alone<float> alone = alone_of<float>(question);

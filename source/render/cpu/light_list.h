@@ -17,6 +17,7 @@
 
 namespace steradian {
 
+class ProfiledLight;
 class TexturedLight;
 
 struct PackLight {
@@ -26,8 +27,10 @@ struct PackLight {
   std::size_t index = 0;                          // among all of the scene's
   PreparedPolygon polygon;                        // polygon, in double
   std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
+  std::shared_ptr<const ProfiledLight> profiled;  // null without an emission; likewise
 
   bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
+  bool is_even() const { return textured == nullptr && profiled == nullptr; }  // one radiance
   bool is_area() const { return !std::holds_alternative<packed::Punctual>(shape); }
   bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // of the points of one tile (shadow_tile.h)
   bool is_round() const { return is_area() && !is_polygon() && !is_pieces(); }

@@ -113,10 +113,10 @@ DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
   if (options.method == "sampled" || options.method == "reference") {
     method.name = options.method;
     method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
-    const bool textured =
-        std::any_of(scene.area_lights.begin(), scene.area_lights.end(), [](const AreaLight& light) { return light.texture.has_value(); });
-    // Under a textured light or an environment, no closed form is exact.
-    method.exact_diffuse = method.kind == MethodKind::sampled && options.shadows == Shadows::off && !textured && !scene.environment;
+    const bool uneven = std::any_of(scene.area_lights.begin(), scene.area_lights.end(),
+                                    [](const AreaLight& light) { return light.texture.has_value() || light.emission.has_value(); });
+    // Under an uneven light or an environment, no closed form is exact.
+    method.exact_diffuse = method.kind == MethodKind::sampled && options.shadows == Shadows::off && !uneven && !scene.environment;
     method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
   } else {
     method = chosen(lobes, options.method, options.quality);

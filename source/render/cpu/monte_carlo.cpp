@@ -157,9 +157,10 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
     const double plane_height = dot(polygon.centroid - p, polygon.normal), eta = shadow::margin_of_plane(polygon);
     const auto* capsule = std::get_if<Capsule>(&light.area->shape);
     const LightTexture* texture = light.area->texture ? &*light.area->texture : nullptr;
+    const LightEmission* emission = light.area->emission ? &*light.area->emission : nullptr;
     // What arrives from the light's point in direction l.
     const auto incident = [&](Vec3d l) -> Vec3d {
-      if (shadows_ == nullptr && texture == nullptr) return polygon.radiance;
+      if (shadows_ == nullptr && texture == nullptr && emission == nullptr) return polygon.radiance;
       const Vec3d direction = frame.to_world(l);
       // A tube is too long for one plane to stand for it.
       const double distance = capsule != nullptr ? distance_along(*capsule, p, direction) : plane_height / dot(direction, polygon.normal);
@@ -169,6 +170,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
         const double height = std::fabs(capsule != nullptr ? distance : plane_height);
         if (shadows_->between(p, p + (there - p) * std::max(1 - eta / height, 0.0), Casters::all)) return {};
       }
+      if (emission != nullptr) return emitted_radiance(*emission, -direction);
       return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
     };
     const auto contribution = [&](Vec3d l, double light_pdf) -> Vec3d {

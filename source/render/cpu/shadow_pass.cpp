@@ -100,7 +100,7 @@ void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, 
 }
 
 void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
-  work.whole_outline = is_disk(light) || light.textured != nullptr;
+  work.whole_outline = is_disk(light) || !light.is_even();
   std::vector<std::vector<std::uint32_t>> with_light;
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
     for (const std::optional<LightSide>& side : flat.sides) {

@@ -9,6 +9,7 @@
 
 #include "integrals/irradiance.h"
 #include "integrals/ltc/textured_light.h"
+#include "integrals/profiled_light.h"
 #include "lobes/lobe.h"
 #include "render/cpu/closed_form.h"
 #include "render/cpu/comparison.h"
@@ -102,15 +103,27 @@ Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const Pac
   return row.polygon(polygon, at, material, {row.method, quality, Precision::float_}).radiance;
 }
 
-// The same, textured as GGX sees it; other lobes take the mean (lobes_under_means).
+double largest_of(Vec3d v) { return std::max({v.x, v.y, v.z}); }
+
+// The mean radiance of an uneven light as a lobe sees it; of textured ones, other lobes than GGX take the mean (lobes_under_means).
+//
+//   even  what the lobe sends to the view under radiance 1
+Vec3d seen_by(const PackLight& light, const Material& material, const ShadingPoint& at, Vec3d even) {
+  if (light.profiled != nullptr) return light.profiled->seen_by(material, at, largest_of(even));
+  if (light.textured != nullptr && material.brdf == Brdf::ggx)
+    return static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
+  return static_cast<Vec3d>(light.radiance);
+}
+
+// The same, as the lobe sees an uneven light.
 Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
                      const Material& material) {
   const Vec3d r = point_radiance_of_mean(row, quality, light, slot, at, material);
-  if (light.textured == nullptr || material.brdf != Brdf::ggx || r == Vec3d{}) return r;
-  const auto seen = static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
-  const Vec3d mean = light.polygon.radiance;
-  const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
-  return r * Vec3d{share(seen.x, mean.x), share(seen.y, mean.y), share(seen.z, mean.z)};
+  if (light.is_even() || r == Vec3d{}) return r;
+  const Vec3d mean = static_cast<Vec3d>(light.radiance);
+  const auto shares = [](Vec3d a, Vec3d b) { return Vec3d{b.x > 0 ? a.x / b.x : 0, b.y > 0 ? a.y / b.y : 0, b.z > 0 ? a.z / b.z : 0}; };
+  const Vec3d even = shares(r, mean);
+  return even * seen_by(light, material, at, even);
 }
 
 // The same under a punctual light: the lobe in one direction.
@@ -136,7 +149,18 @@ SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
   const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;
-  return ltc && tile.any_specular && tile.any_diffuse && (light.is_polygon() || light.is_pieces()) && light.textured == nullptr;
+  return ltc && tile.any_specular && tile.any_diffuse && (light.is_polygon() || light.is_pieces()) && light.is_even();
+}
+
+Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i) {
+  Material m;
+  m.brdf = Brdf::ggx;
+  m.alpha_x = static_cast<double>(lobe.alpha_x[i]);
+  m.alpha_y = static_cast<double>(lobe.alpha_y[i]);
+  m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
+  m.f0 = static_cast<Vec3d>(get(lobe.f0, i));
+  m.f90 = static_cast<Vec3d>(get(lobe.f90, i));
+  return m;
 }
 
 // False where the method does not run on packs.
@@ -179,7 +203,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
         add_diffuse(tile.radiance.y, tile.albedo.y, irradiance, light->radiance.y);
         add_diffuse(tile.radiance.z, tile.albedo.z, irradiance, light->radiance.z);
       }
-      if (light->textured == nullptr) {
+      if (light->is_even()) {
         add_coloured(tile.radiance.x, lobe.f0.x, lobe.f90.x, plain, fresnel, light->radiance.x);
         add_coloured(tile.radiance.y, lobe.f0.y, lobe.f90.y, plain, fresnel, light->radiance.y);
         add_coloured(tile.radiance.z, lobe.f0.z, lobe.f90.z, plain, fresnel, light->radiance.z);
@@ -188,15 +212,20 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       TileVector seen;
       alignas(64) TilePlane found, wanted;
       for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
-      textured_means_table_for(active_simd())
-          .ggx(*light->textured, points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y), compact_tables_, wanted.data(),
-               {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
+      found.fill(0);
+      if (light->textured != nullptr)
+        textured_means_table_for(active_simd())
+            .ggx(*light->textured, points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y), compact_tables_, wanted.data(),
+                 {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
       for (std::size_t i = 0; i < kTilePixels; ++i) {
         if (!(wanted[i] > 0)) continue;
-        const double lobe_width = width(static_cast<double>(lobe.alpha_x[i]), static_cast<double>(lobe.alpha_y[i]));
-        const Vec3f radiance = found[i] > 0 ? get(seen, i) : light->textured->seen_by_ggx(shading_point(tile, lobe.normal, i), lobe_width);
         const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
-        add_to(tile.radiance, i, radiance * (f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i]));
+        Vec3f radiance = get(seen, i);
+        const Vec3f even = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
+        if (!(found[i] > 0))
+          radiance = static_cast<Vec3f>(
+              seen_by(*light, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i), static_cast<Vec3d>(even)));
+        add_to(tile.radiance, i, radiance * even);
       }
       continue;
     }
@@ -204,13 +233,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
       if (tile.material[i] == nullptr || !(f0.x + f0.y + f0.z + f90.x > 0)) continue;
-      Material m;
-      m.brdf = Brdf::ggx;
-      m.alpha_x = static_cast<double>(lobe.alpha_x[i]);
-      m.alpha_y = static_cast<double>(lobe.alpha_y[i]);
-      m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
-      m.f0 = static_cast<Vec3d>(f0);
-      m.f90 = static_cast<Vec3d>(f90);
+      const Material m = ggx_material(lobe, tile, i);
       add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, i, shading_point(tile, lobe.normal, i), m)));
     }
   }
@@ -291,7 +314,16 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
   for (const PackLight* light : lights) {
     if (light->is_area()) {
       sheen_table_for(active_simd()).radiance(*light, points_of(tile, tile.sheen_alpha, tile.sheen_alpha), plain.data());
-      for (std::size_t i = 0; i < kTilePixels; ++i) add_to(tile.radiance, i, get(tile.sheen, i) * light->radiance * plain[i]);
+      for (std::size_t i = 0; i < kTilePixels; ++i) {
+        if (!(plain[i] > 0)) continue;
+        const Vec3f color = get(tile.sheen, i);
+        if (light->profiled != nullptr && !(color.x + color.y + color.z > 0)) continue;
+        const Vec3f radiance = light->profiled == nullptr
+                                   ? light->radiance
+                                   : static_cast<Vec3f>(seen_by(*light, sheen_of(surface_in(tile, i)), shading_point(tile, i),
+                                                                static_cast<Vec3d>(color * plain[i])));
+        add_to(tile.radiance, i, color * radiance * plain[i]);
+      }
       continue;
     }
     for (std::size_t i = 0; i < kTilePixels; ++i) {
@@ -345,9 +377,15 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
           else
             half_vector_table_for(active_simd())
                 .lobe(*light, points_of(tile), material, methods::half_vector_options(method_.quality), result.data());
-          const Vec3f factor = phong ? light->radiance * static_cast<Vec3f>(material.albedo) : light->radiance;
-          for (std::size_t i = 0; i < kTilePixels; ++i)
-            if (tile.material[i] == surface) add_to(tile.radiance, i, factor * result[i]);
+          const auto factor = phong ? static_cast<Vec3f>(material.albedo) : Vec3f{1, 1, 1};
+          for (std::size_t i = 0; i < kTilePixels; ++i) {
+            if (tile.material[i] != surface || !(result[i] > 0)) continue;
+            const Vec3f even = factor * result[i];
+            const Vec3f radiance = light->profiled == nullptr
+                                       ? light->radiance
+                                       : static_cast<Vec3f>(seen_by(*light, material, shading_point(tile, i), static_cast<Vec3d>(even)));
+            add_to(tile.radiance, i, radiance * even);
+          }
           continue;
         }
         for (std::size_t i = 0; i < kTilePixels; ++i) {

@@ -44,6 +44,7 @@ class SpecularPass {
   bool add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
                         const std::vector<const PackLight*>& lights) const;
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+  static Material ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i);
   bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
 
   const DirectMethod method_;

@@ -163,11 +163,19 @@ Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
   return c >= least ? n : unit(n + view * (least - c));
 }
 
+// Of the light that a mesh is the shape of; null: it is none, or one of even radiance.
+const LightEmission* emission_of(const Scene& scene, const Mesh& mesh) {
+  if (!mesh.is_light_shape || mesh.triangle_lights.empty() || mesh.triangle_lights.front() < 0) return nullptr;
+  const auto& emission = scene.area_lights[static_cast<std::size_t>(mesh.triangle_lights.front())].emission;
+  return emission ? &*emission : nullptr;
+}
+
 }  // namespace
 
 SurfaceKind kind_of(const Scene& scene, const Mesh& mesh) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   const auto black = [](Vec3f c) { return !(c.x > 0 || c.y > 0 || c.z > 0); };
+  if (emission_of(scene, mesh) != nullptr) return SurfaceKind::layered;
   if (m.unlit || m.anisotropy != 0 || m.transmission != 0 || m.clearcoat != 0 || !black(m.sheen_color) || scene.multiple_scattering)
     return SurfaceKind::layered;
   bool textured = !mesh.colors.empty() || (m.emits() && !m.double_sided);
@@ -240,7 +248,8 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     return s;
   }
   if (m.emits() && (front || m.double_sided)) {
-    s.emission = m.emissive;
+    const LightEmission* lamp = emission_of(scene, mesh);
+    s.emission = lamp != nullptr ? static_cast<Vec3f>(emitted_radiance(*lamp, static_cast<Vec3d>(view))) : m.emissive;
     if (m.emissive_texture.present()) {
       const Vec4f t = texel(scene, mesh, at, m.emissive_texture);
       s.emission = s.emission * Vec3f{t.x, t.y, t.z};

@@ -4,7 +4,7 @@
 
 #include "render/cpu/direct.h"
 #include "render/cpu/gbuffer.h"
-#include "render/cpu/textured_diffuse.h"
+#include "render/cpu/uneven_diffuse.h"
 
 namespace steradian {
 namespace {
@@ -45,9 +45,9 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
 void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain) {
   if (method_.exact_diffuse && tile.any_diffuse && !plain.empty())
     direct_clock_.run([&] {
-      const std::vector<const PackLight*> untextured = without_textured(plain);
-      if (!untextured.empty()) direct_.add_diffuse(tile, untextured.data(), untextured.size());
-      if (untextured.size() < plain.size()) add_diffuse_from_textured(tile, plain);
+      const std::vector<const PackLight*> even = even_ones(plain);
+      if (!even.empty()) direct_.add_diffuse(tile, even.data(), even.size());
+      if (even.size() < plain.size()) add_diffuse_from_uneven(tile, plain);
     });
   const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), many_lights_->bound()};
   specular_clock_.run([&] { specular_.add(tile, lights, SpecularPass::Walk::specular_alone, &far); });
@@ -62,10 +62,10 @@ void TileLighting::add(SurfaceTile& tile, const std::vector<const PackLight*>& l
   }
   if (method_.exact_diffuse && tile.any_diffuse)
     direct_clock_.run([&] {
-      std::vector<const PackLight*> plain = without_textured(lights);
+      std::vector<const PackLight*> plain = even_ones(lights);
       if (!method_.estimates()) std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
       if (!plain.empty()) direct_.add_diffuse(tile, plain.data(), plain.size());
-      if (plain.size() < lights.size()) add_diffuse_from_textured(tile, lights);
+      if (plain.size() < lights.size()) add_diffuse_from_uneven(tile, lights);
     });
   if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });
 }

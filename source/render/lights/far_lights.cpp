@@ -136,7 +136,7 @@ FarLights prepare_far_lights(const std::vector<PackLight>& lights) {
     far.is_flat.push_back(one.is_flat ? 1.0f : 0.0f);
   };
   for (const PackLight& light : lights) {
-    if (!(light.is_area() || is_plain_point(light)) || light.is_pieces() || light.textured != nullptr) {
+    if (!(light.is_area() || is_plain_point(light)) || light.is_pieces() || !light.is_even()) {
       far.number_of.push_back(-1);
       continue;
     }

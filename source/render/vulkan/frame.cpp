@@ -29,7 +29,7 @@ bool bounce_on_host(const IndirectOptions& options) { return options.mode == Ind
 
 bool shaders_have(const PackLight& light) {
   const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
-  return light.textured == nullptr && (punctual == nullptr || punctual->profile == nullptr);
+  return light.is_even() && (punctual == nullptr || punctual->profile == nullptr);
 }
 
 // What the shaders do not have, and the host lights: a sentence each.
@@ -42,8 +42,10 @@ std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& op
   if (options.indirect.mode != IndirectMode::off && bounce_on_host(options.indirect))
     say(options.indirect.mode == IndirectMode::path ? "the bounce by paths" : "the bounce behind its shadow rays");
   if (!DirectLight::has(method)) say(std::string("lobes by the method ") + name_of(method.ggx));
-  for (const AreaLight& light : scene.area_lights)
+  for (const AreaLight& light : scene.area_lights) {
     if (light.texture && light.texture->use.present()) say("by the textured light '" + light.name + "'");
+    if (light.emission) say("by the measured lamp '" + light.name + "'");
+  }
   for (const PunctualLight& light : scene.punctual_lights)
     if (light.profile != nullptr) say("by the measured lamp '" + light.name + "'");
   for (const Mesh& mesh : scene.meshes) {

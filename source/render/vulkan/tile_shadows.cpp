@@ -112,7 +112,7 @@ void TileShadows::clear() {
   points.clear();
 }
 
-bool TileShadows::lights(const PackLight& light) const { return light.is_polygon() && light.textured == nullptr; }
+bool TileShadows::lights(const PackLight& light) const { return light.is_polygon() && light.is_even(); }
 
 bool TileShadows::find(const LightSide& side, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
                        const std::vector<Viewpoint>& at) {

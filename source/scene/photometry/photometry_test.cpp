@@ -174,6 +174,52 @@ TEST(Ies, EveryVersionIsRead) {
   EXPECT_EQ(intensity(read(Ies{}.text() + "\n \x1a"), {0, 0, 1}), middle);
 }
 
+// What each version may have before its numbers and among them; of both types.
+TEST(Ies, EveryVersionIsReadInBothTypes) {
+  const char* heads[] = {
+      "A LAMP OF 1986: lines of text\nthat may hold anything, [BRACKETS] and what looks like TILT=NONE within\nTILT=NONE\n",
+      "IESNA91\n[TEST] 1\n[TESTLAB] a laboratory\n[MANUFAC] somebody\n[MORE] and more of it\n[BLOCK]\n[LUMCAT] 2\n[ENDBLOCK]\n"
+      "TILT=INCLUDE\n2\n2\n0 90\n1 0.94\n",
+      "IESNA:LM-63-1995\n[TEST] 1\n[ISSUEDATE] 1-JAN-1996\n[_OWN] a keyword of its own\nTILT=lamp.tlt\n",
+      "IESNA:LM-63-2002\n[TEST] 1\n[TESTLAB] x\n[ISSUEDATE] 1-JAN-2003\n[MANUFAC] y\n[NEARFIELD] 0.1 0.2 0\nTILT=NONE\n",
+      "IES:LM-63-2019\n[TEST] 1\n[TESTLAB] x\n[ISSUEDATE] 1-JAN-2020\n[MANUFAC] y\n[FILEGENINFO] z\nTILT=NONE\n"};
+  for (const char* head : heads)
+    for (const int type : {1, 2}) {
+      Ies ies;
+      ies.head = head;
+      ies.type = type;
+      ies.vertical = steps(type == 1 ? 0 : -90, 90, 15);
+      ies.horizontal = type == 1 ? steps(0, 360, 45) : steps(-90, 90, 15);
+      ies.candela = [](double v, double h) { return 200 + v + h / 4; };
+      ies.ballast = std::string(head).find("2019") != std::string::npos ? "1 1.00001 30" : "1 1 30";
+      const LightProfile profile = read(ies);
+      ASSERT_EQ(profile.type, type == 1 ? LightProfile::Type::c : LightProfile::Type::b) << head;
+      const Vec3d aside = type == 1 ? direction_c(30, 45) : direction_b(30, 45);
+      EXPECT_NEAR(intensity(profile, aside), ies.candela(30, 45), 1e-4) << head << type;
+      // Each number on a line of its own, or between tabs and commas, is the same file.
+      std::string lines = ies.text(), commas = lines;
+      const std::size_t numbers_begin = lines.rfind("2 0.1 0.2 0\n");
+      for (std::size_t i = numbers_begin; i < lines.size(); ++i)
+        if (lines[i] == ' ') lines[i] = '\n', commas[i] = i % 2 == 0 ? ',' : '\t';
+      EXPECT_EQ(intensity(read(lines), aside), intensity(profile, aside)) << head;
+      EXPECT_EQ(intensity(read(commas), aside), intensity(profile, aside)) << head;
+    }
+}
+
+// Planes from 90 to 270, which 1995 brought, and halves of type C that begin below or above.
+TEST(Ies, LampsThatShineUpOrDownAlone) {
+  Ies up;
+  up.vertical = steps(90, 180, 15);
+  up.candela = [](double v, double) { return v; };
+  EXPECT_NEAR(intensity(read(up), direction_c(135, 50)), 135, 1e-4);
+  EXPECT_EQ(intensity(read(up), direction_c(45, 50)), 0);
+  Ies turned;
+  turned.horizontal = steps(90, 270, 30);
+  turned.candela = [](double v, double h) { return 300 + v + (h - 180); };
+  for (const double h : {100.0, 200.0, 260.0}) EXPECT_NEAR(intensity(read(turned), direction_c(20, h)), 320 + h - 180, 1e-3) << h;
+  EXPECT_NEAR(intensity(read(turned), direction_c(20, 350)), intensity(read(turned), direction_c(20, 190)), 1e-6) << "its own mirror image";
+}
+
 TEST(Ies, FactorsMultiply) {
   Ies ies;
   ies.factors = "2 500 3";

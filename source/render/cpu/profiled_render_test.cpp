@@ -1,0 +1,150 @@
+// Lights that shine by a profile, in whole pictures: against sums of points, and the sampled picture, which asks for the emission ray by
+// ray.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "render/cpu/camera_rays.h"
+#include "steradian/radiance.h"
+#include "steradian/render.h"
+
+namespace steradian {
+namespace {
+
+std::shared_ptr<const LightProfile> lamp_profile() {
+  LightProfile p;
+  for (int v = 0; v <= 90; v += 5) p.vertical.push_back(v);
+  for (int h = 0; h <= 360; h += 30) p.horizontal.push_back(h);
+  for (const double h : p.horizontal)
+    for (const double v : p.vertical) {
+      const double radians = 3.14159265358979324 / 180;
+      p.candela.push_back(10 * std::cos(v * radians) *
+                          (1 + 2 * std::exp(-(v - 40) * (v - 40) / 300) * (1 + 0.5 * std::cos(2 * h * radians))));
+    }
+  return std::make_shared<const LightProfile>(p);
+}
+
+// A floor at y = 0 seen from above and aside, a panel at y = 1.5 that looks down.
+Scene lit_floor(bool round, float roughness, float specular) {
+  Scene scene;
+  SurfaceMaterial m;
+  m.name = "floor";
+  m.base_color = {0.6f, 0.6f, 0.6f, 1};
+  m.metallic = 0;
+  m.roughness = roughness;
+  m.specular = specular;
+  scene.materials = {m};
+  Mesh mesh;
+  mesh.positions = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
+  mesh.normals.assign(4, {0, 1, 0});
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  scene.meshes = {mesh};
+  Camera camera;
+  camera.position = {0, 3, 3};
+  camera.z = normalized(Vec3d{0, 3, 3});
+  camera.x = {1, 0, 0};
+  camera.y = cross(camera.z, camera.x);
+  camera.yfov = 0.8;
+  scene.cameras = {camera};
+  AreaLight light;
+  light.name = "panel";
+  if (round)
+    light.shape = Ellipse{{0.2, 1.5, 0}, {0.7, 0, 0}, {0, 0, 0.4}};
+  else
+    light.shape = Polygon{{{-0.5, 1.5, -0.4}, {0.9, 1.5, -0.4}, {0.9, 1.5, 0.4}, {-0.5, 1.5, 0.4}}, {}};
+  set_emission(light, lamp_profile(), {1, 0, 0}, {1, 0.5, 0.25});
+  scene.area_lights = {light};
+  return scene;
+}
+
+RenderOptions small(const std::string& method) {
+  RenderOptions options;
+  options.width = 40;
+  options.height = 24;
+  options.shadows = Shadows::off;
+  options.method = method;
+  return options;
+}
+
+TEST(ProfiledRender, DiffuseLightIsTheReferences) {
+  for (const bool round : {false, true}) {
+    const Scene scene = lit_floor(round, 0.5f, 0);
+    const RenderOptions options = small("auto");
+    const Picture picture = render(scene, options);
+    const CameraRays rays(scene.cameras[0], options.width, options.height);
+    Material lambert;
+    lambert.albedo = {0.6, 0.6, 0.6};
+    double worst = 0;
+    for (int y = 1; y < options.height; y += 5)
+      for (int x = 1; x < options.width; x += 5) {
+        const auto d = static_cast<Vec3d>(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const Vec3d p = scene.cameras[0].position - d * (scene.cameras[0].position.y / d.y);
+        if (std::max(std::fabs(p.x), std::fabs(p.z)) > 4) continue;
+        const RadianceResult want = radiance(scene.area_lights[0], {p, {0, 1, 0}, {0, 1, 0}}, lambert, {.method = Method::reference});
+        const Vec3f got = picture.at(x, y);
+        EXPECT_NEAR(got.y, got.x / 2, 1e-6f);
+        worst = std::max(worst, std::fabs(static_cast<double>(got.x) / want.radiance.x - 1));
+      }
+    std::printf("%s: worst %.2e\n", round ? "disk" : "rect", worst);
+    EXPECT_GT(worst, 0);
+    EXPECT_LT(worst, 3e-3);  // ProfiledLight.ErrorsAreMeasured
+  }
+}
+
+// Sheen, coat and a lobe of an extra each ask for their own mean.
+TEST(ProfiledRender, EveryLobeAgreesWithTheSampledPicture) {
+  Material phong;
+  phong.brdf = Brdf::phong;
+  phong.exponent = 20;
+  for (const int kind : {0, 1, 2, 3}) {
+    Scene scene = lit_floor(kind % 2 == 0, 0.35f, 1);
+    SurfaceMaterial& m = scene.materials[0];
+    if (kind == 1) m.sheen_color = {0.5f, 0.4f, 0.3f}, m.sheen_roughness = 0.5f;
+    if (kind == 2) m.clearcoat = 1, m.clearcoat_roughness = 0.2f;
+    if (kind == 3) m.specular_override = {phong};
+    const Picture ours = render(scene, small("auto"));
+    RenderOptions options = small("sampled");
+    options.spp = 512;
+    const Picture judged = render(scene, options);
+    double a = 0, b = 0, squares = 0, all = 0;
+    for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+      const double x = static_cast<double>(ours.pixels[i].x), y = static_cast<double>(judged.pixels[i].x);
+      a += x, b += y;
+      squares += (x - y) * (x - y), all += y * y;
+    }
+    std::printf("kind %d: mean %.5f, rms %.2e\n", kind, a / b, std::sqrt(squares / all));
+    EXPECT_NEAR(a / b, 1, 5e-3) << kind;  // of 960 pixels with a hundredth of noise each, and the lobes' own error
+    EXPECT_LT(std::sqrt(squares / all), 0.03) << kind;
+  }
+}
+
+TEST(ProfiledRender, TheCameraSeesTheEmission) {
+  Scene scene = lit_floor(false, 0.5f, 0);
+  SurfaceMaterial black;
+  black.base_color = {0, 0, 0, 1};
+  black.specular = black.metallic = 0;
+  black.emissive = static_cast<Vec3f>(scene.area_lights[0].radiance);
+  scene.materials.push_back(black);
+  Mesh mesh;
+  mesh.material = 1;
+  mesh.positions = {{-0.5f, 1.5f, -0.4f}, {0.9f, 1.5f, -0.4f}, {0.9f, 1.5f, 0.4f}, {-0.5f, 1.5f, 0.4f}};
+  mesh.normals.assign(4, {0, -1, 0});
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  mesh.triangle_lights = {0, 0};
+  mesh.is_light_shape = true;
+  scene.meshes.push_back(mesh);
+  Camera& camera = scene.cameras[0];
+  camera.position = {0.2, 0.2, 1};
+  camera.z = normalized(Vec3d{0, -1.3, 1});
+  camera.y = cross(camera.z, camera.x);
+  const RenderOptions options = small("auto");
+  const Vec3f seen = render(scene, options).at(20, 12);
+  const CameraRays rays(camera, options.width, options.height);
+  const Vec3d want = emitted_radiance(*scene.area_lights[0].emission, -normalized(static_cast<Vec3d>(rays.direction(20.5f, 12.5f))));
+  EXPECT_NEAR(seen.x, want.x, 1e-5 * want.x);
+  EXPECT_GT(std::fabs(want.x / scene.area_lights[0].radiance.x - 1), 0.01) << "not the mean";
+}
+
+}  // namespace
+}  // namespace steradian
