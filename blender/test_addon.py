@@ -5,31 +5,10 @@
 """
 import json
 import os
-import shutil
 import struct
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
 WIDTH, HEIGHT = 64, 36
-
-
-def outside(program):
-    if not shutil.which("blender"):
-        print("skipped: there is no Blender here (apt-get install blender python3-numpy)")
-        sys.exit(77)
-    with tempfile.TemporaryDirectory() as folder:
-        addons = Path(folder) / "scripts" / "addons"
-        addons.mkdir(parents=True)
-        shutil.copytree(HERE / "steradian", addons / "steradian_render", ignore=shutil.ignore_patterns("__pycache__"))
-        done = subprocess.run(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "-P", __file__, "--", folder],
-                              env={**os.environ, "BLENDER_USER_SCRIPTS": str(addons.parent), "STERADIAN_PROGRAM": program},
-                              capture_output=True, text=True)
-        print("\n".join(line for line in done.stdout.splitlines() if line.startswith("TEST")))
-        if done.returncode != 0:
-            sys.exit(done.stdout[-2000:] + done.stderr[-4000:])
 
 
 def inside(folder):
@@ -116,10 +95,13 @@ def inside(folder):
     ratio = sum(ours) / sum(cycles)
     print(f"TEST {patches} patches, mean {ratio:.4f} of Cycles")
     assert abs(ratio - 1) < 0.01
+    print("TEST done")
 
 
 if __name__ == "__main__":
     if "--" in sys.argv:
         inside(sys.argv[sys.argv.index("--") + 1])
     else:
-        outside(sys.argv[1])
+        import in_blender
+
+        in_blender.run(__file__, sys.argv[1], False, 600)

@@ -16,7 +16,7 @@ bl_info = {
 }
 
 from . import engine
-from .area_lights import Exporter as glTF2ExportUserExtension  # Blender's exporter looks for a class of this name in enabled add-ons
+from .export import Exporter as glTF2ExportUserExtension  # Blender's exporter looks for a class of this name in enabled add-ons
 
 
 def register():

@@ -1,21 +1,15 @@
 """The render engine: the scene goes to the program as glTF, the picture comes back as EXR."""
 
-import contextlib
 import os
-import shutil
-import subprocess
 import tempfile
 import threading
 import time
 
 import bpy
 
-
-def program():
-    """The path of `steradian`: of the add-on's preferences, of STERADIAN_PROGRAM, or of PATH."""
-    preferences = bpy.context.preferences.addons.get(__package__)
-    given = (preferences.preferences.program if preferences else "") or os.environ.get("STERADIAN_PROGRAM", "")
-    return bpy.path.abspath(given) if given else shutil.which("steradian")
+from . import program
+from .export import export
+from .viewport import Viewport
 
 
 def in_main_thread(work):
@@ -38,14 +32,6 @@ def in_main_thread(work):
     return result.get("value")
 
 
-def export(path):
-    """Writes what is rendered to a .glb. The exporter asks for an active object, which a render from a shell has only in a window."""
-    windows = bpy.context.window_manager.windows
-    with bpy.context.temp_override(window=windows[0]) if windows else contextlib.nullcontext():
-        bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", export_lights=True, export_cameras=True, use_renderable=True,
-                                  export_animations=False, export_apply=True)
-
-
 class Settings(bpy.types.PropertyGroup):
     """What the engine asks the program for."""
 
@@ -61,6 +47,8 @@ class Settings(bpy.types.PropertyGroup):
         name="Bounce", default="off",
         items=[("off", "Off", "Direct light alone"), ("ltc", "Virtual lights", "One bounce"), ("path", "Paths", "One bounce, by sampling")])
     aa: bpy.props.IntProperty(name="Anti-aliasing", description="Primary samples a pixel: they smooth outlines", default=4, min=1, max=4096)
+    viewport_pixel: bpy.props.IntProperty(name="Viewport pixel", description="Pixels of the screen a side for one of the viewport's render",
+                                          default=2, min=1, max=16)
 
 
 class Preferences(bpy.types.AddonPreferences):
@@ -84,47 +72,65 @@ class SteradianEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph):
         """Exports, runs the program, and takes its picture. Escape ends the program."""
-        path = program()
-        if not path:
+        if not program.path():
             self.error_set("the program steradian is not found: name it in the add-on's preferences")
             return
         scene = depsgraph.scene
         percentage = scene.render.resolution_percentage / 100
         width, height = int(scene.render.resolution_x * percentage), int(scene.render.resolution_y * percentage)
         with tempfile.TemporaryDirectory() as folder:
-            glb, picture, log = (os.path.join(folder, name) for name in ("scene.glb", "picture.exr", "log"))
+            glb, picture = (os.path.join(folder, name) for name in ("scene.glb", "picture.exr"))
             self.update_stats("", "exporting")
             in_main_thread(lambda: export(glb))
             settings = scene.steradian
-            command = [path, "render", glb, "-o", picture, "--size", f"{width}x{height}", "--method", settings.method, "--shadows",
-                       settings.shadows, "--indirect", settings.indirect, "--aa", str(settings.aa), "--light", "none"]
-            if not self.run(command, log):
+            if not self.run(program.render_command(glb, picture, width, height, settings, settings.aa)):
                 return
             result = self.begin_result(0, 0, width, height)
             result.layers[0].load_from_file(picture)
             self.end_result(result)
 
-    def run(self, command, log):
+    def run(self, command):
         """True where the program came to its end."""
         begin = time.monotonic()
-        with open(log, "w") as told:
-            process = subprocess.Popen(command, stdout=told, stderr=subprocess.STDOUT)
-            while process.poll() is None:
-                if self.test_break():
-                    process.terminate()
-                    process.wait()
-                    return False
-                self.update_stats("", f"rendering, {time.monotonic() - begin:.0f} s")
-                time.sleep(0.05)
-        with open(log) as told:
-            words = told.read().strip()
-        if process.returncode != 0:
-            self.error_set(words or f"the program ended with {process.returncode}")
+        run = program.Run(command)
+        while run.is_running():
+            if self.test_break():
+                run.stop()
+                return False
+            self.update_stats("", f"rendering, {time.monotonic() - begin:.0f} s")
+            share = run.share_done()
+            if share is not None:
+                self.update_progress(share)
+            time.sleep(0.05)
+        run.close()
+        if run.process.returncode != 0:
+            self.error_set("\n".join(run.lines()) or f"the program ended with {run.process.returncode}")
             return False
-        for line in words.splitlines():
+        for line in run.lines():
             if line.startswith("warning:"):
                 self.report({"WARNING"}, line[9:])
         return True
+
+    def view_update(self, context, depsgraph):
+        """The scene has changed, or the viewport is new."""
+        if getattr(self, "viewport", None) is None:
+            self.viewport = Viewport(self)
+        self.viewport.scene_has_changed()
+
+    def view_draw(self, context, depsgraph):
+        """Draws the last picture, and asks for the one of this view."""
+        region = context.region
+        self.viewport.look(context.region_data.view_matrix, context.region_data.window_matrix, region.width, region.height)
+        self.viewport.draw(self, depsgraph.scene, region.width, region.height)
+
+    def __del__(self):
+        """The viewport is closed, or shows something else."""
+        try:
+            viewport = getattr(self, "viewport", None)
+        except ReferenceError:  # Blender was first; the timer finds that out, too
+            return
+        if viewport is not None:
+            viewport.free()
 
 
 class SettingsPanel(bpy.types.Panel):
@@ -145,7 +151,7 @@ class SettingsPanel(bpy.types.Panel):
     def draw(self, context):
         """A row a setting."""
         self.layout.use_property_split = True
-        for name in ("method", "shadows", "indirect", "aa"):
+        for name in ("method", "shadows", "indirect", "aa", "viewport_pixel"):
             self.layout.prop(context.scene.steradian, name)
 
 
