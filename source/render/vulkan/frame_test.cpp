@@ -187,10 +187,10 @@ double resident_mib() {
 }
 
 // A leak of two kilobytes in each of a thousand frames would show. A software device's memory is the process's own.
-void expect_no_growth(SurfacesBy surfaces, int frames) {
-  const Scene scene = scene_of("glossy_floor");
+void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shadows shadows = Shadows::off) {
   RenderOptions options = small("ltc-compact");
   options.width = options.height = 32;
+  options.shadows = shadows;
   Frame frame(scene, options, nullptr, surfaces);
   for (int i = 0; i < 100; ++i) frame.render();
   const double before = resident_mib();
@@ -257,8 +257,9 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   }
   EXPECT_EQ(shadow_on_host(under_triangles(12), options), 0);
   options.method = "ltc-compact";
-  expect_same("30 triangles", under_triangles(30), options);
-  EXPECT_LE(shadow_on_host(under_triangles(30), options), 0.01);
+  // 120 edges: hardly less than a thread has space and turns of loops for.
+  expect_same("40 triangles", under_triangles(40), options);
+  EXPECT_LE(shadow_on_host(under_triangles(40), options), 0.001);
   expect_same("200 triangles", under_triangles(200), options);
   EXPECT_GE(shadow_on_host(under_triangles(200), options), 0.5);
   const Scene room = scene_of("room");
@@ -318,11 +319,14 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
       << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
 }
 
-TEST_F(VulkanFrame, AThousandFramesLeaveMemoryWhereItWas) { expect_no_growth(SurfacesBy::host, 1000); }
+TEST_F(VulkanFrame, AThousandFramesLeaveMemoryWhereItWas) {
+  expect_no_growth(scene_of("glossy_floor"), SurfacesBy::host, 1000);
+  expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on);
+}
 
 // Takes minutes: --gtest_also_run_disabled_tests.
 TEST_F(VulkanFrame, DISABLED_TenThousandFramesLeaveMemoryWhereItWas) {
-  for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device}) expect_no_growth(surfaces, 10000);
+  for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device}) expect_no_growth(scene_of("glossy_floor"), surfaces, 10000);
 }
 
 }  // namespace steradian::vulkan
