@@ -73,9 +73,12 @@ void take_piece(vec4 ends, int segment, int left) {
     ++piece_count;
 }
 
-// Software devices end a thread's loops after 65,535 turns in all, silently, and eight threads turn together: with a space of 128 segments
-// two turns for each pair are half of that, and this bound on the sorting of crossings keeps the rest from as much.
-const int kMostShiftTurns = 1000;
+// Software devices end a thread's loops after 65,535 turns in all, silently; eight threads turn together, and a loop that ends at once takes a
+// turn as well. With a space of 128 segments the pairs take half of them. These bounds on a thread's pairs that are looked at closely, and on
+// the sorting of crossings, keep all of it below 60,000.
+const int kMostCloseTurns = 600;
+const int kMostShiftTurns = 400;
+int close_turns;
 int shift_turns;
 
 // Crossings of one segment, in their order.
@@ -132,7 +135,10 @@ void cut_segment(int number, int base) {
             int fb = float_side(d, f.zw - e.xy);
             meets = ea * eb <= 0 && fa * fb <= 0;
         }
-        for (int turn = certain && !meets ? 1 : 0; turn < 1; turn++) {
+        bool close = meets || !certain;
+        if (close) ++close_turns;
+        too_much = too_much || close_turns > kMostCloseTurns;
+        for (int turn = close && !too_much ? 0 : 1; turn < 1; turn++) {
             if (!certain) count += left_ray(weight, end_above, is_left(side_of(f, shift_f, m, shift_m, 2)));
             if (!meets) break;
             Side ea = side_of(f, shift_f, e.xy, shift_e.xy, 1);
@@ -182,6 +188,7 @@ void cut_segments(int base) {
     piece_count = 0;
     level = 2147483647;
     too_many_pieces = false;
+    close_turns = 0;
     shift_turns = 0;
     for (int i = 0; i < segment_count; i++) cut_segment(i, base);
     too_much = too_much || too_many_pieces;

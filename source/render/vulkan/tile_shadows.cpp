@@ -12,7 +12,7 @@ namespace {
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdges = 2048, kMostIncidences = 1024;  // of a group: software devices end loops after 65,535 turns
+constexpr std::size_t kMostEdges = 1024, kMostIncidences = 1024;  // of a group: software devices end loops after 65,535 turns
 constexpr std::uint32_t kMostNumber = 1 << 27;                    // of a vertex or edge: names have 28 bits
 constexpr std::size_t kMostPlaces = 1 << 16;                      // of vertices and planes in a group
 
