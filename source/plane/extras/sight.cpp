@@ -102,9 +102,10 @@ class Seen {
     add_suns(envelope, begin, end, path);
   }
 
-  void add_light(const Visible& v, const Path& path) {
+  void add_light(const Visible& v, const Path& along) {
     const auto& light = body_of(v).light;
     if (!light) return;
+    const Path path = between(along, v.begin, v.end);
     const bool within = v.curve->body == start_.light;
     std::vector<double> cuts = cuts_of(v.begin, v.end, v.curve, path);
     if (!within && light->spot_half_angle > 0)
@@ -143,7 +144,8 @@ class Seen {
       }
   }
 
-  void add_sun(const PlaneSun& sun, double begin, double end, const Path& path) {
+  void add_sun(const PlaneSun& sun, double begin, double end, const Path& along) {
+    const Path path = between(along, begin, end);
     const auto far = [](Vec2d) { return std::numeric_limits<double>::infinity(); };
     add_cells(
         cuts_of(begin, end, nullptr, path), path, far, false,
@@ -168,6 +170,31 @@ class Seen {
     sum_.radiance += suns.radiance;
     sum_.moment_x += suns.moment_x;
     sum_.moment_y += suns.moment_y;
+  }
+
+  // A path with what may be met between two directions alone.
+  Path between(const Path& path, double begin, double end) const {
+    if (end - begin >= 0.5 * pi || (path.before.empty() && path.beyond.empty())) return path;
+    const Vec2d low = direction(begin), high = direction(end);
+    const auto met = [&](const Curves& curves, auto&& seen_at) {
+      Curves near;
+      int body = -1;
+      bool is_met = false;
+      for (const Curve* c : curves) {
+        if (c->body != body) {
+          body = c->body;
+          const Box& box = world_.boxes[static_cast<std::size_t>(body)];
+          const Vec2d to = seen_at((box.low + box.high) * 0.5) - path.eye;
+          const double reach = 0.5 * length(box.high - box.low) * (1 + 1e-9) + 1e-6;
+          is_met = cross(low, to) >= -reach && cross(high, to) <= reach && dot(low + high, to) >= -2 * reach;
+        }
+        if (is_met) near.push_back(c);
+      }
+      return near;
+    };
+    const auto itself = [](Vec2d p) { return p; };
+    if (path.mirror == nullptr) return {path.eye, nullptr, met(path.before, itself), {}};
+    return {path.eye, path.mirror, met(path.before, [&](Vec2d p) { return path.mirror->reflected(p); }), met(path.beyond, itself)};
   }
 
   static void add_cut(double angle, std::vector<double>& cuts) {
