@@ -8,18 +8,25 @@
 
 #define LAMBERT 0
 #define REPRESENTATIVE_POINT 1
-#define LTC_COMPACT 2
-#define CLOSED_FORM_DRAFT 3
-#define CLOSED_FORM 4
-#define CLOSED_FORM_HIGH 5
-#define ARVO 6
-#define LORENTZIAN 7
-#define PEARSON 8
-#define ELLIPSOID 9
-#define SERIES 10
-#define SERIES_HIGH 11
-#define PHONG_EXACT 12
-#define IS_GGX (METHOD >= REPRESENTATIVE_POINT && METHOD <= CLOSED_FORM_HIGH)
+#define LTC_CLIPLESS 2
+#define LTC_CLASSIC 3
+#define LTC_COMPACT 4
+#define CLOSED_FORM_DRAFT 5
+#define CLOSED_FORM 6
+#define CLOSED_FORM_HIGH 7
+#define HALF_VECTOR 8
+#define BLINN_PHONG 9
+#define BECKMANN 10
+#define ARVO 11
+#define LORENTZIAN 12
+#define PEARSON 13
+#define ELLIPSOID 14
+#define SERIES 15
+#define SERIES_HIGH 16
+#define PHONG_EXACT 17
+#define IS_GGX (METHOD >= REPRESENTATIVE_POINT && METHOD <= HALF_VECTOR)
+#define IS_LTC (METHOD >= LTC_CLIPLESS && METHOD <= LTC_COMPACT)
+#define IS_HALF_VECTOR (METHOD >= HALF_VECTOR && METHOD <= BECKMANN)
 #define IS_PHONG (METHOD >= ARVO)
 
 uniform sampler2D places;      // where the surface is; w: 1, 0 where there is none
@@ -31,6 +38,9 @@ uniform vec3 radiance;         // of the light
 uniform vec3 vertices[16];     // POLYGON: counter-clockwise as seen from its lit side; DISK: centre, x, y; BALL: centre; TUBE: its ends
 uniform int vertex_count;      // of POLYGON
 uniform float radius;          // of BALL and TUBE
+#if METHOD == LTC_CLIPLESS || METHOD == LTC_CLASSIC
+uniform sampler2D ltc_matrix, ltc_magnitude;  // tables/ggx_classic.h
+#endif
 out vec4 colour;
 
 // The light's outline in the shading frame: unit directions in walk order. A round light is a polygon about the lobe; its diffuse part is exact.
@@ -130,17 +140,106 @@ vec2 specular(vec3 view, float alpha) {
     float lobe = steradian_representative_radiance(walk, view, mirror, steradian_solid_angle_finish(solid, false), alpha, false);
     return vec2(lobe, lobe * steradian_fresnel_schlick(0.0, 1.0, steradian_representative_v_dot_h(walk, view, mirror, false)));
 }
-#elif METHOD == LTC_COMPACT
+#elif IS_LTC
+#if METHOD != LTC_COMPACT
+// Linear between entries, which stand on the table's ends.
+vec4 looked_up(sampler2D table, vec2 place) {
+    int last = textureSize(table, 0).x - 1;
+    vec2 at = clamp(place, 0.0, 1.0) * float(last);
+    ivec2 i = min(ivec2(at), ivec2(last - 1));
+    vec2 share = at - vec2(i);
+    vec4 low = mix(texelFetch(table, i, 0), texelFetch(table, i + ivec2(1, 0), 0), share.x);
+    vec4 high = mix(texelFetch(table, i + ivec2(0, 1), 0), texelFetch(table, i + ivec2(1, 1), 0), share.x);
+    return mix(low, high, share.y);
+}
+#endif
+
 vec2 specular(vec3 view, float alpha) {
     vec2 place = steradian_ltc_coordinates(sqrt(alpha), view.z);
+#if METHOD == LTC_COMPACT
     SteradianLtcMatrix m = steradian_ltc_from_compact(steradian_ltc_ggx_shape(place), alpha, view);
+    vec2 magnitude = steradian_ltc_ggx_magnitude(place);
+#else
+    SteradianLtcMatrix m = steradian_ltc_from_classic(looked_up(ltc_matrix, place));
+    vec2 magnitude = looked_up(ltc_magnitude, place).xy;
+#endif
     SteradianLtcWalk walk = steradian_ltc_begin();
+    vec3 whole = vec3(0.0);
     for (int i = 0; i < corner_count; i++) {
         vec3 a = corners[i];
         vec3 b = corners[i + 1 < corner_count ? i + 1 : 0];
-        walk = steradian_ltc_add_edge(walk, m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
+        vec3 ta = steradian_ltc_direction(m, a);
+        vec3 tb = steradian_ltc_direction(m, b);
+#if METHOD == LTC_CLIPLESS
+        whole = steradian_ltc_clipless_add_edge(whole, ta, tb);
+#else
+        walk = steradian_ltc_add_edge(walk, m, a, b, ta, tb);
+#endif
     }
-    return steradian_ltc_ggx_magnitude(place) * steradian_ltc_integral(walk, false);
+#if METHOD == LTC_CLIPLESS
+    return magnitude * steradian_ltc_clipless_integral(whole, false);
+#else
+    return magnitude * steradian_ltc_integral(walk, false);
+#endif
+}
+#elif IS_HALF_VECTOR
+const int kArcs = 4;
+const int kSliverNodes = 4;
+
+#if METHOD == HALF_VECTOR
+#define SUM vec3
+#else
+#define SUM float
+#endif
+
+// GGX with F = 1 and with F = (1 - v.h)^5; the others, which have no Fresnel, once.
+vec2 specular(vec3 view, float alpha) {
+    clip_at_horizon();
+#if METHOD == BLINN_PHONG
+    float n = max(2.0 / (alpha * alpha) - 2.0, 0.1);  // slopes as wide as alpha's
+#elif METHOD == BECKMANN
+    SteradianMomentSeriesHigh series = steradian_beckmann_series();
+#endif
+    SteradianGgxView ggx = steradian_ggx_view(view, alpha, alpha);
+    SUM sum = SUM(0.0);
+    for (int i = 0; i < edge_count; i++) {
+        SteradianConicArc edge = steradian_ggx_edge(ggx, edge_begins[i], edge_ends[i]);
+        if (!(edge.end > edge.begin)) continue;
+        float weight = steradian_half_vector_split_weight(edge);
+        SteradianConicNode first = steradian_half_vector_split_end(edge, edge.begin, weight);
+        vec3 p = steradian_half_vector_at(ggx, edge, edge.begin);
+        for (int j = 1; j <= kArcs; j++) {
+            float tau = j == kArcs ? edge.end : steradian_half_vector_split_pole_mapped(edge, float(j) / float(kArcs));
+            vec3 q = steradian_half_vector_at(ggx, edge, tau);
+            SteradianConicNode last = steradian_half_vector_split_end(edge, tau, weight);
+#if METHOD == HALF_VECTOR
+            sum += steradian_ggx_arc(ggx, p, q);
+#elif METHOD == BLINN_PHONG
+            sum += steradian_blinn_phong_arc(p, q, view, n);
+#else
+            sum += steradian_beckmann_arc(ggx, p, q, series);
+#endif
+            for (int k = 0; k < kSliverNodes; k++) {
+                SteradianHalfVectorNode node = steradian_half_vector_between(ggx, edge, first, last, p, q, steradian_gauss_legendre_node(kSliverNodes, k));
+#if METHOD == HALF_VECTOR
+                sum += steradian_ggx_at_half_vector(ggx, node.h) * node.solid_angle;
+#elif METHOD == BLINN_PHONG
+                sum += steradian_blinn_phong_at_half_vector(node.h, view, n) * node.solid_angle;
+#else
+                sum += steradian_beckmann_at_half_vector(ggx, node.h) * node.solid_angle;
+#endif
+            }
+            p = q;
+            first = last;
+        }
+    }
+#if METHOD == HALF_VECTOR
+    SteradianGgxCubature c = steradian_ggx_cubature_begin(ggx, sum, 1.0, 1.0);
+    for (int i = 0; i < edge_count; i++) c = steradian_ggx_cubature_edge(c, steradian_ggx_edge(ggx, edge_begins[i], edge_ends[i]), 0);
+    return steradian_ggx_cubature_finish(c);
+#else
+    return vec2(steradian_half_vector_radiance(ggx, sum, 1.0), 0.0);
+#endif
 }
 #elif IS_GGX
 vec2 specular(vec3 view, float alpha) {
@@ -214,6 +313,8 @@ void main() {
         vec2 part = specular(v, alpha);
         sum += f0 * (part.x - part.y) + part.y;
     }
+#elif IS_HALF_VECTOR
+    if (v.z > 0.0) sum += f0 * specular(v, alpha).x;
 #elif IS_PHONG
     if (v.z > 0.0) sum += f0 * phong(v, exponent);
 #endif

@@ -3,6 +3,10 @@
 
 Its parts: page.html, the topics of dist/es/ that the scene uses, the shader of the lights, and the scripts.
 """
+import base64
+import json
+import re
+import struct
 import sys
 from pathlib import Path
 
@@ -12,11 +16,22 @@ TOPICS = ("math", "polygon", "lobe", "round", "phong", "ltc", "ltc_tables", "ggx
 SCRIPTS = ("scene.js", "passes.js", "page.js")
 
 
+def classic_table():
+    """tables/ggx_classic.h as half floats."""
+    text = (ROOT / "tables" / "ggx_classic.h").read_text()
+    coded = {"size": int(re.search(r"ltc_ggx_size = (\d+)", text).group(1))}
+    for name in ("matrix", "magnitude"):
+        values = [float(x) for x in re.findall(r"[-+0-9.e]+(?=f)", re.search(rf"ltc_ggx_{name}\[\d+\] = \{{([^}}]*)\}}", text).group(1))]
+        assert len(values) == 4 * coded["size"] ** 2, name
+        coded[name] = base64.b64encode(struct.pack(f"<{len(values)}e", *values)).decode()
+    return f"const LTC_TABLE = {json.dumps(coded)};\n"
+
+
 def page():
     parts = {
         "@STERADIAN@": "\n" + "\n".join((ROOT / "dist" / "es" / f"{topic}.es.glsl").read_text() for topic in TOPICS),
         "@LIGHT@": "\n" + (HERE / "light.glsl").read_text(),
-        "@SCRIPTS@": "\n".join((HERE / name).read_text() for name in SCRIPTS),
+        "@SCRIPTS@": classic_table() + "\n".join((HERE / name).read_text() for name in SCRIPTS),
     }
     text = (HERE / "page.html").read_text()
     for mark, part in parts.items():

@@ -79,9 +79,21 @@ class Renderer {
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("this browser draws no floats (EXT_color_buffer_float)");
     // Lights add up in 32 bits where those blend, else in 16.
     this.sum_format = gl.getExtension("EXT_float_blend") ? gl.RGBA32F : gl.RGBA16F;
+    this.tables = { ltc_matrix: this.table(LTC_TABLE.matrix), ltc_magnitude: this.table(LTC_TABLE.magnitude) };
     this.programs = new Map();
     this.meshes = new Map();
     this.targets = new Map();
+  }
+
+  // A table of half floats, four an entry, as base64.
+  table(text) {
+    const gl = this.gl, bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), size = LTC_TABLE.size, texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, size, size);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, size, size, gl.RGBA, gl.HALF_FLOAT, new Uint16Array(bytes.buffer));
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+    return texture;
   }
 
   program(key, vertex, fragment) {
@@ -213,7 +225,7 @@ class Renderer {
     gl.blendFunc(gl.ONE, gl.ONE);
     for (const light of lights) {
       const p = this.light_program(method, light.kind);
-      this.bind(p, { places, normals, albedos, mirrors });
+      this.bind(p, { places, normals, albedos, mirrors, ...this.tables });
       gl.uniform3fv(p.at("eye"), eye);
       gl.uniform3fv(p.at("radiance"), light.radiance);
       gl.uniform3fv(p.at("vertices"), light.vertices.flat());
