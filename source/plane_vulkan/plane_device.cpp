@@ -11,6 +11,7 @@
 #include "plane/frame/event_walk.h"
 #include "plane/frame/frame.h"
 #include "plane_vulkan/listed_disks.h"
+#include "plane_vulkan/pair_words.h"
 #include "plane_vulkan/recorded_tiles.h"
 #include "plane_vulkan/shaders.h"
 #include "render/vulkan/compute_program.h"
@@ -38,24 +39,7 @@ constexpr std::size_t kBuffers = 5, kMostOfDispatch = 65535;  // groups along on
 
 static_assert(kPixels == kTilePixels);
 
-// A float, and what it leaves.
-struct Split {
-  float most, rest;
-  explicit Split(double x) : most(static_cast<float>(x)), rest(static_cast<float>(x - static_cast<double>(most))) {}
-};
-
 std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
-
-std::uint32_t bytes_of(unsigned a, unsigned b, unsigned c = 0, unsigned d = 0) { return a | b << 8 | c << 16 | d << 24; }
-
-void put_pair(std::uint32_t* to, const EventPair& pair) {
-  for (int line = 0; line < 6; ++line)
-    for (int i = 0; i < 3; ++i) to[line * 3 + i] = bits(pair.lines[line][i]);
-  to[kPairRadius] = bits(pair.radius);
-  to[kPairFirst] = static_cast<std::uint32_t>(pair.first);
-  to[kPairKind] = bytes_of(pair.kind == EventPair::Kind::round ? 1 : 0, pair.count);
-  to[kPairChain] = bytes_of(pair.end_first, pair.ends, pair.begin_first, pair.begins);
-}
 
 }  // namespace
 }  // namespace steradian::plane

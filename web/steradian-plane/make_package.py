@@ -11,7 +11,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-MODULES = ("plane_wasm", "wasm", "bodies", "picture", "index")  # each after those that it imports
+ROOT = HERE.parent.parent
+MODULES = ("plane_wasm", "plane_glsl", "wasm", "bodies", "gl_light", "picture", "index")  # each after those that it imports
 
 
 def build(folder):
@@ -29,6 +30,45 @@ def build(folder):
 def wasm_module(path):
     packed = base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
     return f'// The WebAssembly module, zipped, as base64. Made by make_package.py.\nexport const PLANE_WASM = "{packed}";\n'
+
+
+def included(path, seen):
+    """A shader's text with what it includes, each file once, without comments."""
+    path = path.resolve()
+    if path in seen:
+        return ""
+    seen.add(path)
+    text = re.sub(r"//[^\n]*", "", path.read_text())
+    return re.sub(r'^#include "([^"]*)"$', lambda m: included(path.parent / m[1], seen), text, flags=re.M)
+
+
+def closing(text, at):
+    """Where the bracket that opens before `at` closes."""
+    depth = 1
+    while depth:
+        depth += {"[": 1, "]": -1}.get(text[at], 0)
+        at += 1
+    return at
+
+
+def as_es(path, library):
+    """A shader of the back end's for Vulkan in GLSL ES 3.00: buffers become functions that read textures, kernels have the library's names."""
+    text = included(path, set())
+    for name in ("lists", "pairs", "masks", "vertices"):
+        while found := re.search(rf"\b{name}\[", text):
+            end = closing(text, found.end())
+            text = f"{text[:found.start()]}{name}_at(uint({text[found.end():end - 1]})){text[end:]}"
+    text = text.replace("findLSB(", "findLSB_of(")
+    text = re.sub(r"\b((?:plane|trig)_\w+)(?=\()", lambda m: "steradian_" + m[1] if f"steradian_{m[1]}(" in library else m[1], text)
+    return re.sub(r"\n\s*\n+", "\n", text).strip() + "\n"
+
+
+def glsl_module():
+    library = "".join(re.sub(r"//[^\n]*", "", (ROOT / "dist" / "es" / f"{topic}.es.glsl").read_text()) for topic in ("math", "plane"))
+    library = re.sub(r"\n\s*\n+", "\n", library)
+    texts = {"LIBRARY": library} | {re.sub(r"\W", "_", p.name).upper(): as_es(p, library) for p in sorted((HERE / "shaders").glob("*.*")) if p.suffix != ".glsl"}
+    assert not any("`" in t or "${" in t for t in texts.values())
+    return "// The shaders of pictures by WebGL2. Made by make_package.py.\n" + "".join(f"export const {name} = `{text}`;\n" for name, text in texts.items())
 
 
 def as_block(name, text):
@@ -55,8 +95,8 @@ def room(modules):
 
 def main():
     wasm, out = build(Path(sys.argv[1])), Path(sys.argv[2])
-    modules = {name: (HERE / "src" / f"{name}.js").read_text() for name in MODULES if name != "plane_wasm"}
-    modules["plane_wasm"] = wasm_module(wasm)
+    modules = {name: (HERE / "src" / f"{name}.js").read_text() for name in MODULES if not name.startswith("plane_")}
+    modules |= {"plane_wasm": wasm_module(wasm), "plane_glsl": glsl_module()}
     (out / "src").mkdir(parents=True, exist_ok=True)
     for name, text in modules.items():
         (out / "src" / f"{name}.js").write_text(text)

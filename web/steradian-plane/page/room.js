@@ -80,8 +80,9 @@ function redraw() {
 function draw() {
   // Bounces take a while: while something moves, light comes straight.
   const bounce = $("bounce").checked && !drag ? Infinity : 0;
-  plane.render(picture, { bounce, exposure: Number($("exposure").value), split: $("split").checked && !drag ? { at: 0.5, rays: 64 } : null });
-  const { lightMs, showMs, tiles, drawn } = plane.stats;
+  plane.render(picture, { method: $("method").value, bounce, exposure: Number($("exposure").value), split: $("split").checked && !drag ? { at: 0.5, rays: 64 } : null });
+  const { method, lightMs, showMs, tiles, drawn } = plane.stats;
+  $("by").textContent = { wasm: "WebAssembly", webgl2: "WebGL2" }[method];
   $("light-ms").textContent = `${lightMs.toFixed(1)} ms`;
   $("show-ms").textContent = `${showMs.toFixed(1)} ms`;
   $("tiles").textContent = `${drawn} of ${tiles} drawn anew`;
@@ -298,7 +299,7 @@ const setLight = () => {
   redraw();
 };
 for (const id of ["brightness", "range", "colour"]) $(id).oninput = setLight;
-for (const id of ["bounce", "exposure", "split"])
+for (const id of ["bounce", "exposure", "split", "method"])
   $(id).oninput = () => {
     showNumbers();
     redraw();

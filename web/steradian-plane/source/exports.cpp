@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "body_numbers.h"
+#include "gl_lists.h"
 #include "steradian/error.h"
 #include "steradian/plane.h"
 #include "steradian/plane_bounce.h"
@@ -49,6 +50,7 @@ struct Plane {
   int bounce_count = 0;
   int stage_width = 0, stage_height = 0;
   Picture picture;
+  GlLists gl;
   std::vector<double> numbers;
   std::vector<float> values;
   double tiles = 0, drawn = 0, error = 0;
@@ -245,6 +247,29 @@ EMSCRIPTEN_KEEPALIVE const float* plane_draw(Plane* p, int width, int height, in
     render_plane_into(p->picture, p->ready(), options);
     p->tiles = p->drawn = std::ceil(width / 16.0) * std::ceil(height / 16.0);
     return reinterpret_cast<const float*>(p->picture.pixels.data());
+  });
+}
+
+// What a picture by WebGL2 is made from (gl_lists.h): where lists, pairs, vertices and the base picture stand and how many words or numbers
+// they are; words of masks, disks; first job and number of jobs of the four kinds; 1 where no light is listed tile by tile.
+EMSCRIPTEN_KEEPALIVE const double* plane_gl_lists(Plane* p, int width, int height, int bounces, int room) {
+  return guarded(static_cast<const double*>(nullptr), [&] {
+    PlaneFrameOptions options = plane::frame_options(width, height);
+    p->error = 2e-5;
+    if (bounces != 0) {
+      options.bounces = &p->bounced(bounces);
+      p->error = std::max(p->error, options.bounces->stats().error);
+    }
+    plane::GlLists& gl = p->gl;
+    plane::make_gl_lists(gl, p->ready(), options, static_cast<std::size_t>(room));
+    p->tiles = p->drawn = std::ceil(width / 16.0) * std::ceil(height / 16.0);
+    const auto at = [](const auto& list) { return static_cast<double>(reinterpret_cast<std::uintptr_t>(list.data())); };
+    const auto count = [](std::size_t n) { return static_cast<double>(n); };
+    p->numbers = {at(gl.lists), count(gl.lists.size()), at(gl.pairs), count(gl.pairs.size()), at(gl.vertices), count(gl.vertices.size()),
+                  at(gl.base.pixels), count(3 * gl.base.pixels.size()), count(gl.mask_words), count(gl.disks)};
+    for (const plane::GlLists::Jobs& jobs : gl.jobs) p->numbers.insert(p->numbers.end(), {count(jobs.first), count(jobs.count)});
+    p->numbers.push_back(gl.all_on_device ? 1 : 0);
+    return static_cast<const double*>(p->numbers.data());
   });
 }
 

@@ -105,14 +105,14 @@ export class Plane {
   placeOf(x: number, y: number, width: number, height: number): Point;
   /** How far the last picture may be off, in shares of a light of radiance 1; of bounces, of the walls' mean radiance. */
   readonly error: number;
-  readonly stats: { lightMs: number; showMs: number; tiles: number; drawn: number };
+  readonly stats: { method: "wasm" | "webgl2"; lightMs: number; showMs: number; tiles: number; drawn: number };
   query(x: number, y: number, options?: { bounce?: number; rays?: number }): {
     radiance: [number, number, number];
     moment: { x: [number, number, number]; y: [number, number, number] };
   };
   render(
     canvas: HTMLCanvasElement | OffscreenCanvas,
-    options?: { method?: "auto" | "wasm"; bounce?: number; exposure?: number; tone?: "neutral" | "linear"; split?: { at?: number; rays?: number } | null },
+    options?: { method?: "auto" | "wasm" | "webgl2"; bounce?: number; exposure?: number; tone?: "neutral" | "linear"; split?: { at?: number; rays?: number } | null },
   ): void;
   light(width: number, height: number, options?: { bounce?: number; moments?: boolean; occluders?: "black" | "fill" | "clear"; aa?: number }): LightMap;
   toSVG(): string;

@@ -6,7 +6,7 @@ import { loadMachine, PlaneError } from "./wasm.js";
 
 export { PlaneError };
 
-const METHODS = ["auto", "wasm"];
+const METHODS = ["auto", "wasm", "webgl2"];
 
 /** One body of a scene. What is set is taken over at once; the next picture shows it. */
 class Body {
@@ -156,8 +156,8 @@ export class Plane {
     this.occluders = new Bodies(this, false);
     /** How far the last picture may be off, in shares of a light of radiance 1; of bounces, of the walls' mean radiance. */
     this.error = 0;
-    /** Of the last picture: milliseconds of light and of showing it, tiles of 16 x 16 pixels, those that were drawn again. */
-    this.stats = { lightMs: 0, showMs: 0, tiles: 0, drawn: 0 };
+    /** Of the last picture: by what, milliseconds of light and of showing it, tiles of 16 x 16 pixels, those that were drawn again. */
+    this.stats = { method: "wasm", lightMs: 0, showMs: 0, tiles: 0, drawn: 0 };
   }
 
   /** The part of the plane that pictures show. */
@@ -196,23 +196,38 @@ export class Plane {
   }
 
   /**
-   * Draws the light into a canvas, at its size in pixels. Without bounces, only tiles that may have changed are worked out again.
+   * Draws the light into a canvas, at its size in pixels. method: "wasm", of which, without bounces, only tiles that may have changed are worked
+   * out again; "webgl2", all of it by the GPU; "auto", by the GPU where there is one and round lights are all that shines.
    * exposure in stops; tone: the curve of the program's .png ("neutral") or "linear", clipped; split: { at, rays } shows, right of that share
    * of the width, what so many rays a pixel give.
    */
   render(canvas, { method = "auto", bounce = 0, exposure = 0, tone = "neutral", split = null } = {}) {
     if (!METHODS.includes(method)) throw new PlaneError("method", `there is no '${method}'`, `there are ${METHODS.join(", ")}`);
-    const { width, height } = canvas;
+    const { width, height } = canvas, count = bounces(bounce);
     const painter = painterOf(canvas);
+    if (method === "webgl2" && !painter.light)
+      throw new PlaneError("method", "webgl2 is not to be had on this canvas", "it wants WebGL2 with EXT_color_buffer_float and EXT_float_blend; use auto");
     const start = performance.now();
-    const draw = (rays) => this.machine.floats(this.machine.call("plane_draw", this.handle, size(width), size(height), bounces(bounce), rays), 3 * width * height);
+    const draw = (rays) => this.machine.floats(this.machine.call("plane_draw", this.handle, size(width), size(height), count, rays), 3 * width * height);
     if (split) painter.take(1, draw(whole(split.rays ?? 64, "split.rays", 1, 4096)), width, height);
-    painter.take(0, draw(0), width, height);
-    const lit = performance.now();
+    const byGpu = method === "webgl2" || (method === "auto" && painter.light && painter.isFast && count === 0 && this.#roundLights());
+    const lit = byGpu ? this.#byGpu(painter.light, size(width), size(height), count) : null;
+    if (lit) painter.show(0, lit);
+    else painter.take(0, draw(0), width, height);
+    const done = performance.now();
     const [, , , , tiles, drawn, error] = this.#facts();
     painter.paint({ exposure, tone, split: split ? split.at ?? 0.5 : 1 });
     this.error = error;
-    this.stats = { lightMs: lit - start, showMs: performance.now() - lit, tiles, drawn };
+    this.stats = { method: lit ? "webgl2" : "wasm", lightMs: done - start, showMs: performance.now() - done, tiles, drawn };
+  }
+
+  /** A texture, or null where a pixel is more than the shaders can do. */
+  #byGpu(light, width, height, count) {
+    const at = this.machine.call("plane_gl_lists", this.handle, width, height, count, light.room);
+    return light.draw(this.machine, Array.from(this.machine.doubles(at, 19)), width, height);
+  }
+  #roundLights() {
+    return [...this.lights].every((l) => l.shape === "ellipse" && l.profile === "uniform");
   }
 
   /**

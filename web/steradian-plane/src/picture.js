@@ -1,5 +1,6 @@
 // Radiance on a canvas: by WebGL2, which tone maps on the GPU, or, where there is none, by a 2D canvas.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+import { GlLight } from "./gl_light.js";
 
 const painters = new WeakMap();
 
@@ -52,6 +53,7 @@ void main() {
 class WebGLPainter {
   constructor(gl) {
     this.gl = gl;
+    this.light = GlLight.of(gl);
     gl.canvas.addEventListener("webglcontextlost", () => (this.lost = true), { once: true });
     const program = gl.createProgram();
     for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
@@ -63,6 +65,7 @@ class WebGLPainter {
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
     this.at = Object.fromEntries(["left", "right", "scale", "split", "linear"].map((name) => [name, gl.getUniformLocation(program, name)]));
+    this.program = program;
     this.textures = [0, 1].map((unit) => {
       const texture = gl.createTexture();
       gl.activeTexture(gl.TEXTURE0 + unit);
@@ -76,9 +79,21 @@ class WebGLPainter {
     gl.uniform1i(this.at.right, 1);
   }
 
+  /** Does the machine have a GPU of its own, rather than a program in the place of one? */
+  get isFast() {
+    const names = this.gl.getExtension("WEBGL_debug_renderer_info");
+    return !/swiftshader|llvmpipe|software|basic render/i.test(this.gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : this.gl.RENDERER));
+  }
+
+  /** A picture that is there as a texture. */
+  show(unit, texture) {
+    this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
+  }
+
   take(unit, values, width, height) {
     const gl = this.gl, t = this.textures[unit];
-    gl.activeTexture(gl.TEXTURE0 + unit);
+    this.show(unit, t.texture);
     if (t.width === width && t.height === height) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, height, gl.RGB, gl.FLOAT, values);
     else gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB32F, width, height, 0, gl.RGB, gl.FLOAT, values);
     Object.assign(t, { width, height });
@@ -86,6 +101,7 @@ class WebGLPainter {
 
   paint({ exposure, tone, split }) {
     const gl = this.gl;
+    gl.useProgram(this.program);
     gl.viewport(0, 0, gl.canvas.width, gl.canvas.height);
     gl.uniform1f(this.at.scale, 2 ** exposure);
     gl.uniform1f(this.at.split, split * gl.canvas.width);

@@ -106,7 +106,10 @@ class Machine {
   floats(at, count) {
     return new Float32Array(this.exports.memory.buffer, at, count);
   }
+  words(at, count) {
+    return new Uint32Array(this.exports.memory.buffer, at, count);
+  }
 }
 
 // Those whose null means that they failed.
-const POINTERS = new Set(["plane_from_svg", "plane_empty", "plane_body", "plane_body_name", "plane_query", "plane_draw", "plane_light", "plane_svg"]);
+const POINTERS = new Set(["plane_from_svg", "plane_empty", "plane_body", "plane_body_name", "plane_query", "plane_draw", "plane_gl_lists", "plane_light", "plane_svg"]);

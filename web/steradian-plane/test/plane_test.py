@@ -157,6 +157,44 @@ def check_page(package, chromium):
     print(f"screenshot: {picture}")
 
 
+# All kinds of light that shaders have, among all kinds of blockers.
+MIXED = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 160"><defs><linearGradient id="g"><stop offset="0" stop-color="#ff4020"/>
+<stop offset="1" stop-color="#2060ff"/></linearGradient></defs>
+<ellipse class="light" cx="60" cy="40" rx="16" ry="7" fill="#fff0d0" data-intensity="3"/>
+<rect class="light" x="180" y="30" width="30" height="12" fill="url(#g)" data-intensity="4" data-range="150"/>
+<path class="light" d="M20 130 Q60 110 90 140" fill="none" stroke="#80ffc0" data-intensity="2" data-profile="lambert"/>
+<circle class="light" cx="200" cy="120" r="8" fill="#ffe080" data-intensity="6" data-spot="-160 40"/>
+<circle class="light" cx="120" cy="20" r="5" fill="#ffffff" data-intensity="3"/>
+<g fill="#a09080"><path d="M100 60 l30 -6 l4 30 l-20 14 z"/><circle cx="150" cy="110" r="12"/><ellipse cx="60" cy="90" rx="14" ry="6"/>
+<path d="M30 70 h26 v4 h-26 z M150 60 l14 10 l-10 14 l-14 -10 z"/><path d="M118 26 l10 6 l-4 6 z"/></g>
+<path d="M90 120 l20 20" fill="none" stroke="#000" stroke-width="4" stroke-linecap="round"/></svg>"""
+
+
+def check_gl(package, chromium):
+    """The same pictures by WebGL2 and by WebAssembly, in floats."""
+    scenes = [[s, (ROOT / "scenes" / "plane" / f"{s}.svg").read_text(), 0] for s in (*SCENES, "carousel")] + [["mixed", MIXED, 0], ["mixed, bounced", MIXED, 2]]
+    page = SCRATCH / "gl.html"
+
+    def visited(address):
+        values = json.dumps(scenes).replace("</", "<\\/")
+        script = f'<script type="module">const ANSWER_TO = "{address}";\nconst SCENES = {values};\n{(HERE / "gl_visitor.js").read_text()}</script>'
+        page.write_text((package / "room.html").read_text().replace("</html>", script + "</html>"))
+        return page.as_uri()
+
+    found = json.loads(browser.answer_of(chromium, visited, timeout=600))
+    assert "failed" not in found[0], found[0]["failed"]
+    if found[0]["method"] is None:
+        print("WebGL2 was not tried: this Chromium cannot add up floats")
+        return
+    for f in found:
+        values = 3 * f["width"] * f["height"]
+        print(f"WebGL2, {f['name']}, {f['width']} x {f['height']}: {f['beyond']} of {values} values off by more than {FRAME}, at most {f['worst']:.1e}; "
+              f"{f['gpuMs']:.0f} ms by a program in the GPU's place, {f['wasmMs']:.0f} ms by WebAssembly")
+        assert f["method"] == "webgl2" and f["lit"] > 0.05, f
+        # A pixel that stands on a line of no thickness is on either side of it.
+        assert f["beyond"] <= 3 + values / 10000, f
+
+
 def frame_times(package):
     """Of the room, by the machine's clock: the page's own stands still while it works."""
     script = f"""
@@ -194,6 +232,7 @@ def main():
         print("the page was not tried: there is no Chromium here (apt-get install chromium)")
         return
     check_page(package, chromium)
+    check_gl(package, chromium)
 
 
 if __name__ == "__main__":

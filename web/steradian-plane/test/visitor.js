@@ -67,6 +67,12 @@ try {
   await nextFrame(() => byId("split").click());
   look("half by rays");
   await nextFrame(() => byId("split").click());
+  let copied = "";
+  Object.defineProperty(navigator, "clipboard", { value: { writeText: async (text) => (copied = text) }, configurable: true });
+  byId("copy").click();
+  await until(() => copied !== "");
+  if (copied !== plane.toSVG()) throw new Error("what is copied is not the scene");
+  if (!/^[0-9.]+ ms$/.test(byId("light-ms").textContent)) throw new Error(`the page gives ${byId("light-ms").textContent} as a frame's time`);
 } catch (e) {
   results.push({ what: "failed", problem: e.stack });
 }
