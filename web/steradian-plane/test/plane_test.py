@@ -18,7 +18,7 @@ sys.path.insert(0, str(PACKAGE.parent))
 sys.dont_write_bytecode = True
 import browser  # noqa: E402
 
-PROGRAM, SCRATCH = sys.argv[1], Path(sys.argv[2])
+PROGRAM, SCRATCH = sys.argv[1], Path(sys.argv[2]).resolve()
 SCENES = ["room", "lamps", "city", "bounce"]
 BEHIND = [0, 0, 0.003253776, 0.009677733, 0.015683592, 0.002307676]  # disk of radius 1 behind a square: the open angle over 2 pi
 FRAME = 2e-5  # a frame of a page may be off by this from the query, times what arrives where that is more than 1: as frames of the program

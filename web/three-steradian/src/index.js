@@ -155,7 +155,7 @@ uniform vec3 steradianRadiances[ ${lights.radiances.value.length} ];
 
 }
 
-/** Drop-in for RectAreaLightUniformsLib: three's own shader, with tables of GGX that follow its shadowing and Fresnel closer. */
+/** Drop-in for RectAreaLightUniformsLib: three's own shader, with tables that are fitted to its whole formula. */
 export class SteradianRectAreaLightUniformsLib {
 
 	static init() {

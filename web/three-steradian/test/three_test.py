@@ -20,6 +20,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PACKAGE.parent))
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(PACKAGE))
 import browser  # noqa: E402
 
 THREE = "three@0.187.0"
@@ -35,6 +36,8 @@ def skip(why):
 try:
     import numpy as np
     import steradian
+    import fit_tables
+    import rect_formula
 except ImportError as e:
     skip(f"the Python module is not built: {e}")
 
@@ -162,7 +165,7 @@ CASES = [  # name, lights, material, roughness
     ("panel on velvet", [PANEL, BALL], VELVET, 0.6),
     ("panel on brushed metal", [PANEL], BRUSHED, 0.4),
 ]
-WITH_THREE_S_OWN = ("panel on gold", "half below, gold")
+WITH_THREE_S_OWN = ("panel on gold", "half below, gold", "panel on plastic")  # half the error is asked of the first two
 # Of each method: how far the mean may be off, and by how much of white the pixels that are not among the best 99.5 %.
 BOUNDS = {"closed-form": (0.005, 2 / 255), "compact": (0.03, 0.06)}
 
@@ -247,6 +250,38 @@ def check_example(chromium, url, picture):
     assert 1 < float(theirs.group(1)) < 100
 
 
+def arrays_of(text, *names):
+    """Of three's RectAreaLightTexturesLib.js."""
+    return [np.array([float(x.replace(" ", "")) for x in re.search(rf"{n} = \[(.*?)\]", text, re.DOTALL).group(1).split(",")]).reshape(64, 64, 4) for n in names]
+
+
+def our_tables():
+    text = (PACKAGE / "src" / "tables.js").read_text()
+    coded = lambda name, each: np.frombuffer(base64.b64decode(re.search(rf"{name} = '([^']*)'", text).group(1)), "<f2").astype(float).reshape(64, 64, each)
+    return coded("MATRIX", 4), coded("MAGNITUDE", 2)
+
+
+def check_tables(three, count=1500):
+    """three's formula with its tables and with ours, under lights, roughnesses and views that were not fitted to."""
+    rng = np.random.default_rng(7)
+    lights, roughness, cosine = fit_tables.random_lights(count, 8), rng.uniform(0.06, 1, count), 1 - rng.uniform(0, 0.95, count) ** 2
+    corners, wanted = [], []
+    for i in range(count):
+        one = fit_tables.corners_of({k: v[i:i + 1] for k, v in lights.items()}, cosine[i], roughness[i] ** 2)
+        corners.append(one[0])
+        wanted.append(fit_tables.sent(one, cosine[i], roughness[i] ** 2)[0])
+    corners, wanted = np.stack(corners), np.stack(wanted)
+    cut = corners[..., 2].min(1) < 0
+    theirs = arrays_of((three / "examples" / "jsm" / "lights" / "RectAreaLightTexturesLib.js").read_text(), "LTC_MAT_1", "LTC_MAT_2")
+    off = {}
+    for name, tables in (("three's", theirs), ("ours", our_tables())):
+        got = np.stack([rect_formula.radiance(corners, roughness, cosine, tables, f0) for f0 in (fit_tables.METAL, fit_tables.PLASTIC)], -1)
+        off[name] = [np.sqrt(((got - wanted)[k] ** 2).sum(0) / (wanted[k] ** 2).sum(0)) for k in (slice(None), cut)]
+        print(f"{count} lights that were not fitted to, {name}: relative rms {off[name][0][0]:.4f} on metal, {off[name][0][1]:.4f} on plastic's lobe; "
+              f"of the {cut.sum()} that the horizon cuts {off[name][1][0]:.4f}, {off[name][1][1]:.4f}")
+    return off["ours"][0][0] < 0.6 * off["three's"][0][0]
+
+
 def main():
     chromium = browser.find()
     if chromium is None:
@@ -258,7 +293,7 @@ def main():
         assert page_words(chromium, f"http://127.0.0.1:{server.server_address[1]}/snippet/{i}.html") == "snippet"
     print(f"README.md: {len(snippets())} pieces run")
     check_example(chromium, f"http://127.0.0.1:{server.server_address[1]}/package/example/index.html", Path(sys.argv[1]) / "example.png")
-    eye, failed, errors = [0, 1.6, 2.6], False, {}
+    eye, failed, errors = [0, 1.6, 2.6], not check_tables(three), {}
     for name, lights, material, roughness in CASES:
         want = judged(lights, material, roughness, eye)
         white = np.quantile(want, 0.999)
@@ -272,14 +307,15 @@ def main():
         for method, got in zip(methods, browser_pixels(chromium, server.server_address[1], case)):
             off = np.abs(got - want).max(axis=-1) / white
             mean, rms = got.mean() / want.mean(), np.sqrt(((got - want) ** 2).mean()) / np.sqrt((want ** 2).mean())
-            errors.setdefault(method, []).append(rms)
+            if name in WITH_THREE_S_OWN[:2]:
+                errors.setdefault(method, []).append(rms)
             print(f"{name}, roughness {roughness}, {method}: mean ratio {mean:.4f}, relative rms {rms:.4f}, "
                   f"99.5 % of the pixels within {np.quantile(off, 0.995):.4f} of white", flush=True)
             if method in BOUNDS:
                 failed = failed or abs(mean - 1) > BOUNDS[method][0] or not np.quantile(off, 0.995) < BOUNDS[method][1]
     ours, theirs = np.mean(errors["tables"]), np.mean(errors["three"])
     print(f"relative rms of RectAreaLight: {theirs:.4f} with three's tables, {ours:.4f} with ours")
-    failed = failed or ours > theirs
+    failed = failed or ours > theirs / 2
     sys.exit(bool(failed))
 
 
