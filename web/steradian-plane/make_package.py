@@ -63,10 +63,29 @@ def as_es(path, library):
     return re.sub(r"\n\s*\n+", "\n", text).strip() + "\n"
 
 
+def needed(library, texts):
+    """What texts ask for of a library's definitions, and those of each other, in their order."""
+    pieces, depth, piece = [], 0, ""
+    for line in library.splitlines(keepends=True):
+        piece += line
+        depth += line.count("{") - line.count("}")
+        if depth == 0 and line.rstrip().endswith(("}", ";")):
+            pieces.append(piece)
+            piece = ""
+    names = lambda text: set(re.findall(r"\b[sS]teradian\w+", text))
+    defines = [set(re.findall(r"\b[sS]teradian\w+", p.split("(")[0].split("{")[0].split("=")[0])[-1:]) for p in pieces]
+    wanted, kept = set().union(*map(names, texts)), set()
+    while more := {i for i, d in enumerate(defines) if d & wanted} - kept:
+        kept |= more
+        wanted |= set().union(*(names(pieces[i]) for i in more))
+    return "".join(pieces[i] for i in sorted(kept))
+
+
 def glsl_module():
     library = "".join(re.sub(r"//[^\n]*", "", (ROOT / "dist" / "es" / f"{topic}.es.glsl").read_text()) for topic in ("math", "plane"))
     library = re.sub(r"\n\s*\n+", "\n", library)
-    texts = {"LIBRARY": library} | {re.sub(r"\W", "_", p.name).upper(): as_es(p, library) for p in sorted((HERE / "shaders").glob("*.*")) if p.suffix != ".glsl"}
+    texts = {re.sub(r"\W", "_", p.name).upper(): as_es(p, library) for p in sorted((HERE / "shaders").glob("*.*")) if p.suffix != ".glsl"}
+    texts["LIBRARY"] = needed(library, texts.values())
     assert not any("`" in t or "${" in t for t in texts.values())
     return "// The shaders of pictures by WebGL2. Made by make_package.py.\n" + "".join(f"export const {name} = `{text}`;\n" for name, text in texts.items())
 

@@ -85,7 +85,7 @@ function draw() {
   $("by").textContent = { wasm: "WebAssembly", webgl2: "WebGL2" }[method];
   $("light-ms").textContent = `${lightMs.toFixed(1)} ms`;
   $("show-ms").textContent = `${showMs.toFixed(1)} ms`;
-  $("tiles").textContent = `${drawn} of ${tiles} drawn anew`;
+  $("tiles").textContent = `${drawn} of ${tiles} anew`;
   $("pixels").textContent = `${picture.width} x ${picture.height}`;
   $("error").textContent = plane.error.toExponential(1);
   drawMarks();
