@@ -191,7 +191,10 @@ def main():
             worst = max(worst, difference)
             square += sum((radiance[4 * pixel + c] - value[c]) ** 2 for c in range(3))
             sum_ += sum(v * v for v in value)
-        print(f"{name} {more}: {off} of {len(want)} pixels off by more than 2/255, at most {worst:.1f}; relative rms {math.sqrt(square / sum_):.1e}; {seconds:.1f} s", flush=True)
+        rms = math.sqrt(square / sum_)
+        print(f"{name} {more}: {off} of {len(want)} pixels off by more than 2/255, at most {worst:.1f}; relative rms {rms:.1e}; {seconds:.1f} s", flush=True)
+        # Round lights have other corners in eval; else what is largest is the rounding of a table in half floats, 5e-4.
+        failed = failed or (more.get("lights") == FLAT["lights"] and rms > 1e-3)
         failed = failed or off > len(want) / 1000 or len(want) < WIDTH * HEIGHT / 4
         if answer["error"] is not None:
             print(f"the page says of {name}: {answer['error']:.4f} rms off the best")

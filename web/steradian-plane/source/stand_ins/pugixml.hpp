@@ -26,6 +26,7 @@ class xml_attribute {
   explicit operator bool() const { return a_ != nullptr; }
   const char* name() const { return a_ == nullptr ? "" : a_->name(); }
   const char* value() const { return a_ == nullptr ? "" : a_->value(); }
+  const char* as_string(const char* otherwise = "") const { return a_ == nullptr ? otherwise : a_->value(); }
   const rapidxml::xml_attribute<>* raw() const { return a_; }
 
  private:
