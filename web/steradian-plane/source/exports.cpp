@@ -265,8 +265,11 @@ EMSCRIPTEN_KEEPALIVE const double* plane_gl_lists(Plane* p, int width, int heigh
     p->tiles = p->drawn = std::ceil(width / 16.0) * std::ceil(height / 16.0);
     const auto at = [](const auto& list) { return static_cast<double>(reinterpret_cast<std::uintptr_t>(list.data())); };
     const auto count = [](std::size_t n) { return static_cast<double>(n); };
-    p->numbers = {at(gl.lists), count(gl.lists.size()), at(gl.pairs), count(gl.pairs.size()), at(gl.vertices), count(gl.vertices.size()),
-                  at(gl.base.pixels), count(3 * gl.base.pixels.size()), count(gl.mask_words), count(gl.disks)};
+    p->numbers = {at(gl.lists),         count(gl.lists.size()),
+                  at(gl.pairs),         count(gl.pairs.size()),
+                  at(gl.vertices),      count(gl.vertices.size()),
+                  at(gl.base.pixels),   count(3 * gl.base.pixels.size()),
+                  count(gl.mask_words), count(gl.disks)};
     for (const plane::GlLists::Jobs& jobs : gl.jobs) p->numbers.insert(p->numbers.end(), {count(jobs.first), count(jobs.count)});
     p->numbers.push_back(gl.all_on_device ? 1 : 0);
     return static_cast<const double*>(p->numbers.data());
