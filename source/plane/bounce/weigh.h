@@ -125,7 +125,7 @@ void weigh(const World& world, const Elements& elements, const Visible& piece, V
     const auto [low, high] = weights.shares();
     const auto of_curve = elements.all().begin();
     const auto at = std::partition_point(of_curve + static_cast<std::ptrdiff_t>(first), of_curve + static_cast<std::ptrdiff_t>(last),
-                                         [low](const Element& e) { return e.to <= low; });
+                                         [low = low](const Element& e) { return e.to <= low; });
     for (auto k = static_cast<std::size_t>(at - of_curve); k < last && elements.all()[k].from < high; ++k) {
       const Element& e = elements.all()[k];
       weights.add(e.from, e.to, [&](double w0, double w1) { f(k, w0, w1); });
