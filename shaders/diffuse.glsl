@@ -4,15 +4,27 @@
 vec3 polygon_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     PolygonWalk walk = polygon_begin();
     int count = outline_length(light);
-    int i = 0;
-    vec3 previous = vec3(0.0);
+    int i = 1;
+    vec3 previous = outline_place(light, frame, p, 0).direction;
     do {
         Place place = outline_place(light, frame, p, i);
-        walk = polygon_add_edge(walk, place.joined ? previous : place.direction, place.direction);
+        vec3 from = place.joined ? previous : place.direction;
+        if (UNCUT)
+            walk.edges += polygon_edge(from, place.direction);
+        else
+            walk = polygon_add_edge(walk, from, place.direction);
         previous = place.direction;
         ++i;
     } while (i < count);
     return polygon_irradiance_vector(walk, seen.reversed);
+}
+
+// As ellipse_irradiance_vector of an ellipse that is all above the horizon.
+vec3 whole_ellipse_vector(Ellipse front) {
+    Ellipse back = front;
+    back.axis_a = -front.axis_a;
+    back.axis_b = -front.axis_b;
+    return conic_vector(ellipse_arc(front, -1.0, 1.0)) + conic_vector(ellipse_arc(back, -1.0, 1.0));
 }
 
 // Irradiance vector of radiance 1 in the frame; its z is the irradiance, in [0, pi].
@@ -28,6 +40,8 @@ vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
         e = capsule_irradiance_vector(capsule_in(light, frame, p));
     } else if (BALLS) {
         e = capsule_irradiance_vector(capsule_between(light.r[2].xyz, light.r[2].xyz, light.r[2].w, frame, p));
+    } else if (UNCUT) {
+        e = whole_ellipse_vector(ellipse_in(light, frame, p));
     } else {
         e = ellipse_irradiance_vector(ellipse_in(light, frame, p));
     }

@@ -23,6 +23,7 @@ layout(constant_id = 12) const int ARC_SPACE = 34;
 layout(constant_id = 13) const int MATRIX_SIZE = 2;
 layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
 layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something hides the lights from some points, or a part of them
+layout(constant_id = 16) const int UNCUT_LIGHTS = 0;       // 1: every point sees each light whole, above its horizon, from the lit side
 const bool CAREFUL = CAREFUL_LIGHTS == 1;
 const bool CHUNKED = CHUNKED_EDGES == 1;
 const bool FRESNEL_TABLE = FRESNEL_LOBE == 1;
@@ -30,6 +31,7 @@ const bool BALLS = ONLY_BALLS == 1;
 const bool COMPACT = COMPACT_TABLE == 1;
 const bool TOGETHER = WITH_DIFFUSE == 1;
 const bool SHADOWED = SHADOWED_LIGHTS == 1;
+const bool UNCUT = UNCUT_LIGHTS == 1;
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer surfaces;
@@ -72,14 +74,18 @@ PunctualIncident punctual_at(Light light, vec3 p) {
 #include "specular.glsl"
 #endif
 
+// The groups of a square lie below each other, those of two squares side by side in turn.
+uint group_of_square(uint square, uint row) { return (square / 2u * uint(kGroupsOfSquare) + row) * 2u + square % 2u; }
+
 vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (int(tile) * kPlanes + plane) * kSlots + int(slot)); }
 
 void main() {
     uint entry = (first_entry + gl_WorkGroupID.y) * uint(kEntry);
-    uint tile = lists[entry];
+    uint square = lists[entry];
     uint first = lists[entry + 1u];
     uint count = lists[entry + 2u];
-    uint slot = gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocationID.x;
+    uint tile = square / uint(kSquares);
+    uint slot = group_of_square(square % uint(kSquares), gl_WorkGroupID.x) * uint(kGroup) + gl_LocalInvocationID.x;
 
     vec4 position = surface_at(tile, kPosition, slot);
     vec4 normal = surface_at(tile, kNormal, slot);

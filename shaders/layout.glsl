@@ -24,12 +24,16 @@ const int kEllipsoid = 2;
 const int kCapsule = 3;
 const int kPunctual = 4;
 
-// An entry of the lists: tile, where its lights' numbers begin, how many there are.
+// An entry of the lists: square, where its lights' numbers begin, how many there are.
 const int kEntry = 3;
 
 // Threads of a work group, and the groups that a tile makes.
 const int kGroup = 64;
 const int kGroupsOfTile = 16;
+
+// A tile's squares of 16 x 16 pixels: each has lists of its own. Number of the tile times kSquares, then row by row.
+const int kSquares = 4;
+const int kGroupsOfSquare = 4;  // kGroupsOfTile / kSquares
 
 // Radiance: kSlots vectors a tile, then kBounds for each of its groups: low and high corner of the box of positions, and of normals;
 // beside the first, as a sum, what is among them.

@@ -63,7 +63,7 @@ Capsule capsule_in(Light light, mat3 frame, vec3 p) {
 Seen see(Light light, vec3 p) {
     Seen seen;
     seen.reversed = false;
-    if (by_pieces()) {
+    if (UNCUT || KIND == kPunctual || by_pieces()) {
         seen.lit = true;
     } else if (KIND == kPolygon || KIND == kDisk) {
         float height = dot(p - light.r[2].xyz, light.r[1].xyz);
@@ -72,10 +72,8 @@ Seen see(Light light, vec3 p) {
         if (KIND == kPolygon) seen.reversed = behind;  // a disk's outline is walked as it is seen
     } else if (KIND == kEllipsoid) {
         seen.lit = round_outline(light, p).outside;
-    } else if (KIND == kCapsule) {
-        seen.lit = capsule_in(light, mat3(1.0), p).outside;
     } else {
-        seen.lit = true;
+        seen.lit = capsule_in(light, mat3(1.0), p).outside;
     }
     return seen;
 }

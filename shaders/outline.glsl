@@ -26,7 +26,7 @@ void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
     }
 }
 
-// Places of a walk: at those that are not joined, a contour begins.
+// Places of a walk: at those that are not joined, a contour begins. The first is one of them.
 int outline_length(Light light) {
     if (by_pieces()) return part.places;
     if (KIND == kPolygon) return int(light.r[2].w);
@@ -88,10 +88,10 @@ struct ClippedWalk {
     bool more;
 };
 
-ClippedWalk clipped_walk_begin() {
+ClippedWalk clipped_walk_begin(Light light, mat3 frame, vec3 p) {
     ClippedWalk walk;
-    walk.next = 0;
-    walk.previous = vec3(0.0);
+    walk.next = 1;
+    walk.previous = outline_place(light, frame, p, 0).direction;
     walk.clip = horizon_clip_begin();
     walk.more = true;
     return walk;
@@ -106,15 +106,22 @@ ClippedWalk fill_edges(ClippedWalk walk, Light light, Seen seen, mat3 frame, vec
     int count = outline_length(light);
     do {
         Place place = outline_place(light, frame, p, walk.next);
-        walk.clip = horizon_clip_edge(walk.clip, place.joined ? walk.previous : place.direction, place.direction);
-        add_edge(walk.clip.start, walk.clip.end);
-        add_arc_of_horizon(walk.clip, facing);
+        vec3 from = place.joined ? walk.previous : place.direction;
+        if (UNCUT) {
+            add_edge(from, place.direction);
+        } else {
+            walk.clip = horizon_clip_edge(walk.clip, from, place.direction);
+            add_edge(walk.clip.start, walk.clip.end);
+            add_arc_of_horizon(walk.clip, facing);
+        }
         walk.previous = place.direction;
         ++walk.next;
     } while (walk.next < count && (!CHUNKED || edge_count + 2 * kMostEdgesOfPlace <= EDGE_SPACE));
     if (walk.next >= count) {
-        walk.clip = horizon_clip_finish(walk.clip);
-        add_arc_of_horizon(walk.clip, facing);
+        if (!UNCUT) {
+            walk.clip = horizon_clip_finish(walk.clip);
+            add_arc_of_horizon(walk.clip, facing);
+        }
         walk.more = false;
     }
     return walk;

@@ -7,7 +7,7 @@ float sheen_over_outline(Light light, Seen seen, mat3 frame, vec3 p, CharlieLobe
     vec3 e = vec3(0.0);
     CharlieCubature c = charlie_cubature_begin(lobe, e, facing);
     for (int turn = 0; turn < 2; turn++) {
-        ClippedWalk walk = clipped_walk_begin();
+        ClippedWalk walk = clipped_walk_begin(light, frame, p);
         do {
             if (CHUNKED || turn == 0) walk = fill_edges(walk, light, seen, frame, p);
             for (int i = 0; i < edge_count; i++) {

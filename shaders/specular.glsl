@@ -55,15 +55,21 @@ LtcAnswer ltc_walked(Light light, Seen seen, mat3 frame, vec3 p, LtcMatrix m) {
     PolygonWalk diffuse = polygon_begin();
     LtcWalk walk = ltc_begin();
     int count = outline_length(light);
-    int i = 0;
-    vec3 previous = vec3(0.0);
-    vec3 previous_under = vec3(0.0);
+    int i = 1;
+    vec3 previous = outline_place(light, frame, p, 0).direction;
+    vec3 previous_under = ltc_direction(m, previous);
     do {
         Place place = outline_place(light, frame, p, i);
         vec3 under = ltc_direction(m, place.direction);
         vec3 from = place.joined ? previous : place.direction;
-        if (TOGETHER) diffuse = polygon_add_edge(diffuse, from, place.direction);
-        walk = ltc_add_edge(walk, m, from, place.direction, place.joined ? previous_under : under, under);
+        vec3 from_under = place.joined ? previous_under : under;
+        if (UNCUT) {
+            if (TOGETHER) diffuse.edges += polygon_edge(from, place.direction);
+            walk.lobe = polygon_add_edge(walk.lobe, from_under, under);
+        } else {
+            if (TOGETHER) diffuse = polygon_add_edge(diffuse, from, place.direction);
+            walk = ltc_add_edge(walk, m, from, place.direction, from_under, under);
+        }
         previous = place.direction;
         previous_under = under;
         ++i;
@@ -118,17 +124,42 @@ vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView 
 #if LOBE == LOBE_CLOSED_FORM
 ConicArc arcs[ARC_SPACE];
 
+// Of a light that nothing cuts, whose edges are the outline's own.
+vec2 closed_form_uncut(Light light, mat3 frame, vec3 p, GgxView view, int extra_nodes) {
+    int count = outline_length(light) - 1;
+    vec3 previous = outline_place(light, frame, p, 0).direction;
+    vec3 e = vec3(0.0);
+    int i = 0;
+    do {
+        Place place = outline_place(light, frame, p, i + 1);
+        ConicArc arc = ggx_edge(view, place.joined ? previous : place.direction, place.direction);
+        e += conic_vector(arc);
+        if (QUALITY > 0) arcs[i] = arc;
+        previous = place.direction;
+        ++i;
+    } while (i < count);
+    if (QUALITY == 0) return ggx_draft(view, e, 1.0, 1.0);
+    GgxCubature c = ggx_cubature_begin(view, e, 1.0, 1.0);
+    i = 0;
+    do {
+        c = ggx_cubature_edge(c, arcs[i], extra_nodes);
+        ++i;
+    } while (i < count);
+    return ggx_cubature_finish(c);
+}
+
 // Two walks over the edges: of their vectors' sum, and of the cubature about it. Edges that have no space together are walked
 // afresh the second time.
 vec2 closed_form(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
     float facing = seen.reversed ? -1.0 : 1.0;
     int extra_nodes = QUALITY == 2 ? 2 : 0;
+    if (UNCUT && !CHUNKED) return closed_form_uncut(light, frame, p, view, extra_nodes);
     vec3 e = vec3(0.0);
-    ClippedWalk walk = clipped_walk_begin();
+    ClippedWalk walk = clipped_walk_begin(light, frame, p);
     if (CHUNKED) {
         GgxCubature c = ggx_cubature_begin(view, e, 1.0, facing);
         for (int turn = 0; turn < 2; turn++) {
-            walk = clipped_walk_begin();
+            walk = clipped_walk_begin(light, frame, p);
             while (walk.more) {
                 walk = fill_edges(walk, light, seen, frame, p);
                 for (int i = 0; i < edge_count; i++) {
@@ -160,7 +191,7 @@ vec2 representative_point(Light light, Seen seen, mat3 frame, vec3 p, vec3 view,
     vec3 mirror = phong_mirror(view);
     RepresentativeWalk nearest = representative_begin();
     SolidAngleWalk solid_angle = solid_angle_begin(vec3(0.0, 0.0, 1.0));
-    ClippedWalk walk = clipped_walk_begin();
+    ClippedWalk walk = clipped_walk_begin(light, frame, p);
     do {
         walk = fill_edges(walk, light, seen, frame, p);
         for (int i = 0; i < edge_count; i++) {

@@ -35,8 +35,11 @@ STORAGE_BUFFER, UNIFORM = 12, 2
 # whose body is one; no loop: the whole.
 PIPELINES = [
     ("diffuse", "a polygon", {0: 0, 5: 0}, "a pixel and a light", 0),
+    ("diffuse", "a polygon, seen whole", {0: 0, 5: 0, 16: 1}, "a pixel and a light", 0),
     ("ltc", "a polygon, compact table", {0: 0, 1: 1, 2: 1, 5: 0, 11: 4, 13: 64, 14: 32}, "a pixel and a light", 0),
+    ("ltc", "a polygon, compact table, seen whole", {0: 0, 1: 1, 2: 1, 5: 0, 11: 4, 13: 64, 14: 32, 16: 1}, "a pixel and a light", 0),
     ("closed_form", "a polygon", {0: 0, 5: 0, 11: 4, 12: 4}, "a pixel and a light", 0),
+    ("closed_form", "a polygon, seen whole", {0: 0, 5: 0, 11: 4, 12: 4, 16: 1}, "a pixel and a light", 0),
     ("representative_point", "a polygon", {0: 0, 5: 0, 11: 4}, "a pixel and a light", 0),
     ("sheen", "a polygon", {0: 0, 5: 0}, "a pixel and a light", 0),
     ("phong", "series", {0: 4, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),

@@ -5,6 +5,7 @@
 
 #include "integrals/ltc/textured_light.h"
 #include "integrals/profiled_light.h"
+#include "render/cpu/light_bounds.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -38,62 +39,6 @@ bool has_extent(const packed::Ellipsoid& light) { return is_finite(light.inverse
 bool has_extent(const packed::Capsule& light) { return light.radius > 0; }
 bool has_extent(const packed::Punctual&) { return true; }
 bool has_extent(const packed::Pieces&) { return true; }
-
-struct Interval {
-  float low = INFINITY, high = -INFINITY;
-  void add(float x) {
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-};
-
-struct Box {
-  Interval x, y, z;
-  void add(Vec3f v) {
-    x.add(v.x);
-    y.add(v.y);
-    z.add(v.z);
-  }
-};
-
-// Largest product of two numbers from two intervals.
-float largest_product(Interval a, Interval b) { return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
-
-// Largest height of the vertex v above the horizon of any surface of the tile.
-float largest_height(Vec3f v, const Box& positions, const Box& normals) {
-  const auto along = [](float c, Interval p, Interval n) { return largest_product({c - p.high, c - p.low}, n); };
-  return along(v.x, positions.x, normals.x) + along(v.y, positions.y, normals.y) + along(v.z, positions.z, normals.z);
-}
-
-// Distance range of the box from a plane.
-Interval heights(const Box& box, Vec3f normal, Vec3f point) {
-  Interval h;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3f p{(i & 1) != 0 ? box.x.high : box.x.low, (i & 2) != 0 ? box.y.high : box.y.low, (i & 4) != 0 ? box.z.high : box.z.low};
-    h.add(dot(p - point, normal));
-  }
-  return h;
-}
-
-bool faces(const auto& flat, const Box& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
-bool faces(const packed::Ellipsoid&, const Box&) { return true; }
-bool faces(const packed::Capsule&, const Box&) { return true; }
-bool faces(const packed::Punctual&, const Box&) { return true; }
-bool faces(const packed::Pieces&, const Box&) { return true; }
-
-bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
-  if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
-      punctual != nullptr && punctual->kind == PunctualKind::directional) {
-    const Interval zero{0, 0};
-    return largest_height(-static_cast<Vec3f>(punctual->direction), {zero, zero, zero}, normals) > 0;
-  }
-  return std::visit(
-      [&](const auto& shape) {
-        return faces(shape, positions) &&
-               shape.any_bound([&](Vec3f point, float radius) { return largest_height(point, positions, normals) > -radius; });
-      },
-      light.shape);
-}
 
 // Where an edge passes the ball, if points of the ball see it under nearly half a turn.
 std::optional<Vec3d> foot_on_long_edge(Vec3d a, Vec3d b, Vec3d center, double radius) {
@@ -169,27 +114,18 @@ std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light,
 }
 
 ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceTile& tile) {
-  Box positions, normals;
-  for (std::size_t i = 0; i < kTilePixels; ++i) {
-    if (tile.material[i] == nullptr) continue;
-    positions.add({tile.position.x[i], tile.position.y[i], tile.position.z[i]});
-    normals.add({tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
-    if (tile.coat[i] > 0) normals.add({tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]});
-  }
-  const auto low = [](const Box& b) { return Vec3f{b.x.low, b.y.low, b.z.low}; };
-  const auto high = [](const Box& b) { return Vec3f{b.x.high, b.y.high, b.z.high}; };
-  return lights_reaching(lights, {low(positions), high(positions), low(normals), high(normals)});
+  SurfaceBounds bounds;
+  add(bounds, tile, 0, kTilePixels);
+  return lights_reaching(lights, bounds);
 }
 
 ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceBounds& surfaces) {
-  const auto box = [](Vec3f low, Vec3f high) { return Box{{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}; };
-  const Box positions = box(surfaces.low, surfaces.high), normals = box(surfaces.normal_low, surfaces.normal_high);
   ReachingLights result;
   result.low = surfaces.low;
   result.high = surfaces.high;
   const auto low = static_cast<Vec3d>(result.low), high = static_cast<Vec3d>(result.high);
   for (const PackLight* light : lights) {
-    if (!reaches(*light, positions, normals)) continue;
+    if (!reaches(*light, surfaces)) continue;
     result.lights.push_back(light);
     if (!light->is_polygon()) continue;
     std::optional<packed::Polygon> cut = with_long_edges_cut(light->polygon, (low + high) / 2, length(high - low) / 2);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "render/cpu/light_bounds.h"
 #include "render/cpu/ltc_points.h"
 #include "render/vulkan/shaders.h"
 #include "scene/table_file.h"
@@ -18,6 +19,8 @@ constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan p
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr int kCornersNearRim = 32;
 constexpr int kMostEdges = 48;  // kept by a thread; longer outlines are walked in pieces
+constexpr float kPushed =
+    3.25f;  // how much farther from its centre than itself a round light's corners may be (ellipse_pushed_corner: 2.25)
 
 constexpr auto bytes_of_planes(int planes) {
   return static_cast<std::size_t>(planes) * static_cast<std::size_t>(kSlots) * sizeof(Vec4Floats);
@@ -86,7 +89,7 @@ struct DirectLight::Pass {
 // The lists of a batch: for each pipeline, tiles with their lights.
 struct DirectLight::Work {
   struct Entry {
-    std::uint32_t tile, count;
+    std::uint32_t square, count;
     std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states
   };
   struct Key {
@@ -172,12 +175,12 @@ void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
 }
 
 // As SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
-bool DirectLight::brings_diffuse(const Tile& tile, const PackLight& light) const {
-  return is_ltc() && tile.any_specular && tile.any_diffuse && light.is_polygon();
+bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) const {
+  return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon();
 }
 
 // Whether some point of a box may see the light as small, or be near its rim; others spare the shaders both.
-bool DirectLight::is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass, bool shadowed) const {
+bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
   const float along_edges = pass.over_lobe() ? 2000.0f : 4000.0f;
   const bool arcs = pass.over_lobe() ? pass.shader == kClosedForm : light.kind != kPolygon;
@@ -186,12 +189,15 @@ bool DirectLight::is_careful(const LightRecord& light, const ReachingLights& whe
   return d.farthest > light.deviation2 * (arcs ? 500.0f : along_edges) || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
-std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful,
+std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                                const Tile::Shadowed* shadowed) const {
-  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->places / 2 + 2) > kMostEdges : light.edges > most_edges_;
+  // Of a polygon that nothing cuts the edges are its own, half of those and none of the arcs (light_records.cpp).
+  const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
+  const int most = std::max(own(most_edges_), 1);
+  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->places / 2 + 2) > kMostEdges : own(light.edges) > most;
   const bool fine = method_.quality == Quality::high && (pass.shader == kClosedForm || pass.shader == kRepresentativePoint);
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
-  const int edges = light.kind == kPolygon ? (chunked || shadowed != nullptr ? kMostEdges : most_edges_) : space + 2;
+  const int edges = light.kind == kPolygon ? (chunked || shadowed != nullptr ? kMostEdges : most) : space + 2;
   const int arcs = pass.shader == kClosedForm && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
@@ -209,30 +215,67 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           specular ? arcs : 1,
           matrix_size_,
           magnitude_size_,
-          shadowed != nullptr ? 1 : 0};
+          shadowed != nullptr ? 1 : 0,
+          whole ? 1 : 0};
+}
+
+void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) {
+  constexpr auto kGroupSlots = static_cast<std::size_t>(kGroup);
+  const auto any = [](const TileVector& v, std::size_t first) {
+    const auto some = [&](const TilePlane& p) { return std::any_of(&p[first], &p[first] + kGroupSlots, [](float x) { return x > 0; }); };
+    return some(v.x) || some(v.y) || some(v.z);
+  };
+  for (std::size_t group = 0; group < static_cast<std::size_t>(kGroupsOfTile); ++group) {
+    Square& square = tile.squares[square_of_group(group)];
+    const std::size_t first = group * kGroupSlots;
+    add(square.bounds, surfaces, first, kGroupSlots);
+    square.any_diffuse |= surfaces.any_diffuse && any(surfaces.albedo, first);
+    square.any_specular |= surfaces.any_specular && (any(surfaces.f0, first) || any(surfaces.f90, first));
+    square.any_sheen |= surfaces.any_sheen && any(surfaces.sheen, first);
+    square.any_coat |=
+        surfaces.any_coat && std::any_of(&surfaces.coat[first], &surfaces.coat[first] + kGroupSlots, [](float c) { return c > 0; });
+  }
+}
+
+bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
+  return std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& cut) { return cut.get() == &light; });
+}
+
+void DirectLight::list_lights(Tile& tile) {
+  for (Square& square : tile.squares) {
+    if (!any_surface(square.bounds)) continue;
+    for (const PackLight* light : tile.lights.lights) {
+      if (!reaches(*light, square.bounds)) continue;
+      square.lights.push_back({light, is_cut(tile, *light), sees_whole(*light, square.bounds), sees_whole(*light, square.bounds, kPushed)});
+    }
+  }
 }
 
 std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
   return cut ? records_.add(light) : static_cast<std::uint32_t>(light.index);
 }
 
-void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass) {
-  for (const PackLight* light : tile.lights.lights) list(work, place, tile, pass, *light, nullptr);
-  for (const Tile::Shadowed& shadowed : tile.shadowed) list(work, place, tile, pass, *shadowed.light, &shadowed);
+void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass) {
+  for (const Square::Listed& listed : square.lights) list(work, place, square, pass, listed, nullptr);
+  for (const Tile::Shadowed& shadowed : tile.shadowed)
+    if (reaches(*shadowed.light, square.bounds))
+      list(work, place, square, pass, {shadowed.light, is_cut(tile, *shadowed.light), false, false}, &shadowed);
 }
 
-void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass, const PackLight& light,
+void DirectLight::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
                        const Tile::Shadowed* shadowed) {
-  const bool together = brings_diffuse(tile, light);
+  const bool together = brings_diffuse(square, *listed.light);
   if (pass.shader == kDiffuse && together) return;
   Pass own = pass;
   own.with_diffuse = together && pass.shader == kLtc && !pass.coat;
-  const bool cut = std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& c) { return c.get() == &light; });
-  const std::uint32_t number = number_of(light, cut);
+  const std::uint32_t number = number_of(*listed.light, listed.cut_for_tile);
   const LightRecord& record = records_.lights[number];
-  Work::Group& group = work.groups[{own.shader, choices(record, own, is_careful(record, tile.lights, own, shadowed != nullptr), shadowed)}];
+  // Tubes' and balls' irradiance is the same formula either way.
+  const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
+  const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
+  Work::Group& group = work.groups[{own.shader, choices(record, own, careful, whole, shadowed)}];
   group.name = own.name();
-  if (group.entries.empty() || group.entries.back().tile != place) group.entries.push_back({place, 0, {}});
+  if (group.entries.empty() || group.entries.back().square != place) group.entries.push_back({place, 0, {}});
   ++group.entries.back().count;
   std::vector<std::uint32_t>& numbers = group.entries.back().lights;
   numbers.push_back(number);
@@ -242,12 +285,15 @@ void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const 
 void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
   records_.keep(scene_lights_, scene_vertices_);
   Work work;
-  for (auto place = static_cast<std::uint32_t>(first_tile); place < end; ++place) {
-    const Tile& tile = tiles[place];
-    if (tile.any_diffuse) list(work, place, tile, {});
-    if (tile.any_specular) list(work, place, tile, {specular_shader_});
-    if (tile.any_sheen) list(work, place, tile, {kCharlie});
-    if (tile.any_coat) list(work, place, tile, {specular_shader_, true});
+  for (std::size_t i = first_tile; i < end; ++i) {
+    for (std::size_t s = 0; s < tiles[i].squares.size(); ++s) {
+      const Square& square = tiles[i].squares[s];
+      const auto place = static_cast<std::uint32_t>(i * tiles[i].squares.size() + s);
+      if (square.any_diffuse) list(work, place, tiles[i], square, {});
+      if (square.any_specular) list(work, place, tiles[i], square, {specular_shader_});
+      if (square.any_sheen) list(work, place, tiles[i], square, {kCharlie});
+      if (square.any_coat) list(work, place, tiles[i], square, {specular_shader_, true});
+    }
   }
   if (work.groups.empty()) return;
 
@@ -257,10 +303,10 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   for (const auto& [key, group] : work.groups) count += group.entries.size();
   const std::size_t after_entries = count * static_cast<std::size_t>(kEntry);
   for (const auto& [key, group] : work.groups) {
-    dispatches.push_back({program_.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfTile),
+    dispatches.push_back({program_.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
                           static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
     for (const Work::Entry& entry : group.entries) {
-      entries.insert(entries.end(), {entry.tile, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count});
+      entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
     }
   }

@@ -1,6 +1,7 @@
 // Direct light on a device: batches of tiles, whose surfaces the host writes, lit by compute shaders (shaders/direct.glsl).
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -34,11 +35,21 @@ class DirectLight {
   Buffer& surfaces() { return *surfaces_; }
   Buffer& radiance() { return *radiance_; }
 
-  // What of a tile the passes go by.
+  // What the passes go by: of each of a tile's squares of 16 x 16 pixels its surfaces and the lights that reach them.
+  struct Square {
+    SurfaceBounds bounds;
+    bool any_diffuse = false, any_specular = false, any_sheen = false, any_coat = false;
+    struct Listed {
+      const PackLight* light;
+      bool cut_for_tile;        // see ReachingLights::cut
+      bool whole, whole_about;  // seen whole; and so are the corners that stand for a round light about a lobe
+    };
+    std::vector<Listed> lights;
+  };
   struct Tile {
     ReachingLights lights;
-    bool any_diffuse = false, any_specular = false, any_sheen = false, any_coat = false;
-    // Beside those: lights that something hides from some points, or a part of them.
+    std::array<Square, 4> squares;
+    // Beside those of the squares: lights that something hides from some points, or a part of them.
     struct Shadowed {
       const PackLight* light;
       std::uint32_t states;  // where those of the tile begin
@@ -46,6 +57,11 @@ class DirectLight {
     };
     std::vector<Shadowed> shadowed;
   };
+  // The squares' surfaces, from the tile's.
+  static void find_squares(const SurfaceTile& surfaces, Tile& tile);
+  static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
+  // The squares' lights, from the tile's.
+  static void list_lights(Tile& tile);
   // Adds the light of the lists to what some of the tiles had as radiance. states, parts: of the shadowed lights (Shadows), where there
   // are any.
   void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Buffer* states = nullptr,
@@ -59,11 +75,14 @@ class DirectLight {
  private:
   struct Pass;
   struct Work;
-  bool brings_diffuse(const Tile& tile, const PackLight& light) const;
-  void list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass);
-  void list(Work& work, std::uint32_t place, const Tile& tile, const Pass& pass, const PackLight& light, const Tile::Shadowed* shadowed);
-  bool is_careful(const LightRecord& light, const ReachingLights& where, const Pass& pass, bool shadowed) const;
-  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, const Tile::Shadowed* shadowed) const;
+  static bool is_cut(const Tile& tile, const PackLight& light);
+  bool brings_diffuse(const Square& square, const PackLight& light) const;
+  void list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass);
+  void list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
+            const Tile::Shadowed* shadowed);
+  bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
+  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
+                                    const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
   Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const;
   bool is_ltc() const;

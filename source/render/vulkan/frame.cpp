@@ -12,6 +12,7 @@
 
 #include "core/float_mode.h"
 #include "render/cpu/frame_surfaces.h"
+#include "render/cpu/light_bounds.h"
 #include "render/cpu/methods.h"
 #include "render/cpu/tile_lighting.h"
 #include "render/indirect/pipeline.h"
@@ -146,10 +147,10 @@ struct Frame::Parts {
       surfaces.add_environment(tile);
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
       light_on_host(tile, tiles[i].lights.lights, shadowed[i]);
-      tiles[i].any_diffuse = tile.any_diffuse;
-      tiles[i].any_specular = tile.any_specular;
-      tiles[i].any_sheen = tile.any_sheen;
-      tiles[i].any_coat = tile.any_coat;
+      lists_clock.run([&] {
+        DirectLight::find_squares(tile, tiles[i]);
+        DirectLight::list_lights(tiles[i]);
+      });
       upload_clock.run([&] { direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
@@ -224,9 +225,11 @@ struct Frame::Parts {
     std::vector<DirectLight::Tile> tiles(count);
     each(count, [&](std::size_t i) {
       lists_clock.run([&] {
-        const RasterSurfaces::Found found = RasterSurfaces::found(direct.radiance(), i);
-        if (found.any_surface)
-          tiles[i] = {lights_reaching(light_pointers, found.bounds), found.any_diffuse, found.any_specular, false, false, {}};
+        RasterSurfaces::find_squares(direct.radiance(), i, tiles[i]);
+        SurfaceBounds all;
+        for (const DirectLight::Square& square : tiles[i].squares) add(all, square.bounds);
+        if (any_surface(all)) tiles[i].lights = lights_reaching(light_pointers, all);
+        DirectLight::list_lights(tiles[i]);
       });
     });
     device_clock.run([&] { direct.run(tiles); });

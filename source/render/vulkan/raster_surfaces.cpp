@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "render/cpu/light_bounds.h"
 #include "render/cpu/tile.h"
 #include "render/vulkan/shaders.h"
 
@@ -16,9 +17,6 @@ using Vec4Floats = std::array<float, 4>;
 
 constexpr std::size_t kTexels = 5, kBuffers = 3;  // as bound in find
 constexpr auto kBytesOfView = static_cast<std::size_t>(kViewVectors) * sizeof(Vec4Floats);
-
-Vec3f low_of(Vec3f a, Vec3f b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3f high_of(Vec3f a, Vec3f b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 }  // namespace
 
@@ -58,24 +56,17 @@ void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& r
   if (!ms.empty()) times_["surfaces"] += ms.front();
 }
 
-RasterSurfaces::Found RasterSurfaces::found(const Buffer& radiance, std::size_t place) {
+void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile) {
   const auto* bounds = static_cast<const Vec4Floats*>(radiance.mapped()) + place * static_cast<std::size_t>(kRadiance) + kSlots;
-  Found all;
-  int kinds = 0;
   const auto vector = [](const Vec4Floats& v) { return Vec3f{v[0], v[1], v[2]}; };
-  for (int group = 0; group < kGroupsOfTile; ++group, bounds += kBounds) {
-    const int here = static_cast<int>(bounds[0][3]);
-    if (here == 0) continue;
-    kinds |= here;
-    all.bounds.low = low_of(all.bounds.low, vector(bounds[0]));
-    all.bounds.high = high_of(all.bounds.high, vector(bounds[1]));
-    all.bounds.normal_low = low_of(all.bounds.normal_low, vector(bounds[2]));
-    all.bounds.normal_high = high_of(all.bounds.normal_high, vector(bounds[3]));
+  for (std::size_t group = 0; group < static_cast<std::size_t>(kGroupsOfTile); ++group, bounds += kBounds) {
+    const int kinds = static_cast<int>(bounds[0][3]);
+    if (kinds == 0) continue;
+    DirectLight::Square& square = tile.squares[DirectLight::square_of_group(group)];
+    add(square.bounds, {vector(bounds[0]), vector(bounds[1]), vector(bounds[2]), vector(bounds[3])});
+    square.any_diffuse |= (kinds & kAnyDiffuse) != 0;
+    square.any_specular |= (kinds & kAnySpecular) != 0;
   }
-  all.any_surface = (kinds & kAnySurface) != 0;
-  all.any_diffuse = (kinds & kAnyDiffuse) != 0;
-  all.any_specular = (kinds & kAnySpecular) != 0;
-  return all;
 }
 
 }  // namespace steradian::vulkan

@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "render/cpu/light_list.h"
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/direct_light.h"
 #include "render/vulkan/visibility.h"
 #include "steradian/render.h"
 
@@ -21,12 +21,8 @@ class RasterSurfaces {
   // Writes the surfaces of some tiles, and what they emit, as DirectLight reads them.
   void find(int first_tile, int count, Buffer& surfaces, Buffer& radiance);
 
-  // What there is in a tile that was found, by its place among them.
-  struct Found {
-    SurfaceBounds bounds;
-    bool any_surface = false, any_diffuse = false, any_specular = false;
-  };
-  static Found found(const Buffer& radiance, std::size_t place);
+  // What there is in the squares of a tile that was found, by its place among them.
+  static void find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile);
 
   // Milliseconds on the device so far, by pass; empty where it does not tell.
   const std::map<std::string, double>& times() const { return times_; }
