@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "program.h"
+#include "render/vulkan/device.h"
 #include "steradian/picture.h"
 
 namespace steradian {
@@ -111,6 +112,43 @@ TEST_F(Program, RenderOfAPlaneByFramesMovesWhatTheEditsSay) {
   EXPECT_NE(run({"render", svg, "-o", pattern, "--frames", "0..3", "--edits", edits}).err.find("nobody"), std::string::npos);
   EXPECT_NE(run({"render", svg, "-o", folder / "one.exr", "--frames", "0..3"}).status, 0);
   EXPECT_NE(run({"render", svg, "-o", pattern, "--frames", "3..0"}).status, 0);
+}
+
+TEST_F(Program, RenderOfAPlaneByFramesOnADeviceDrawsTheCpusFrames) {
+  if (vulkan::list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const std::string svg = folder / "scene.svg", edits = folder / "edits.json";
+  std::ofstream(edits) << R"([{"frames": [1, 4], "id": "lamp", "move": [2, 0]}])";
+  const auto scene = [&](const std::string& inside) {
+    std::ofstream(svg)
+        << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 64 48'><circle id='lamp' class='light' cx='10' cy='14' r='3' "
+           "fill='#fff'>"
+        << inside << "</circle><rect x='30' y='20' width='8' height='8'/></svg>";
+  };
+  const auto frames = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", svg, "-o", folder / (name + "_#.exr"), "--frames", "0..2", "--fps", "5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 0) << r.err;
+  };
+  const auto same = [&] {
+    std::vector<Vec3f> first;
+    for (const char* frame : {"0", "1", "2"}) {
+      const Picture cpu = read_picture(folder / ("cpu_" + std::string(frame) + ".exr"));
+      const Picture device = read_picture(folder / ("device_" + std::string(frame) + ".exr"));
+      for (std::size_t i = 0; i < cpu.pixels.size(); ++i)
+        ASSERT_NEAR(device.pixels[i].x, cpu.pixels[i].x, 1e-4) << frame << ", pixel " << i;
+      EXPECT_NE(device.pixels, first) << "nothing moves";
+      first = device.pixels;
+    }
+  };
+  scene("");
+  frames("cpu", {"--edits", edits});
+  frames("device", {"--edits", edits, "--backend", "vulkan"});
+  same();
+  scene("<animate attributeName='cx' from='10' to='50' dur='2s'/>");
+  frames("cpu", {"--force"});
+  frames("device", {"--force", "--backend", "vulkan"});
+  same();
 }
 
 TEST_F(Program, RenderOfAPlaneByFramesMovesAsTheDrawingDoes) {

@@ -196,7 +196,6 @@ void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
              {"--camera", false, third},
              {"--target-error", false, third},
              {"--resume", false, third},
-             {"--backend", options.frames.empty() || options.backend == "cpu", "one picture, not --frames"},
              {"--device", options.backend == "vulkan", "--backend vulkan"},
              {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
              {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},

@@ -12,6 +12,7 @@
 #include "command_line.h"
 #include "steradian/error.h"
 #include "steradian/plane_animation.h"
+#include "steradian/plane_device.h"
 #include "steradian/plane_stage.h"
 #include "steradian/version.h"
 
@@ -131,9 +132,10 @@ void follow(const PlaneScene& next, PlaneStage& stage) {
   for (std::size_t i = kept; i < next.bodies.size(); ++i) stage.add(next.bodies[i]);
 }
 
+// On the device each frame is drawn anew.
 void render_animation(const PlaneRender& job, const std::vector<int>& wanted, const PlaneFrameOptions& options,
-                      const PlaneAnimation& animation) {
-  const bool staged = options.aa <= 1 && options.occluders == PlaneOccluders::black && !options.moments;
+                      const PlaneAnimation& animation, PlaneDevice* device) {
+  const bool staged = device == nullptr && options.aa <= 1 && options.occluders == PlaneOccluders::black && !options.moments;
   std::optional<PlaneStage> stage;
   std::set<std::string> named;
   for (const int frame : wanted) {
@@ -143,7 +145,8 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
     // A stage has the suns and the fog that it began with.
     if (!staged || !now.scene.suns.empty() || now.scene.fog_density > 0) {
       stage.reset();
-      write(render_plane(PlaneWorld(std::move(now.scene), job.limits), options), job, frame);
+      const PlaneWorld world(std::move(now.scene), job.limits);
+      write(device != nullptr ? device->render(world, options) : render_plane(world, options), job, frame);
       continue;
     }
     if (stage)
@@ -160,16 +163,19 @@ void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, cons
   const std::vector<int> wanted = frames_to_make(frames.range, job.output, job.force);
   if (wanted.empty()) return;
   const PlaneAnimation animation(job.scene, job.limits);
+  std::optional<PlaneDevice> device;
+  if (job.vulkan) device.emplace(job.device);
   if (animation.moves()) {
     if (!frames.edits.empty()) throw UsageError("--edits", "the drawing moves by itself", "take its animations out, or leave --edits out");
-    return render_animation(job, wanted, options, animation);
+    return render_animation(job, wanted, options, animation, device ? &*device : nullptr);
   }
   const std::vector<Edit> edits = frames.edits.empty() ? std::vector<Edit>{} : edits_of(frames.edits);
   PlaneStage stage(std::move(scene), options);
   for (int frame = 0; frame <= wanted.back(); ++frame) {
     for (const Edit& edit : edits)
       if (edit.first <= frame && frame <= edit.last) apply(edit, frames.edits, stage);
-    if (std::binary_search(wanted.begin(), wanted.end(), frame)) write(stage.draw(), job, frame);
+    if (std::binary_search(wanted.begin(), wanted.end(), frame))
+      write(device ? device->render(PlaneWorld(stage.scene(), job.limits), options) : stage.draw(), job, frame);
   }
 }
 
