@@ -89,23 +89,28 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
       h.query_count = stamps;
     }
 
-    h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    if (timed) {
-      h.commands.resetQueryPool(*h.queries, 0, stamps);
-      h.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *h.queries, 0);
-    }
-    h.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *h.layout, 0, *h.set, nullptr);
-    // What a dispatch wrote becomes visible to the next one, and to the host.
+    // What a dispatch wrote becomes visible to the next one, and to the host. llvmpipe, once it has drawn something, takes the time of a
+    // stamp when it next flushes, as a barrier makes it do: so every stamp has one behind it.
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
     const vk::MemoryBarrier written(Access::eShaderWrite, Access::eShaderRead | Access::eShaderWrite | Access::eHostRead);
+    const auto wait = [&] {
+      h.commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader | Stage::eHost, {}, written, nullptr, nullptr);
+    };
+    h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    if (timed) {
+      h.commands.resetQueryPool(*h.queries, 0, stamps);
+      h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 0);
+      wait();
+    }
+    h.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *h.layout, 0, *h.set, nullptr);
     for (std::uint32_t i = 0; i < dispatches.size(); ++i) {
       const Dispatch& one = dispatches[i];
       h.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *h.pipelines.at(one.pipeline));
       h.commands.pushConstants<std::uint32_t>(*h.layout, vk::ShaderStageFlagBits::eCompute, 0, one.push);
       h.commands.dispatch(one.groups_x, one.groups_y, 1);
-      h.commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader | Stage::eHost, {}, written, nullptr, nullptr);
       if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, i + 1);
+      wait();
     }
     h.commands.end();
 
