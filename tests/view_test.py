@@ -89,6 +89,64 @@ def plane():
     assert worst <= 1
 
 
+def polygon():
+    """A corner of a polygon light is drawn out in the picture; a lobe and a tone curve are chosen; a reference grows beside it."""
+    first = [{"wait": "picture"}, {"set": "add", "value": "polygon"}, {"key": "F"}, {"drag": "middle", "from": [200, 100], "to": [200, 130]},
+             {"drag": "left", "from": [20, 20], "to": [20, -40]}, {"wait": "settled"}]
+    play(SCENES / "diffuse_floor.glb", first + [{"shot": "corner-before.png"}], "--size", "400x225", "--exposure", "0", "--panel", "off")
+    corners = squares(OUT / "corner-before.png")
+    assert len(corners) >= 3, corners
+    x, y = corners[0]
+    middle = [sum(c[i] for c in corners) / len(corners) for i in (0, 1)]
+    out = [round(x + 0.4 * (x - middle[0])), round(y + 0.4 * (y - middle[1]))]
+    play(SCENES / "diffuse_floor.glb", first + [
+        {"drag": "left", "from": [x, y], "to": out}, {"wait": "settled"}, {"shot": "corner-after.png"}, {"key": "Escape"},
+        {"set": "material", "value": 0}, {"set": "lobe", "value": "phong"}, {"set": "tone", "value": "filmic"}, {"wait": "settled"},
+        {"shot": "corner-lobe.png"}, {"picture": "corner.png"}, {"save": "corner.glb"},
+        {"set": "beside", "value": "reference"}, {"key": "C"}, {"wait": "settled"}, {"shot": "corner-split.png"},
+    ], "--size", "400x225", "--exposure", "0", "--panel", "off")
+    moved = squares(OUT / "corner-after.png")
+    print("corner", (x, y), "dragged to", out, "is seen at", min(moved, key=lambda c: abs(c[0] - out[0]) + abs(c[1] - out[1])))
+    assert any(abs(c[0] - out[0]) <= 2 and abs(c[1] - out[1]) <= 2 for c in moved), (out, moved)
+    assert pixels(OUT / "corner-lobe.png") == pixels(OUT / "corner.png"), "the tone curve of the window is the file's"
+    render("corner.glb", "corner-again.png", "--size", "400x225", "--exposure", "0", "--tone", "filmic")
+    assert pixels(OUT / "corner-again.png") == pixels(OUT / "corner.png")
+
+
+def squares(path):
+    """Middles of the bright squares that mark corners: 8 x 8 pixels of one of two colours within a darker rim."""
+    width, height, rows = pixels(path)
+    found = []
+    for y in range(1, height - 9):
+        row = rows[y]
+        for x in range(1, width - 9):
+            a = row[3 * x:3 * x + 3]
+            if not (a[0] > 200 and a[1] > 180 and a[2] < 190 and a[0] - a[2] > 40):
+                continue
+            block = [rows[y + j][3 * x:3 * x + 24] for j in range(8)]
+            if all(b == a * 8 for b in block) and rows[y - 1][3 * x:3 * x + 3] != a and row[3 * x - 3:3 * x] != a:
+                found.append((x + 4, y + 4))
+    return found
+
+
+def moving():
+    """A drawing that moves by itself, at two moments and played."""
+    play(SCENES / "plane" / "carousel.svg", [
+        {"wait": "settled"}, {"shot": "moving-0.png"}, {"set": "time", "value": 1}, {"wait": "settled"}, {"shot": "moving-1.png"},
+        {"key": "Space"}, {"wait": 1}, {"key": "Space"}, {"wait": "settled"}, {"shot": "moving-played.png"},
+    ], "--size", "320x200", "--panel", "off")
+    render(SCENES / "plane" / "carousel.svg", "moving-####.png", "--frames", "0..1", "--fps", "1", "--size", "320x200")
+    for frame in (0, 1):
+        assert pixels(OUT / f"moving-{frame}.png") == pixels(OUT / f"moving-000{frame}.png"), frame
+    assert pixels(OUT / "moving-played.png") != pixels(OUT / "moving-1.png")
+
+
+def closed():
+    """Closed while a picture is in the making: quit is what a window manager asks for."""
+    play(SCENES / "diffuse_floor.glb", [{"wait": "picture"}, {"drag": "left", "from": [50, 50], "to": [90, 60]}, {"minimise": True}, {"wait": 0.1}],
+         "--size", "200x120")
+
+
 def life():
     """Resized, minimised, restored, another scene opened, help and panel, split screen, error map; what is wrong is said."""
     play(SCENES / "glossy_floor.glb", [
@@ -116,8 +174,11 @@ def main():
     assert "no window can be opened" in help_text.stderr and "render" in help_text.stderr, help_text.stderr
     OUT.mkdir(parents=True, exist_ok=True)
     space()
+    polygon()
     plane()
+    moving()
     life()
+    closed()
 
 
 main()

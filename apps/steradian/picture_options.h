@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace steradian::app {
 
@@ -15,5 +16,8 @@ PictureSize picture_size(const std::string& text);
 
 // Stops, -30 to 30; none for "auto". Throws CLI::ValidationError.
 std::optional<float> exposure_stops(const std::string& text);
+
+// What --tone takes: names of steradian/tone.h.
+std::vector<std::string> tone_curve_names();
 
 }  // namespace steradian::app

@@ -36,8 +36,8 @@ constexpr const char* kDefaultSize = "1280x720";
 struct Options {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
-                             exposure = "auto", environment, background = "on", light_units = "auto", occluders = "black", normal_map,
-                             light_sum = "auto", bounces = "0", frames, edits, animation;
+                             exposure = "auto", tone = "neutral", environment, background = "on", light_units = "auto", occluders = "black",
+                             normal_map, light_sum = "auto", bounces = "0", frames, edits, animation;
   double fps = 24, bounce_lattice = 0, lamp_height = 45;
   bool force = false;
   std::vector<std::string> lights;
@@ -220,6 +220,7 @@ void run_plane(Options& options) {
   job.method = options.render.method;
   job.stats = options.stats;
   job.limits = options.limits;
+  job.tone = tone_curve_named(options.tone);
   job.exposure = exposure_stops(options.exposure).value_or(0.0f);  // light maps keep their scale from frame to frame
   if (options.size != kDefaultSize) {
     parse_size(options.size, options.render);
@@ -275,7 +276,7 @@ void run(const CLI::App& verb, Options& options) {
   if (!options.frames.empty()) {
     render_options.background = options.background == "on";
     return render_scene_frames({options.scene, options.output, frame_range(options.frames), options.fps, options.animation, options.force,
-                                load, render_options, fixed_exposure, options.multiple_scattering});
+                                load, render_options, fixed_exposure, tone_curve_named(options.tone), options.multiple_scattering});
   }
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded = load_scene(options.scene, load);
@@ -321,9 +322,10 @@ void run(const CLI::App& verb, Options& options) {
                       {"steradian.size", options.size},
                       {"steradian.aa", std::to_string(render_options.aa)},
                       {"steradian.seed", std::to_string(render_options.seed)},
-                      {"steradian.exposure", fmt::format("{}", exposure)}};
+                      {"steradian.exposure", fmt::format("{}", exposure)},
+                      {"steradian.tone", options.tone}};
   if (stats.light_tree) picture.metadata["steradian.light_error"] = fmt::format("{}", render_options.light_error);
-  write_picture(picture, options.output, exposure);
+  write_picture(picture, options.output, exposure, tone_curve_named(options.tone));
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
   if (!options.stats.empty()) write_file(options.stats, stats_json(options, stats).dump(2) + "\n");
@@ -403,6 +405,9 @@ void add_render(CLI::App& app, Exit&) {
   verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->group("Picture");
   verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
   verb->add_option("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)")->group("Picture");
+  verb->add_option("--tone", options->tone, "of .png: the curve from radiance to the screen")
+      ->check(CLI::IsMember(tone_curve_names()))
+      ->group("Picture");
   verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
   CLI::Option* spp =
       verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")

@@ -35,12 +35,13 @@ class Moments {
   explicit Moments(const SceneFrames& job)
       : job_(job), file_(scene::read_gltf_file(job.scene, job.load.limits)), animation_(chosen(file_, job)) {
     load_.pictures = std::make_shared<DecodedPictures>();
+    load_.meshes = make_kept_meshes();
   }
 
   Scene at(double seconds) {
     GltfFile moment = file_;
     moment.json = json_at(file_.json, animation_, seconds);
-    LoadedScene loaded = load_scene_from_memory(glb_bytes(moment), job_.scene, load_);
+    LoadedScene loaded = scene::load_scene(moment, load_);
     for (const std::string& warning : loaded.warnings)
       if (said_.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
     loaded.scene.multiple_scattering = job_.multiple_scattering;
@@ -77,6 +78,7 @@ void render_scene_frames(SceneFrames job) {
 
   constexpr std::uint64_t kParts = 1000;  // that a frame counts in the one bar
   Progress progress("frames", wanted.size() * kParts);
+  RenderCache cache;  // of what does not move
   for (const int frame : wanted) {
     const Scene scene = moments.at(frame / job.fps);
     std::atomic<std::uint64_t> shown{0};
@@ -89,14 +91,14 @@ void render_scene_frames(SceneFrames job) {
       if (before < part) progress.add(part - before);
     };
     RenderStats stats;
-    Picture picture = render(scene, options, &stats);
+    Picture picture = render(scene, options, cache, &stats);
     picture.metadata = {{"steradian.version", version()},
                         {"steradian.scene", job.scene},
                         {"steradian.method", stats.method},
                         {"steradian.frame", std::to_string(frame)},
                         {"steradian.fps", fmt::format("{}", job.fps)},
                         {"steradian.exposure", fmt::format("{}", exposure)}};
-    write_picture(picture, numbered(job.output, frame), exposure);
+    write_picture(picture, numbered(job.output, frame), exposure, job.tone);
     progress.add(kParts - std::min(shown.load(), kParts));
   }
 }

@@ -6,7 +6,8 @@
 
 #include "frame_range.h"
 #include "steradian/load_scene.h"
-#include "steradian/render.h"
+#include "steradian/render_cache.h"
+#include "steradian/tone.h"
 
 namespace steradian::app {
 
@@ -19,6 +20,7 @@ struct SceneFrames {
   LoadOptions load;
   RenderOptions render;
   std::optional<float> exposure;  // none: that of the first frame for all
+  ToneCurve tone = ToneCurve::neutral;
   bool multiple_scattering = false;
 };
 

@@ -90,7 +90,7 @@ void render_plane_scene(const PlaneRender& job) {
                       {"steradian.seed", std::to_string(options.sampling.seed)},
                       {"steradian.exposure", fmt::format("{}", job.exposure)}};
   if (bounces) picture.metadata["steradian.bounces"] = job.bounces == kAllBounces ? "all" : std::to_string(job.bounces);
-  write_picture(picture, job.output, job.exposure);
+  write_picture(picture, job.output, job.exposure, job.tone);
   if (job.stats.empty()) return;
   nlohmann::ordered_json passes = {{{"name", "prepare"}, {"ms", stats.prepare_ms}}, {{"name", "frame"}, {"ms", stats.frame_ms}}};
   nlohmann::ordered_json json = {{"version", version()},

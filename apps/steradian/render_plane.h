@@ -5,6 +5,7 @@
 #include <string>
 
 #include "steradian/plane_bounce.h"
+#include "steradian/tone.h"
 
 namespace steradian::app {
 
@@ -12,6 +13,7 @@ struct PlaneRender {
   std::string scene, output, method, stats;  // method "auto" is exact
   PlaneFrameOptions frame;
   float exposure = 0;
+  ToneCurve tone = ToneCurve::neutral;
   int bounces = 0;          // kAllBounces: all
   double lattice = 0;       // PlaneFrameOptions::bounce_lattice
   std::string normal_map;   // a picture of it is lit instead; empty: none

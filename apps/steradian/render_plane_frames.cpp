@@ -102,34 +102,7 @@ void apply(const Edit& edit, const std::string& file, PlaneStage& stage) {
 void write(const Picture& drawn, const PlaneRender& job, int frame) {
   Picture picture = drawn;
   picture.metadata = {{"steradian.version", version()}, {"steradian.scene", job.scene}, {"steradian.frame", std::to_string(frame)}};
-  write_picture(picture, numbered(job.output, frame), job.exposure);
-}
-
-bool same(const PlaneGradient& a, const PlaneGradient& b) {
-  const auto alike = [](const PlaneStop& s, const PlaneStop& t) { return s.offset == t.offset && s.radiance == t.radiance; };
-  return a.from == b.from && a.to == b.to && std::equal(a.stops.begin(), a.stops.end(), b.stops.begin(), b.stops.end(), alike);
-}
-
-bool same(const PlaneEmission& a, const PlaneEmission& b) {
-  return a.radiance == b.radiance && a.gradient.has_value() == b.gradient.has_value() && (!a.gradient || same(*a.gradient, *b.gradient)) &&
-         a.profile == b.profile && a.range == b.range && a.spot_axis == b.spot_axis && a.spot_half_angle == b.spot_half_angle;
-}
-
-// Does a body look the same, as light and as shadow?
-bool same(const PlaneBody& a, const PlaneBody& b) {
-  return a.shape == b.shape && a.contours == b.contours && a.even_odd == b.even_odd && a.center == b.center && a.x_axis == b.x_axis &&
-         a.y_axis == b.y_axis && a.radius == b.radius && a.light.has_value() == b.light.has_value() &&
-         (!a.light || same(*a.light, *b.light)) && a.transmittance == b.transmittance && a.mirror == b.mirror &&
-         a.light_depth == b.light_depth;
-}
-
-// What has changed from one scene to the next, body by body: those behind one that has come or gone are other ones.
-void follow(const PlaneScene& next, PlaneStage& stage) {
-  const std::size_t kept = std::min(next.bodies.size(), stage.scene().bodies.size());
-  for (std::size_t i = 0; i < kept; ++i)
-    if (!same(stage.scene().bodies[i], next.bodies[i])) stage.replace(i, next.bodies[i]);
-  while (stage.scene().bodies.size() > next.bodies.size()) stage.remove(stage.scene().bodies.size() - 1);
-  for (std::size_t i = kept; i < next.bodies.size(); ++i) stage.add(next.bodies[i]);
+  write_picture(picture, numbered(job.output, frame), job.exposure, job.tone);
 }
 
 // On the device each frame is drawn anew.
@@ -150,7 +123,7 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
       continue;
     }
     if (stage)
-      follow(now.scene, *stage);
+      stage->follow(now.scene);
     else
       stage.emplace(std::move(now.scene), options);
     write(stage->draw(), job, frame);

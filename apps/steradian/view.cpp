@@ -13,8 +13,8 @@ namespace steradian::app {
 namespace {
 
 struct Options {
-  std::string scene, size = "1280x720", shadows = "on", quality = "normal", exposure = "auto", backend = "cpu", script, record,
-                     panel = "on";
+  std::string scene, size = "1280x720", shadows = "on", quality = "normal", exposure = "auto", tone = "neutral", backend = "cpu", script,
+                     record, panel = "on";
   RenderOptions render;
 };
 
@@ -33,6 +33,7 @@ void run(const Options& options) {
     window.render.shadows = Shadows::off;  // which it does not have
   }
   window.exposure = exposure_stops(options.exposure);
+  window.tone = tone_curve_named(options.tone);
   window.script = options.script;
   window.record = options.record;
   window.panel = options.panel == "on";
@@ -59,6 +60,8 @@ void add_view(CLI::App& app, Exit&) {
   verb->add_option("--shadows", options->shadows, "as in render")->check(CLI::IsMember({"off", "on", "exact"}));
   verb->add_option("--camera", options->render.camera, "camera by name; none: the first");
   verb->add_option("--exposure", options->exposure, "stops, or auto: middle grey in the mean of the first picture");
+  verb->add_option("--tone", options->tone, "the curve from radiance to the screen, as in render")
+      ->check(CLI::IsMember(tone_curve_names()));
   verb->add_option("--aa", options->render.aa, "primary samples a pixel, at rest")->check(CLI::Range(1, 4096));
   verb->add_option("--backend", options->backend, "where to compute; vulkan is without shadows")->check(CLI::IsMember({"cpu", "vulkan"}));
   verb->add_option("--device", options->render.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first");

@@ -22,10 +22,10 @@ Display filled(int width, int height, FillRow fill_row) {
 
 }  // namespace
 
-Display shown(const Picture& picture, float exposure_stops) {
+Display shown(const Picture& picture, float exposure_stops, ToneCurve curve) {
   const float scale = std::exp2(exposure_stops);
   return filled(picture.width, picture.height, [&](std::size_t first, std::size_t count, std::uint8_t* row) {
-    image::tone_row(picture.pixels.data() + first, count, scale, row);
+    image::tone_row(picture.pixels.data() + first, count, scale, row, curve);
   });
 }
 

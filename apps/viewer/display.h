@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "steradian/picture.h"
+#include "steradian/tone.h"
 
 namespace steradian::view {
 
@@ -13,8 +13,8 @@ struct Display {
   std::vector<std::uint8_t> rgba;
 };
 
-// As a PNG of the exposure is written, bit for bit.
-Display shown(const Picture& picture, float exposure_stops);
+// As a PNG of the exposure and the curve is written, bit for bit.
+Display shown(const Picture& picture, float exposure_stops, ToneCurve curve);
 
 // |a - b|, the largest of three channels, over the mean luminance of b: black at 0, through red and yellow to white at `most`.
 Display error_map(const Picture& a, const Picture& b, double most);

@@ -92,7 +92,7 @@ TEST(ViewDocument, FindsFilesBesideItFromAnotherFolder) {
 
 TEST(ViewLamps, AreAddedChangedAndRemoved) {
   Document d = document_of(lit_square(), "lamps.gltf");
-  const int node = add_area_light(d, "disk", {1, 2, 3}, {0, -1, 0}, 0.5);
+  const int node = add_light(d, "disk", {1, 2, 3}, {0, -1, 0}, 0.5);
   Scene s = scene_of(d);
   ASSERT_EQ(s.area_lights.size(), 2u);
   const auto& disk = std::get<Ellipse>(s.area_lights[1].shape);

@@ -26,7 +26,12 @@ Drawing::Drawing(const std::string& path, int width, int height, int threads)
 }
 
 void Drawing::load() {
-  scene_ = load_plane_scene(path_).scene;
+  PlaneAnimation animation(path_);
+  PlaneScene scene = animation.at(animation.moves() ? time_ : 0).scene;
+  duration_ = animation.duration();
+  endless_ = animation.endless();
+  animation_ = std::move(animation);
+  sheet_ = fresh_sheet(std::move(scene));
   file_time_ = time_of(path_);
   before_.clear();
   saved_steps_ = 0;
@@ -36,8 +41,59 @@ void Drawing::load() {
 }
 
 void Drawing::show() {
-  if (selection_ && *selection_ >= scene_.bodies.size()) selection_.reset();
-  request_ = worker_.show(scene_, width_, height_);
+  if (selection_ && *selection_ >= sheet_.scene.bodies.size()) selection_.reset();
+  request_ = worker_.show(sheet_.scene, width_, height_);
+  settled_ = false;
+}
+
+namespace {
+
+std::vector<int> in_order(std::size_t count) {
+  std::vector<int> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<int>(i);
+  return numbers;
+}
+
+}  // namespace
+
+Drawing::Sheet Drawing::fresh_sheet(PlaneScene scene) const {
+  std::vector<int> numbers = in_order(scene.bodies.size());
+  return {scene, duration_ > 0 ? scene : PlaneScene{}, std::move(numbers)};
+}
+
+// ---- time
+
+void Drawing::set_time(double seconds) {
+  if (!(duration_ > 0)) return;
+  time_ = seconds > duration_ && !endless_ ? std::fmod(seconds, duration_) : std::max(seconds, 0.0);
+  time_wanted_ = true;
+  if (settled_) show_time();
+}
+
+void Drawing::show_time() {
+  time_wanted_ = false;
+  PlaneScene next = animation_->at(time_).scene;
+  std::vector<PlaneBody>& bodies = sheet_.scene.bodies;
+  const std::vector<PlaneBody>& last = sheet_.moment.bodies;
+  if (next.bodies.size() != last.size()) {
+    // Shapes have come or gone: which is which, nobody says. What was added by hand stays on top.
+    std::vector<PlaneBody> added;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (sheet_.origin[i] < 0) added.push_back(std::move(bodies[i]));
+    sheet_ = fresh_sheet(std::move(next));
+    sheet_.origin.resize(sheet_.origin.size() + added.size(), -1);
+    bodies.insert(bodies.end(), added.begin(), added.end());
+  } else {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const int of = sheet_.origin[i];
+      if (of < 0) continue;
+      const auto number = static_cast<std::size_t>(of);
+      if (!looks_alike(last[number], next.bodies[number])) bodies[i] = next.bodies[number];
+    }
+    sheet_.moment = std::move(next);
+  }
+  if (selection_ && *selection_ >= bodies.size()) selection_.reset();
+  request_ = worker_.follow(sheet_.scene);
   settled_ = false;
 }
 
@@ -49,6 +105,11 @@ bool Drawing::update() {
   if (!drawn->error.empty()) return false;
   picture_ = std::move(drawn->picture);
   stats_ = drawn->stats;
+  if (settled_ && time_wanted_) try {
+      show_time();
+    } catch (const std::exception& e) {
+      say(e.what());
+    }
   return true;
 }
 
@@ -67,18 +128,18 @@ void Drawing::resize(int width, int height) {
 }
 
 Vec2d Drawing::to_scene(Vec2d pixel) const {
-  const plane::PixelGrid grid = plane::grid_of(scene_, width_, height_);
+  const plane::PixelGrid grid = plane::grid_of(sheet_.scene, width_, height_);
   return grid.origin + Vec2d{pixel.x * grid.step.x, pixel.y * grid.step.y};
 }
 
 Vec2d Drawing::to_pixel(Vec2d point) const {
-  const plane::PixelGrid grid = plane::grid_of(scene_, width_, height_);
+  const plane::PixelGrid grid = plane::grid_of(sheet_.scene, width_, height_);
   return {(point.x - grid.origin.x) / grid.step.x, (point.y - grid.origin.y) / grid.step.y};
 }
 
 std::optional<Vec2d> Drawing::resize_handle() const {
   if (!selection_) return {};
-  return to_pixel(bounds_of(scene_.bodies[*selection_]).high);
+  return to_pixel(bounds_of(sheet_.scene.bodies[*selection_]).high);
 }
 
 // ---- the pointer
@@ -90,10 +151,10 @@ void Drawing::press(PointerButton button, bool, Vec2d at) {
   if (corner && length(*corner - at) <= kReach) {
     hold_ = Hold::corner;
   } else {
-    selection_ = body_at(scene_, pressed_, kReach * std::fabs(to_scene({1, 0}).x - to_scene({0, 0}).x));
+    selection_ = body_at(sheet_.scene, pressed_, kReach * std::fabs(to_scene({1, 0}).x - to_scene({0, 0}).x));
     if (selection_) hold_ = Hold::body;
   }
-  if (selection_) pressed_body_ = scene_.bodies[*selection_];
+  if (selection_) pressed_body_ = sheet_.scene.bodies[*selection_];
 }
 
 void Drawing::drag(Vec2d to) {
@@ -117,7 +178,7 @@ void Drawing::release(Vec2d at) {
 
 void Drawing::wheel(double steps, Vec2d) {
   if (!selection_) return;
-  const PlaneBody& body = scene_.bodies[*selection_];
+  const PlaneBody& body = sheet_.scene.bodies[*selection_];
   change(*selection_, scaled(body, bounds_of(body).middle(), std::pow(1.1, steps)));
   close_step();
 }
@@ -130,8 +191,8 @@ void Drawing::set_moving(bool moving) {
 // ---- edits
 
 void Drawing::change(std::size_t body, PlaneBody with) {
-  if (!open_) open_ = scene_;
-  scene_.bodies[body] = with;
+  if (!open_) open_ = sheet_;
+  sheet_.scene.bodies[body] = with;
   request_ = worker_.edit({PlaneEdit::Kind::replace, body, std::move(with)});
   settled_ = false;
   if (!moving_) close_step();
@@ -146,21 +207,23 @@ void Drawing::close_step() {
 
 void Drawing::add(bool light, Vec2d at) {
   close_step();
-  open_ = scene_;
-  PlaneBody body = plane_circle(to_scene(at), std::min(scene_.width, scene_.height) / 20);
+  open_ = sheet_;
+  PlaneBody body = plane_circle(to_scene(at), std::min(sheet_.scene.width, sheet_.scene.height) / 20);
   if (light) body.light = PlaneEmission{};
-  scene_.bodies.push_back(body);
+  sheet_.scene.bodies.push_back(body);
+  sheet_.origin.push_back(-1);
   request_ = worker_.edit({PlaneEdit::Kind::add, 0, std::move(body)});
   settled_ = false;
-  selection_ = scene_.bodies.size() - 1;
+  selection_ = sheet_.scene.bodies.size() - 1;
   close_step();
 }
 
 void Drawing::remove_selected() {
   if (!selection_) return;
   close_step();
-  open_ = scene_;
-  scene_.bodies.erase(scene_.bodies.begin() + static_cast<std::ptrdiff_t>(*selection_));
+  open_ = sheet_;
+  sheet_.origin.erase(sheet_.origin.begin() + static_cast<std::ptrdiff_t>(*selection_));
+  sheet_.scene.bodies.erase(sheet_.scene.bodies.begin() + static_cast<std::ptrdiff_t>(*selection_));
   request_ = worker_.edit({PlaneEdit::Kind::remove, *selection_, {}});
   settled_ = false;
   selection_.reset();
@@ -169,25 +232,31 @@ void Drawing::remove_selected() {
 
 void Drawing::select_named(const std::string& name) {
   selection_.reset();
-  for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
-    if (scene_.bodies[i].name == name) selection_ = i;
+  for (std::size_t i = 0; i < sheet_.scene.bodies.size(); ++i)
+    if (sheet_.scene.bodies[i].name == name) selection_ = i;
 }
 
 void Drawing::undo() {
   close_step();
   if (before_.empty()) return;
-  after_.push_back(std::move(scene_));
-  scene_ = std::move(before_.back());
+  after_.push_back(std::move(sheet_));
+  sheet_ = std::move(before_.back());
   before_.pop_back();
+  show_again();
+}
+
+// A step may be of another moment.
+void Drawing::show_again() {
   show();
+  if (duration_ > 0) time_wanted_ = true;
 }
 
 void Drawing::redo() {
   if (after_.empty()) return;
-  before_.push_back(std::move(scene_));
-  scene_ = std::move(after_.back());
+  before_.push_back(std::move(sheet_));
+  sheet_ = std::move(after_.back());
   after_.pop_back();
-  show();
+  show_again();
 }
 
 // ---- files
@@ -201,15 +270,15 @@ void Drawing::reload() { load(); }
 
 void Drawing::save_scene(const std::string& path) {
   if (!path.ends_with(".svg")) throw Error(path, "is no .svg", "name the scene scene.svg");
-  write_file(path, plane_scene_to_svg(scene_));
+  write_file(path, plane_scene_to_svg(sheet_.scene));
   close_step();
   saved_steps_ = before_.size();
   if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(path_)) file_time_ = time_of(path);
 }
 
-void Drawing::save_picture(const std::string& path, float exposure_stops) {
+void Drawing::save_picture(const std::string& path, float exposure_stops, ToneCurve curve) {
   wait_until_settled();
-  write_picture(picture_, path, exposure_stops);
+  write_picture(picture_, path, exposure_stops, curve);
 }
 
 }  // namespace steradian::view

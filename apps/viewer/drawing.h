@@ -8,6 +8,7 @@
 #include "drawing_worker.h"
 #include "plane_body.h"
 #include "stage.h"
+#include "steradian/plane_animation.h"
 
 namespace steradian::view {
 
@@ -32,7 +33,12 @@ class Drawing : public Stage {
   void fly(double, double, double) override {}
   void set_moving(bool moving) override;
 
-  const PlaneScene& scene() const { return scene_; }
+  // Of a file that moves by itself: what its animations move goes where they say; what was changed here and they leave alone stays so.
+  double duration() const override { return duration_; }
+  double time() const override { return time_; }
+  void set_time(double seconds) override;
+
+  const PlaneScene& scene() const { return sheet_.scene; }
   std::optional<std::size_t> selection() const { return selection_; }
   void select(std::size_t body) { selection_ = body; }
   void change(std::size_t body, PlaneBody with);
@@ -54,21 +60,32 @@ class Drawing : public Stage {
   bool file_changed() const override;
   void reload() override;
   void save_scene(const std::string& path) override;
-  void save_picture(const std::string& path, float exposure_stops) override;
+  void save_picture(const std::string& path, float exposure_stops, ToneCurve curve) override;
 
  private:
+  struct Sheet {
+    PlaneScene scene;         // with what was changed
+    PlaneScene moment;        // of a file that moves, as the file has it
+    std::vector<int> origin;  // by body of scene: that of moment; -1: added here
+  };
   void load();
+  Sheet fresh_sheet(PlaneScene scene) const;
   void show();
+  void show_again();
+  void show_time();
   void close_step();
 
   std::string path_;
-  PlaneScene scene_;
+  Sheet sheet_;
+  std::optional<PlaneAnimation> animation_;
+  double duration_ = 0, time_ = 0;
+  bool endless_ = false, time_wanted_ = false;  // it is another moment than that of sheet_
   std::filesystem::file_time_type file_time_{};
   int width_, height_;
   std::optional<std::size_t> selection_;
-  // Scenes before the steps that can be undone, and after those that can be redone; the one before the step that is open.
-  std::vector<PlaneScene> before_, after_;
-  std::optional<PlaneScene> open_;
+  // Sheets before the steps that can be undone, and after those that can be redone; the one before the step that is open.
+  std::vector<Sheet> before_, after_;
+  std::optional<Sheet> open_;
   std::size_t saved_steps_ = 0;  // of before_, when it was saved
 
   enum class Hold { nothing, body, corner } hold_ = Hold::nothing;

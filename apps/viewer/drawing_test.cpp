@@ -113,6 +113,46 @@ TEST(ViewDrawing, IsSavedAsAnSvgThatReadsBackAsIt) {
   EXPECT_THROW(d.save_scene(scene::test_path("saved.png")), Error);
 }
 
+// A drawing's own motion, and a hand in it: what moves goes where the file says, what does not stays where it was put.
+TEST(ViewDrawing, PlaysItsOwnMotionAndKeepsWhatAHandHasMoved) {
+  const std::string svg =
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 160 100'>"
+      "<circle id='lamp' class='light' cx='20' cy='20' r='6' fill='#fff'><animate attributeName='cx' from='20' to='120' dur='2s'/></circle>"
+      "<rect id='box' x='60' y='50' width='20' height='20'/></svg>";
+  const std::string path = scene::write_test_file("moves.svg", svg);
+  Drawing d(path, 160, 100, 0);
+  d.wait_until_settled();
+  EXPECT_EQ(d.duration(), 2);
+  EXPECT_EQ(d.scene().bodies.at(0).center, (Vec2d{20, 20}));
+  d.set_time(0.5);
+  d.wait_until_settled();
+  EXPECT_EQ(d.scene().bodies[0].center, (Vec2d{45, 20}));
+  EXPECT_EQ(d.picture().pixels, fresh(PlaneAnimation(path).at(0.5).scene, 160, 100).pixels);
+  // Nothing that stands still far away is drawn again.
+  EXPECT_LE(d.stats().drawn, d.stats().tiles);
+
+  d.press(PointerButton::left, false, d.to_pixel({70, 60}));
+  ASSERT_EQ(d.selection(), 1u);
+  d.drag(d.to_pixel({80, 65}));
+  d.release(d.to_pixel({80, 65}));
+  d.add(true, d.to_pixel({140, 90}));
+  d.set_time(1);
+  d.wait_until_settled();
+  EXPECT_EQ(d.scene().bodies[0].center, (Vec2d{70, 20}));
+  EXPECT_NEAR(bounds_of(d.scene().bodies[1]).low.x, 70, 1e-9) << "the box stays where the hand has put it";
+  EXPECT_EQ(d.scene().bodies.size(), 3u);
+  EXPECT_EQ(d.picture().pixels, fresh(d.scene(), 160, 100).pixels);
+
+  d.undo();
+  d.undo();
+  d.wait_until_settled();
+  EXPECT_EQ(d.scene().bodies[0].center, (Vec2d{70, 20})) << "undone is what was done, not the time";
+  EXPECT_EQ(d.picture().pixels, fresh(PlaneAnimation(path).at(1).scene, 160, 100).pixels);
+  d.set_time(2.5);
+  d.wait_until_settled();
+  EXPECT_EQ(d.time(), 0.5) << "it begins again";
+}
+
 TEST(ViewDrawing, WhatCannotBeDrawnIsSaidAndUndone) {
   Drawing d(lamps(), 160, 100, 0);
   d.wait_until_settled();

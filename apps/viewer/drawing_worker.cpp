@@ -20,6 +20,15 @@ std::uint64_t DrawingWorker::show(PlaneScene scene, int width, int height) {
   scene_ = std::move(scene);
   width_ = width;
   height_ = height;
+  followed_.reset();
+  edits_.clear();
+  changed_.notify_all();
+  return ++asked_;
+}
+
+std::uint64_t DrawingWorker::follow(PlaneScene scene) {
+  const std::lock_guard lock(mutex_);
+  (scene_ ? scene_ : followed_) = std::move(scene);
   edits_.clear();
   changed_.notify_all();
   return ++asked_;
@@ -49,7 +58,7 @@ void DrawingWorker::wait() {
 void DrawingWorker::run() {
   std::optional<PlaneStage> stage;
   for (;;) {
-    std::optional<PlaneScene> scene;
+    std::optional<PlaneScene> scene, followed;
     std::vector<PlaneEdit> edits;
     PlaneFrameOptions options;
     options.threads = threads_;
@@ -59,6 +68,7 @@ void DrawingWorker::run() {
       changed_.wait(lock, [&] { return done_ != asked_ || quit_; });
       if (quit_) return;
       scene = std::exchange(scene_, std::nullopt);
+      followed = std::exchange(followed_, std::nullopt);
       edits = std::exchange(edits_, {});
       options.width = width_;
       options.height = height_;
@@ -68,6 +78,11 @@ void DrawingWorker::run() {
     drawn.request = request;
     try {
       if (scene) stage.emplace(std::move(*scene), options);
+      // A stage has the suns and the fog that it began with.
+      if (followed && (!followed->suns.empty() || followed->fog_density > 0))
+        stage.emplace(std::move(*followed), options);
+      else if (followed)
+        stage->follow(*followed);
       for (PlaneEdit& e : edits) {
         if (e.kind == PlaneEdit::Kind::replace) stage->replace(e.body, std::move(e.with));
         if (e.kind == PlaneEdit::Kind::add) stage->add(std::move(e.with));

@@ -35,6 +35,7 @@ class DrawingWorker {
 
   // What is asked while it draws is done together, after it. Both answer with the number of the request.
   std::uint64_t show(PlaneScene scene, int width, int height);  // another scene, or size
+  std::uint64_t follow(PlaneScene scene);                       // the scene as it is now: only what is another is drawn
   std::uint64_t edit(PlaneEdit edit);
   std::optional<DrawnPicture> take();
   void wait();  // until there is a picture, or nothing to do
@@ -45,7 +46,7 @@ class DrawingWorker {
   const int threads_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<PlaneScene> scene_;
+  std::optional<PlaneScene> scene_, followed_;
   int width_ = 0, height_ = 0;
   std::vector<PlaneEdit> edits_;
   std::uint64_t asked_ = 0, done_ = 0;

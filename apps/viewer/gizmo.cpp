@@ -19,12 +19,6 @@ std::optional<double> along_axis(Vec3d origin, Vec3d axis, const Ray& ray) {
   return (dot(w, axis) - c * dot(w, ray.direction)) / d;
 }
 
-std::optional<Vec3d> on_plane(Vec3d origin, Vec3d normal, const Ray& ray) {
-  const double c = dot(normal, ray.direction), t = dot(origin - ray.origin, normal) / c;
-  if (std::fabs(c) < 1e-3 || !(t > 0)) return {};
-  return ray.origin + ray.direction * t;
-}
-
 double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
   const Vec2d d{b.x - a.x, b.y - a.y};
   const double square = d.x * d.x + d.y * d.y;
@@ -56,6 +50,12 @@ double distance_to_handle(const Gizmo& gizmo, Handle handle, const Camera& camer
 
 }  // namespace
 
+std::optional<Vec3d> meets_plane(Vec3d origin, Vec3d normal, const Ray& ray) {
+  const double c = dot(normal, ray.direction), t = dot(origin - ray.origin, normal) / c;
+  if (std::fabs(c) < 1e-3 || !(t > 0)) return {};
+  return ray.origin + ray.direction * t;
+}
+
 Gizmo gizmo_at(GizmoMode mode, const Affine& world, const Camera& camera) {
   Gizmo gizmo{mode, world.t};
   const double depth = std::max(-dot(world.t - camera.position, camera.z), 1e-6);
@@ -83,7 +83,7 @@ Handle handle_at(const Gizmo& gizmo, const Camera& camera, Vec2d pointer, double
 
 std::optional<Vec3d> drag_move(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to) {
   if (handle == Handle::free) {
-    const auto a = on_plane(gizmo.origin, camera.z, from), b = on_plane(gizmo.origin, camera.z, to);
+    const auto a = meets_plane(gizmo.origin, camera.z, from), b = meets_plane(gizmo.origin, camera.z, to);
     return a && b ? std::optional(*b - *a) : std::nullopt;
   }
   const Vec3d axis = axis_of(gizmo, handle);
@@ -93,7 +93,7 @@ std::optional<Vec3d> drag_move(const Gizmo& gizmo, Handle handle, const Camera& 
 
 std::optional<Turn> drag_turn(const Gizmo& gizmo, Handle handle, const Camera&, const Ray& from, const Ray& to) {
   const Vec3d axis = axis_of(gizmo, handle);
-  const auto a = on_plane(gizmo.origin, axis, from), b = on_plane(gizmo.origin, axis, to);
+  const auto a = meets_plane(gizmo.origin, axis, from), b = meets_plane(gizmo.origin, axis, to);
   if (!a || !b) return {};
   const Vec3d u = *a - gizmo.origin, v = *b - gizmo.origin;
   return Turn{axis, std::atan2(dot(axis, cross(u, v)), dot(u, v))};
@@ -102,7 +102,7 @@ std::optional<Turn> drag_turn(const Gizmo& gizmo, Handle handle, const Camera&, 
 std::optional<Vec3d> drag_scale(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to) {
   constexpr double kSmallest = 0.01;
   if (handle == Handle::free) {  // right and up: larger
-    const auto a = on_plane(gizmo.origin, camera.z, from), b = on_plane(gizmo.origin, camera.z, to);
+    const auto a = meets_plane(gizmo.origin, camera.z, from), b = meets_plane(gizmo.origin, camera.z, to);
     if (!a || !b) return {};
     const double factor = std::max(std::exp2(dot(*b - *a, camera.x + camera.y) / gizmo.size), kSmallest);
     return Vec3d{factor, factor, factor};

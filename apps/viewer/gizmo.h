@@ -27,6 +27,9 @@ Gizmo gizmo_at(GizmoMode mode, const Affine& world, const Camera& camera);
 // The handle under the pointer, within `reach` pixels.
 Handle handle_at(const Gizmo& gizmo, const Camera& camera, Vec2d pointer, double width, double height, double reach = 8);
 
+// Where a ray meets a plane that it does not graze.
+std::optional<Vec3d> meets_plane(Vec3d origin, Vec3d normal, const Ray& ray);
+
 // What a drag of a handle from one ray to another means. Nothing where a ray does not meet the handle's line or plane.
 std::optional<Vec3d> drag_move(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to);
 struct Turn {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lobes/lobe.h"
+
 namespace steradian::view {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr const char* kArea = "EXT_lights_area";
 constexpr const char* kPunctual = "KHR_lights_punctual";
 constexpr const char* kProfile = "EXT_lights_ies";
 constexpr const char* kStrength = "/extensions/KHR_materials_emissive_strength";
+constexpr const char* kLobe = "/extras/steradian";
 constexpr double kPi = 3.14159265358979324;
 
 const char* extension_of(LampKind kind) {
@@ -48,12 +51,6 @@ void put(Document& document, const std::string& pointer, Vec3d value, Vec3d now)
   if (!(value == now)) document.set(pointer, Json::array({value.x, value.y, value.z}));
 }
 
-void use_extension(Document& document, const std::string& name) {
-  const Json* used = document.find("/extensionsUsed");
-  if (used != nullptr && std::find(used->begin(), used->end(), Json(name)) != used->end()) return;
-  document.set("/extensionsUsed/" + std::to_string(document.count("/extensionsUsed")), name);
-}
-
 bool shines(const Document& document, int material) {
   const Vec3d e = color(document, material_pointer(material) + "/emissiveFactor", {});
   return e.x > 0 || e.y > 0 || e.z > 0;
@@ -75,6 +72,12 @@ void add_mesh_lamps(const Document& document, int node, std::vector<Lamp>& lamps
 }
 
 }  // namespace
+
+void use_extension(Document& document, const std::string& name) {
+  const Json* used = document.find("/extensionsUsed");
+  if (used != nullptr && std::find(used->begin(), used->end(), Json(name)) != used->end()) return;
+  document.set("/extensionsUsed/" + std::to_string(document.count("/extensionsUsed")), name);
+}
 
 std::vector<Lamp> lamps_of(const Document& document, const NodeTree& tree) {
   std::vector<Lamp> lamps;
@@ -110,6 +113,7 @@ LampValues values_of(const Document& document, const Lamp& lamp) {
     v.inner_angle = document.number(at + "/spot/innerConeAngle", 0);
     v.outer_angle = document.number(at + "/spot/outerConeAngle", kPi / 4);
   }
+  if (lamp.kind == LampKind::punctual) v.type = lamp.type;
   if (lamp.kind != LampKind::area) return v;
   v.type = lamp.type;
   v.size = document.number(at + "/size", 1);
@@ -143,19 +147,25 @@ void set_values(Document& document, const Lamp& lamp, const LampValues& values) 
   if (values.outer_angle && now.outer_angle) put(document, at + "/spot/outerConeAngle", *values.outer_angle, *now.outer_angle);
 }
 
-int add_area_light(Document& document, const std::string& type, Vec3d position, Vec3d direction, double size) {
-  const std::size_t light = document.count(std::string("/extensions/") + kArea + "/lights"), node = document.count("/nodes");
-  use_extension(document, kArea);
-  document.set(std::string("/extensions/") + kArea + "/lights/" + std::to_string(light),
-               {{"type", type},
-                {"name", "light " + std::to_string(light + 1)},
-                {"size", size},
-                {"color", {1, 1, 1}},
-                {"intensity", 5},
-                {"extras", {{"steradian", {{"scale", "axes"}}}}}});  // so that each handle of the gizmo scales one side
-  // The light shines along the node's -z.
+int add_light(Document& document, const std::string& type, Vec3d position, Vec3d direction, double size) {
+  const bool punctual = type == "point" || type == "spot" || type == "directional";
+  const std::string extension = punctual ? kPunctual : kArea;
+  const std::size_t light = document.count("/extensions/" + extension + "/lights");
+  const std::string name = (punctual ? type : "light") + " " + std::to_string(light + 1);
+  Json json = {{"type", type}, {"name", name}, {"color", {1, 1, 1}}, {"intensity", 5}};
+  if (!punctual) {
+    json["size"] = size;
+    json["extras"] = {{"steradian", {{"scale", "axes"}}}};  // so that each handle of the gizmo scales one side
+  }
+  if (type == "spot") json["spot"] = Json::object();
+  use_extension(document, extension);
+  document.set("/extensions/" + extension + "/lights/" + std::to_string(light), std::move(json));
+  return add_node(document, {{"name", name}, {"extensions", {{extension, {{"light", light}}}}}}, position, direction);
+}
+
+int add_node(Document& document, Json json, Vec3d position, Vec3d direction) {
+  const std::size_t node = document.count("/nodes");
   const Frame frame = Frame::from_normal(-normalized(direction));
-  Json json = {{"name", "light " + std::to_string(light + 1)}, {"extensions", {{kArea, {{"light", light}}}}}};
   document.set("/nodes/" + std::to_string(node), std::move(json));
   // The rotation of the frame, as a quaternion: turned from z to the frame's z about the axis across both.
   NodePose pose;
@@ -182,10 +192,31 @@ void remove_lamp(Document& document, const Lamp& lamp) {
   document.erase(extensions != nullptr && extensions->size() == 1 ? node + "/extensions" : node + "/extensions/" + extension_of(lamp.kind));
 }
 
+// Without the lobes of cloth and paint, which stand beside a specular one, and products, which need an axis.
+std::vector<std::string> lobe_names() {
+  std::vector<std::string> names;
+  for (const lobes::LobeRow& row : lobes::lobe_rows())
+    if (row.brdf != Brdf::lambert && row.brdf != Brdf::charlie && row.brdf != Brdf::lobe_product) names.emplace_back(row.name);
+  return names;
+}
+
+Json lobe_named(const std::string& name) {
+  Json lobe = {{"brdf", name}};
+  for (const lobes::LobeRow& row : lobes::lobe_rows()) {
+    if (name != row.name) continue;
+    if (lobes::has_key(row.keys, "exponent")) lobe["exponent"] = 50;
+    if (lobes::has_key(row.keys, "roughness")) lobe["roughness"] = 0.3;
+  }
+  return lobe;
+}
+
 MaterialValues material_values(const Document& document, int material) {
   const std::string at = material_pointer(material), pbr = at + "/pbrMetallicRoughness";
   return {document.text(at + "/name", "material " + std::to_string(material)), color(document, pbr + "/baseColorFactor", {1, 1, 1}),
-          document.number(pbr + "/metallicFactor", 1), document.number(pbr + "/roughnessFactor", 1)};
+          document.number(pbr + "/metallicFactor", 1), document.number(pbr + "/roughnessFactor", 1), [&] {
+            const Json* lobe = document.find(at + kLobe);
+            return lobe != nullptr ? *lobe : Json();
+          }()};
 }
 
 void set_material_values(Document& document, int material, const MaterialValues& values) {
@@ -198,6 +229,11 @@ void set_material_values(Document& document, int material, const MaterialValues&
   }
   put(document, pbr + "/metallicFactor", values.metallic, now.metallic);
   put(document, pbr + "/roughnessFactor", values.roughness, now.roughness);
+  if (values.lobe == now.lobe) return;
+  if (values.lobe.is_null())
+    document.erase(material_pointer(material) + kLobe);
+  else
+    document.set(material_pointer(material) + kLobe, values.lobe);
 }
 
 }  // namespace steradian::view

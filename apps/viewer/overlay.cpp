@@ -2,6 +2,8 @@
 #include <imgui.h>
 
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "view_state.h"
 
@@ -23,6 +25,18 @@ class Overlay {
     list_->AddCircle(*p, 7, kEdge, 0, 4);
     list_->AddCircle(*p, 7, selected ? kBright : kMark, 0, 2);
     list_->AddCircleFilled(*p, 2, selected ? kBright : kMark);
+  }
+
+  void corners(const std::vector<std::vector<Vec3d>>& contours, const std::optional<CornerPlace>& taken,
+               const std::optional<CornerPlace>& hot) const {
+    for (std::size_t i = 0; i < contours.size(); ++i)
+      for (std::size_t k = 0; k < contours[i].size(); ++k) {
+        const auto p = at(contours[i][k]);
+        if (!p) continue;
+        const bool bright = taken == CornerPlace{i, k} || hot == CornerPlace{i, k};
+        list_->AddRectFilled({p->x - 5, p->y - 5}, {p->x + 5, p->y + 5}, kEdge);
+        list_->AddRectFilled({p->x - 4, p->y - 4}, {p->x + 4, p->y + 4}, bright ? kBright : kMark);
+      }
   }
 
   void handles(const Gizmo& gizmo, Handle hot) const {
@@ -98,6 +112,30 @@ void draw_plane_handles(const Drawing& drawing, double scale) {
 
 }  // namespace
 
+namespace {
+
+// What stands on both sides of the split screen.
+void name_halves(const Session& s, float x) {
+  const RenderedFrame& frame = s.frame();
+  std::string right = frame.other_stats.method;
+  if (frame.pairs > 0) {
+    char text[80];
+    std::snprintf(text, sizeof text, ": %llu samples, standard error %.2f %%", static_cast<unsigned long long>(frame.pairs),
+                  100 * frame.standard_error);
+    right += text;
+  }
+  const float y = ImGui::GetIO().DisplaySize.y - ImGui::GetTextLineHeight() - 6;
+  const auto write = [&](float at, const std::string& text) {
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    list->AddText({at + 1, y + 1}, IM_COL32(0, 0, 0, 255), text.c_str());
+    list->AddText({at, y}, IM_COL32(255, 255, 255, 255), text.c_str());
+  };
+  write(x - 8 - ImGui::CalcTextSize(frame.stats.method.c_str()).x, frame.stats.method);
+  write(x + 8, right);
+}
+
+}  // namespace
+
 void draw_overlay(ViewState& state, double scale) {
   if (state.drawing != nullptr) draw_plane_handles(*state.drawing, scale);
   if (state.session == nullptr || !state.session->has_camera()) return;
@@ -110,9 +148,11 @@ void draw_overlay(ViewState& state, double scale) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const Vec2d pointer{static_cast<double>(mouse.x) * scale, static_cast<double>(mouse.y) * scale};
   if (const auto gizmo = s.gizmo()) overlay.handles(*gizmo, s.dragging() ? s.dragged_handle() : s.handle_under(pointer));
+  overlay.corners(s.corners(), s.corner(), s.corner_under(pointer));
   if (state.split && !state.error_map) {
     const float x = state.split_at * ImGui::GetIO().DisplaySize.x;
     ImGui::GetBackgroundDrawList()->AddLine({x, 0}, {x, ImGui::GetIO().DisplaySize.y}, IM_COL32(255, 255, 255, 180));
+    name_halves(s, x);
   }
 }
 

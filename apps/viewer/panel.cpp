@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "integrals/methods.h"
 #include "keys.h"
@@ -33,16 +34,28 @@ bool choose(const char* label, const char* (&names)[N], int& chosen) {
   return ImGui::Combo(label, &chosen, names, static_cast<int>(N));
 }
 
-bool edit_area_shape(LampValues& v) {
-  const char* types[] = {"rect", "disk", "sphere", "capsule"};
-  int type = 0;
-  for (int i = 0; i < 4; ++i)
-    if (v.type == types[i]) type = i;
+// One of some names; true where it was another one before.
+template <class Names>
+bool choose_name(const char* label, const Names& names, std::string& chosen) {
   bool changed = false;
-  if (v.type && choose("shape", types, type)) {
-    v.type = types[type];
-    changed = true;
+  if (!ImGui::BeginCombo(label, chosen.c_str())) return false;
+  for (const std::string_view each : names) {
+    const std::string name(each);
+    if (ImGui::Selectable(name.c_str(), name == chosen) && name != chosen) {
+      chosen = name;
+      changed = true;
+    }
   }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool edit_area_shape(const Lamp& lamp, LampValues& v) {
+  constexpr const char* kShapes[] = {"rect", "disk", "sphere", "capsule"};
+  constexpr const char* kKinds[] = {"point", "spot", "directional"};
+  bool changed = false;
+  if (v.type && lamp.kind == LampKind::area) changed |= choose_name("shape", kShapes, *v.type);
+  if (v.type && lamp.kind == LampKind::punctual) changed |= choose_name("kind", kKinds, *v.type);
   if (v.size) changed |= drag_double("size", *v.size, 0.01f, 1e-4, 1e6);
   if (v.aspect) changed |= drag_double("aspect", *v.aspect, 0.01f, 1e-3, 1e3);
   if (v.length) changed |= drag_double("length", *v.length, 0.01f, 0, 1e6);
@@ -54,13 +67,57 @@ void lamp_controls(Session& s, const Lamp& lamp) {
   bool changed = edit_color("colour", v.color);
   changed |= drag_double(lamp.kind == LampKind::punctual ? "intensity" : "radiance", v.intensity,
                          std::max(0.01f, static_cast<float>(v.intensity) * 0.01f), 0, 1e9);
-  changed |= edit_area_shape(v);
+  changed |= edit_area_shape(lamp, v);
   if (v.two_sided) changed |= ImGui::Checkbox("shines both ways", &*v.two_sided);
   if (v.outer_angle) changed |= drag_double("outer angle", *v.outer_angle, 0.005f, v.inner_angle.value_or(0) + 0.01, 1.57);
   if (v.inner_angle) changed |= drag_double("inner angle", *v.inner_angle, 0.005f, 0, v.outer_angle.value_or(1.5) - 0.01);
   if (!changed) return;
   set_values(s.document(), lamp, v);
   s.changed();
+}
+
+void corner_controls(Session& s) {
+  if (s.corners().empty()) return;
+  const auto corner = s.corner();
+  std::size_t count = 0;
+  for (const auto& contour : s.corners()) count += contour.size();
+  if (!corner) return ImGui::Text("%zu corners: drag one", count);
+  ImGui::Text("corner %zu of %zu", corner->corner + 1, count);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("add next")) s.add_corner();
+  ImGui::SameLine();
+  if (ImGui::SmallButton("remove")) s.remove_corner();
+}
+
+// The keys of a lobe that stand in its JSON.
+bool edit_lobe(Json& lobe) {
+  bool changed = false;
+  for (auto& [key, value] : lobe.items()) {
+    if (value.is_boolean()) {
+      bool flag = value.get<bool>();
+      if (!ImGui::Checkbox(("lobe: " + key).c_str(), &flag)) continue;
+      value = flag;
+      changed = true;
+    } else if (value.is_number()) {
+      auto number = value.get<double>();
+      const bool exponent = key.ends_with("exponent");
+      if (!drag_double(("lobe: " + key).c_str(), number, exponent ? 1.0f : 0.005f, 0, exponent ? 1e5 : 1)) continue;
+      value = number;
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+bool choose_lobe(Json& lobe) {
+  const std::string own = "metal and roughness";
+  std::vector<std::string> names = lobe_names();
+  names.insert(names.begin(), own);
+  std::string name = lobe.is_null() ? own : "several";
+  if (lobe.is_object()) name = lobe.value("brdf", "");
+  if (!choose_name("lobe", names, name)) return lobe.is_object() && edit_lobe(lobe);
+  lobe = name == own ? Json() : lobe_named(name);
+  return true;
 }
 
 void material_controls(Session& s, int material) {
@@ -70,9 +127,28 @@ void material_controls(Session& s, int material) {
   v.base_color = {std::min(v.base_color.x, 1.0), std::min(v.base_color.y, 1.0), std::min(v.base_color.z, 1.0)};
   changed |= drag_double("roughness", v.roughness, 0.005f, 0, 1);
   changed |= drag_double("metalness", v.metallic, 0.005f, 0, 1);
+  changed |= choose_lobe(v.lobe);
   if (!changed) return;
   set_material_values(s.document(), material, v);
   s.changed();
+}
+
+// About the axes of the world, by what is added while a number is held: angles of their own a rotation has none.
+bool edit_turn(NodePose& pose, const Affine& parent) {
+  constexpr double kDegree = 3.14159265358979324 / 180;
+  constexpr Vec3d kAxes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  float by[3] = {};
+  if (!ImGui::DragFloat3("turn", by, 0.5f, -180, 180, "%.1f")) return false;
+  for (int i = 0; i < 3; ++i)
+    if (by[i] != 0) pose = turned(pose, parent, kAxes[i], static_cast<double>(by[i]) * kDegree);
+  return true;
+}
+
+bool edit_scale(NodePose& pose) {
+  float scale[3] = {static_cast<float>(pose.scale.x), static_cast<float>(pose.scale.y), static_cast<float>(pose.scale.z)};
+  if (!ImGui::DragFloat3("scale", scale, 0.005f, 0.001f, 1000, "%.3f")) return false;
+  pose.scale = {static_cast<double>(scale[0]), static_cast<double>(scale[1]), static_cast<double>(scale[2])};
+  return true;
 }
 
 void selected_controls(Session& s) {
@@ -89,6 +165,8 @@ void selected_controls(Session& s) {
     bool changed = drag_double("x", pose.translation.x, 0.01f, -1e6, 1e6, "%.3f");
     changed |= drag_double("y", pose.translation.y, 0.01f, -1e6, 1e6, "%.3f");
     changed |= drag_double("z", pose.translation.z, 0.01f, -1e6, 1e6, "%.3f");
+    if (edit_turn(pose, s.tree().parent_world(selected.node))) changed = true;
+    changed |= edit_scale(pose);
     if (changed) {
       set_pose(s.document(), selected.node, pose);
       s.changed();
@@ -100,6 +178,7 @@ void selected_controls(Session& s) {
       lamp_controls(s, lamp);
       ImGui::PopID();
     }
+  corner_controls(s);
   if (selected.material >= 0) material_controls(s, selected.material);
 }
 
@@ -118,9 +197,9 @@ void light_list(Session& s) {
       }
     ImGui::EndListBox();
   }
-  for (const char* type : {"rect", "disk", "sphere", "capsule"}) {
-    if (type != std::string("rect")) ImGui::SameLine();
-    if (ImGui::SmallButton((std::string("+ ") + type).c_str())) s.add_light(type);
+  for (const std::string type : {"rect", "disk", "sphere", "capsule", "polygon", "point", "spot", "directional"}) {
+    if (type != "rect" && type != "polygon") ImGui::SameLine();
+    if (ImGui::SmallButton(("+ " + (type == "directional" ? "sun" : type)).c_str())) s.add_light(type);
   }
   if (ImGui::SmallButton("delete")) s.remove_selected();
 }
@@ -175,6 +254,8 @@ void render_controls(ViewState& state, Session& s) {
   if (state.split || state.error_map) {
     std::string& method = state.other_method;
     other |= choose_method("beside", method);
+    if (const RenderedFrame& frame = s.frame(); frame.pairs > 0)
+      ImGui::Text("%llu samples, standard error %.2f %%", static_cast<unsigned long long>(frame.pairs), 100 * frame.standard_error);
     if (state.split && !state.error_map && ImGui::SliderFloat("split at", &state.split_at, 0, 1)) state.display_wanted = true;
     if (state.error_map && ImGui::SliderFloat("white at", &state.error_most, 1e-4f, 10, "%.4f of the mean", ImGuiSliderFlags_Logarithmic))
       state.display_wanted = true;
@@ -186,38 +267,79 @@ void render_controls(ViewState& state, Session& s) {
   }
 }
 
-void animation_controls(ViewState& state, Session& s) {
+void choose_animation(Session& s) {
   const auto& animations = s.animations();
-  if (ImGui::BeginCombo("animation", animations[s.animation()].name.c_str())) {
-    for (std::size_t i = 0; i < animations.size(); ++i) {
-      ImGui::PushID(static_cast<int>(i));
-      if (ImGui::Selectable((animations[i].name + "##").c_str(), i == s.animation())) s.choose_animation(i);
-      ImGui::PopID();
-    }
-    ImGui::EndCombo();
+  if (!ImGui::BeginCombo("animation", animations[s.animation()].name.c_str())) return;
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable((animations[i].name + "##").c_str(), i == s.animation())) s.choose_animation(i);
+    ImGui::PopID();
   }
-  auto time = static_cast<float>(s.time());
-  if (ImGui::SliderFloat("time", &time, 0, static_cast<float>(animations[s.animation()].duration), "%.2f s")) {
+  ImGui::EndCombo();
+}
+
+void time_controls(ViewState& state) {
+  Stage& stage = *state.stage;
+  if (state.session != nullptr) choose_animation(*state.session);
+  auto time = static_cast<float>(std::fmod(stage.time(), stage.duration()));
+  if (ImGui::SliderFloat("time", &time, 0, static_cast<float>(stage.duration()), "%.2f s")) {
     state.playing = false;
-    s.set_time(static_cast<double>(time));
+    stage.set_time(static_cast<double>(time));
   }
   if (ImGui::SmallButton(state.playing ? "pause" : "play")) state.playing = !state.playing;
+}
+
+// A colour for a pass of the list, told apart from its neighbours.
+ImU32 color_of_pass(std::size_t number) {
+  return ImColor::HSV(std::fmod(0.58f + 0.381966f * static_cast<float>(number), 1.0f), 0.55f, 0.9f);
+}
+
+// The last pictures from left to right, the times of their passes one upon another.
+void graph_of_passes(const ViewState& state) {
+  double most = 1e-3;
+  for (const auto& passes : state.history) {
+    double sum = 0;
+    for (const PassTime& pass : passes) sum += std::max(pass.ms, 0.0);
+    most = std::max(most, sum);
+  }
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, 60};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(0, 0, 0, 120));
+  const float wide = size.x / 120;
+  float x = at.x;
+  for (const auto& passes : state.history) {
+    float y = at.y + size.y;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+      const float high = static_cast<float>(std::max(passes[i].ms, 0.0) / most) * size.y;
+      list->AddRectFilled({x, y - high}, {x + wide, y}, color_of_pass(i));
+      y -= high;
+    }
+    x += wide;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f ms", most);
+  list->AddText({at.x + 3, at.y + 1}, IM_COL32(220, 220, 220, 255), text);
+  ImGui::Dummy(size);
+}
+
+void list_of_passes(const std::vector<PassTime>& passes) {
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    ImGui::TextColored(ImColor(color_of_pass(i)), "%8.1f ms", passes[i].ms);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(passes[i].name.c_str());
+  }
 }
 
 void times(ViewState& state, Session& s) {
   const RenderedFrame& frame = s.frame();
   ImGui::Text("%d x %d%s, %.0f ms", frame.picture.width, frame.picture.height, s.settled() ? "" : " ...", frame.stats.total_ms);
-  const std::vector<float> ms(state.frame_ms.begin(), state.frame_ms.end());
-  if (!ms.empty())
-    ImGui::PlotLines("##ms", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, *std::max_element(ms.begin(), ms.end()), {-1, 40});
-  for (const PassTime& pass : frame.stats.passes) {
-    const double share = frame.stats.total_ms > 0 ? pass.ms / frame.stats.total_ms : 0;
-    ImGui::ProgressBar(static_cast<float>(std::min(share, 1.0)), {-1, ImGui::GetTextLineHeight()}, "");
-    ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + 6);
-    ImGui::Text("%s %.1f ms", pass.name.c_str(), pass.ms);
-  }
-  if (!frame.other_stats.method.empty() && (state.split || state.error_map))
-    ImGui::Text("beside: %s, %.0f ms", frame.other_stats.method.c_str(), frame.other_stats.total_ms);
+  graph_of_passes(state);
+  list_of_passes(frame.stats.passes);
+  if (frame.load_ms > 0 && frame.scene)
+    ImGui::Text("%8.1f ms reading, %zu of %zu meshes kept", frame.load_ms, frame.scene->kept_meshes, frame.scene->scene.meshes.size());
+  if (frame.other_stats.method.empty() || !(state.split || state.error_map)) return;
+  ImGui::Text("beside: %s, %.0f ms", frame.other_stats.method.c_str(), frame.other_stats.total_ms);
+  list_of_passes(frame.other_stats.passes);
 }
 
 const char* name_of(const PlaneBody& body) {
@@ -274,15 +396,16 @@ void body_controls(Drawing& d) {
     changed = true;
   }
   if (body.light && !body.light->gradient) changed |= edit_color("radiance", body.light->radiance);
+  if (body.light && body.light->gradient)
+    for (std::size_t i = 0; i < body.light->gradient->stops.size(); ++i)
+      changed |= edit_color(("stop " + std::to_string(i + 1)).c_str(), body.light->gradient->stops[i].radiance);
   if (!body.light) changed |= edit_color("colour", body.color);
   if (changed) d.change(*d.selection(), std::move(body));
 }
 
 void drawing_times(ViewState& state, const Drawing& d) {
   ImGui::Text("%.1f ms, %zu of %zu tiles drawn", d.stats().ms, d.stats().drawn, d.stats().tiles);
-  const std::vector<float> ms(state.frame_ms.begin(), state.frame_ms.end());
-  if (!ms.empty())
-    ImGui::PlotLines("##ms", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, *std::max_element(ms.begin(), ms.end()), {-1, 40});
+  graph_of_passes(state);
 }
 
 }  // namespace
@@ -297,23 +420,31 @@ void draw_panel(ViewState& state) {
     Session& s = *state.session;
     if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) light_list(s);
     if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) selected_controls(s);
-    if (!s.animations().empty() && ImGui::CollapsingHeader("Time", ImGuiTreeNodeFlags_DefaultOpen)) animation_controls(state, s);
     if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) render_controls(state, s);
   }
   if (state.drawing != nullptr) {
     if (ImGui::CollapsingHeader("Bodies", ImGuiTreeNodeFlags_DefaultOpen)) body_list(*state.drawing);
     if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) body_controls(*state.drawing);
   }
+  if (state.stage->duration() > 0 && ImGui::CollapsingHeader("Time", ImGuiTreeNodeFlags_DefaultOpen)) time_controls(state);
   if (ImGui::SliderFloat("exposure", &state.exposure, -8, 8, "%.2f stops")) state.display_wanted = true;
   ImGui::SameLine();
   if (ImGui::SmallButton("auto")) state.exposure_known = false;
+  if (ImGui::BeginCombo("tone curve", name_of(state.tone))) {
+    for (const ToneCurve curve : kToneCurves)
+      if (ImGui::Selectable(name_of(curve), curve == state.tone)) {
+        state.tone = curve;
+        state.display_wanted = true;
+      }
+    ImGui::EndCombo();
+  }
   if (ImGui::CollapsingHeader("Files", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::InputText("##scene", &state.scene_name);
     ImGui::SameLine();
     if (ImGui::Button("save scene")) attempt(state, [&] { state.stage->save_scene(state.scene_name); });
     ImGui::InputText("##picture", &state.picture_name);
     ImGui::SameLine();
-    if (ImGui::Button("save picture")) attempt(state, [&] { state.stage->save_picture(state.picture_name, state.exposure); });
+    if (ImGui::Button("save picture")) attempt(state, [&] { state.stage->save_picture(state.picture_name, state.exposure, state.tone); });
   }
   if (state.session != nullptr && ImGui::CollapsingHeader("Times")) times(state, *state.session);
   if (state.drawing != nullptr && ImGui::CollapsingHeader("Times")) drawing_times(state, *state.drawing);

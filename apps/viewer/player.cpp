@@ -50,6 +50,8 @@ bool set_of_material(MaterialValues& v, const std::string& what, const nlohmann:
     v.metallic = number_of(what, value);
   else if (what == "base_color")
     v.base_color = three_of(what, value);
+  else if (what == "lobe")
+    v.lobe = value.is_string() ? lobe_named(text_of(what, value)) : Json(value);
   else
     return false;
   return true;
@@ -59,6 +61,9 @@ bool set_of_picture(ViewState& state, const std::string& what, const nlohmann::j
   if (what == "exposure") {
     state.exposure = static_cast<float>(number_of(what, value));
     state.exposure_known = state.display_wanted = true;
+  } else if (what == "tone") {
+    state.tone = tone_curve_named(text_of(what, value));
+    state.display_wanted = true;
   } else if (what == "beside") {
     state.other_method = text_of(what, value);
     choose_other(state);
@@ -79,8 +84,15 @@ bool set_of_picture(ViewState& state, const std::string& what, const nlohmann::j
 }
 
 bool set_of_session(Session& s, const std::string& what, const nlohmann::json& value) {
-  if (what == "time") {
-    s.set_time(number_of(what, value));
+  if (what == "add") {
+    s.add_light(text_of(what, value));
+    return true;
+  }
+  if (what == "material") {
+    const double material = number_of(what, value);
+    if (!(material >= 0 && material < static_cast<double>(s.document().count("/materials"))))
+      throw Error("set material", "there is none of that number");
+    s.select({s.selection().node, static_cast<int>(material)});
     return true;
   }
   if (what == "method") {
@@ -144,7 +156,7 @@ void open_stage(ViewState& state, const std::string& path, const RenderOptions& 
   }
   state.scene_name = beside(path, "");
   state.picture_name = beside(path, ".png");
-  state.frame_ms.clear();
+  state.history.clear();
   state.playing = false;
   if (state.split || state.error_map) choose_other(state);
 }
@@ -164,6 +176,7 @@ void choose_other(ViewState& state) {
 }
 
 void set_value(ViewState& state, const std::string& what, const nlohmann::json& value) {
+  if (what == "time") return state.stage->set_time(number_of(what, value));
   if (set_of_picture(state, what, value)) return;
   if (state.drawing != nullptr && set_of_drawing(*state.drawing, what, value)) return;
   if (state.session == nullptr || !set_of_session(*state.session, what, value))
@@ -208,7 +221,7 @@ void act(ViewState& state, Action action) {
     case Action::undo: attempt(state, [&] { stage.undo(); }); break;
     case Action::redo: attempt(state, [&] { stage.redo(); }); break;
     case Action::save_scene: attempt(state, [&] { stage.save_scene(state.scene_name); }); break;
-    case Action::save_picture: attempt(state, [&] { stage.save_picture(state.picture_name, state.exposure); }); break;
+    case Action::save_picture: attempt(state, [&] { stage.save_picture(state.picture_name, state.exposure, state.tone); }); break;
     case Action::reload: attempt(state, [&] { stage.reload(); }); break;
     case Action::split:
       state.split = !state.split;
@@ -218,7 +231,7 @@ void act(ViewState& state, Action action) {
       state.error_map = !state.error_map;
       choose_other(state);
       break;
-    case Action::play: state.playing = !state.playing && s != nullptr && !s->animations().empty(); break;
+    case Action::play: state.playing = !state.playing && stage.duration() > 0; break;
     case Action::fly: break;  // while it is held, by the window
     case Action::quit: state.quit = true; break;
   }

@@ -23,7 +23,8 @@ double distance_of_view(const Scene& scene, const Camera& camera) {
 
 }  // namespace
 
-Session::Session(const std::string& path, RenderOptions options) : options_(std::move(options)) {
+Session::Session(const std::string& path, RenderOptions options, Worker::Render render)
+    : options_(std::move(options)), worker_(std::move(render)) {
   take_document(std::make_unique<Document>(scene::read_gltf_file(path)));
 }
 
@@ -70,6 +71,11 @@ bool Session::update() {
     } else {
       if (frame->request == request_ && frame->load_ms > 0) say({});
       settled_ = frame->request == request_ && frame->last && submitted_ == wanted_ && !moving_;
+      if (!frame->device_lost.empty() && options_.backend != Backend::cpu) {
+        options_.backend = Backend::cpu;
+        if (other_) other_->backend = Backend::cpu;
+        say(frame->device_lost + "; the CPU goes on");
+      }
       frame_ = std::move(*frame);
       fresh = true;
       if (!camera_) {
@@ -149,6 +155,14 @@ void Session::press(PointerButton button, bool shift, Vec2d at) {
   shift_ = shift;
   moved_ = false;
   pressed_ = last_ = at;
+  drags_corner_ = false;
+  handle_ = Handle::none;
+  if (const auto corner = button == PointerButton::left && !shift ? corner_under(at) : std::nullopt) {
+    corner_ = corner;
+    drags_corner_ = true;
+    drag_outline_ = *outline_;
+    return;
+  }
   handle_ = button == PointerButton::left && !shift ? handle_under(at) : Handle::none;
   if (handle_ == Handle::none) return;
   drag_gizmo_ = *gizmo();
@@ -191,7 +205,9 @@ void Session::drag(Vec2d to) {
   set_moving(true);
   const Vec2d by = (to - last_) / size().y;
   last_ = to;
-  if (handle_ != Handle::none)
+  if (drags_corner_)
+    drag_corner(to);
+  else if (handle_ != Handle::none)
     drag_handle(to);
   else if (*button_ == PointerButton::right)
     camera_->look(by.x, by.y);
@@ -205,13 +221,101 @@ void Session::drag(Vec2d to) {
 void Session::release(Vec2d at) {
   if (!button_) return;
   drag(at);
-  if (!moved_ && *button_ == PointerButton::left && handle_ == Handle::none) click(at);
+  if (!moved_ && *button_ == PointerButton::left && handle_ == Handle::none && !drags_corner_) click(at);
   button_.reset();
+  drags_corner_ = false;
   handle_ = Handle::none;
   set_moving(false);
 }
 
+// ---- corners
+
+const Lamp* Session::selected_mesh() const {
+  for (const Lamp& lamp : lamps())
+    if (lamp.node == selection_.node && lamp.kind == LampKind::mesh) return &lamp;
+  return nullptr;
+}
+
+const std::vector<std::vector<Vec3d>>& Session::corners() const {
+  const std::pair<std::uint64_t, int> now{base_revision_ + document_->revision(), selection_.node};
+  if (corners_of_ == now) return corners_;
+  corners_of_ = now;
+  corners_.clear();
+  const Lamp* lamp = selected_mesh();
+  outline_ = lamp != nullptr ? outline_of(*document_, *lamp) : std::nullopt;
+  if (!outline_) return corners_;
+  for (const auto& contour : outline_->contours) {
+    auto& world = corners_.emplace_back();
+    for (const Vec3d& p : contour) world.push_back(tree().world(lamp->node).point(p));
+  }
+  return corners_;
+}
+
+std::optional<CornerPlace> Session::corner_under(Vec2d at) const {
+  if (!camera_) return {};
+  std::optional<CornerPlace> best;
+  double nearest = 7;  // pixels
+  for (std::size_t i = 0; i < corners().size(); ++i)
+    for (std::size_t k = 0; k < corners()[i].size(); ++k) {
+      const auto seen = project(camera_->camera(), corners()[i][k], size().x, size().y);
+      if (!seen || length(*seen - at) >= nearest) continue;
+      nearest = length(*seen - at);
+      best = CornerPlace{i, k};
+    }
+  return best;
+}
+
+std::optional<CornerPlace> Session::corner() const {
+  if (!corner_ || corner_->contour >= corners().size() || corner_->corner >= corners()[corner_->contour].size()) return {};
+  return corner_;
+}
+
+bool Session::put_corners(const Outline& outline) {
+  const Lamp* lamp = selected_mesh();
+  if (lamp == nullptr || !set_outline(*document_, *lamp, outline)) return false;
+  changed();
+  return true;
+}
+
+void Session::drag_corner(Vec2d to) {
+  const Affine& world = tree().world(selection_.node);
+  if (!(std::fabs(world.determinant()) > 0)) return;
+  Vec3d& corner = drag_outline_.contours[corner_->contour][corner_->corner];
+  const Vec3d before = corner, at = world.point(before), normal = normalized(world.normal(drag_outline_.normal));
+  const auto met = meets_plane(at, normal, ray(to));
+  if (!met) return;
+  corner = inverse(world).point(*met);
+  if (!put_corners(drag_outline_)) corner = before;  // stays where the outline was whole
+}
+
+void Session::add_corner() {
+  if (!corner()) return;
+  Outline outline = *outline_;
+  auto& contour = outline.contours[corner_->contour];
+  const std::size_t next = (corner_->corner + 1) % contour.size();
+  contour.insert(contour.begin() + static_cast<std::ptrdiff_t>(corner_->corner) + 1, (contour[corner_->corner] + contour[next]) * 0.5);
+  if (!put_corners(outline)) return;
+  ++corner_->corner;
+  document_->close_step();
+}
+
+void Session::remove_corner() {
+  if (!corner()) return;
+  Outline outline = *outline_;
+  auto& contour = outline.contours[corner_->contour];
+  if (contour.size() > 3)
+    contour.erase(contour.begin() + static_cast<std::ptrdiff_t>(corner_->corner));
+  else if (corner_->contour > 0)
+    outline.contours.erase(outline.contours.begin() + static_cast<std::ptrdiff_t>(corner_->contour));  // a hole of three
+  else
+    return;
+  if (!put_corners(outline)) return;
+  corner_.reset();
+  document_->close_step();
+}
+
 void Session::click(Vec2d at) {
+  corner_.reset();
   if (!frame_.scene) return;
   // Lamps without an extent are marks in the picture.
   constexpr double kMark = 10;
@@ -297,7 +401,9 @@ void Session::add_light(const std::string& type) {
   if (!camera_) return;
   const double size = camera_->distance() / 5;
   const Vec3d position = camera_->target() + Vec3d{0, 1, 0} * (camera_->distance() / 3);
-  selection_ = {add_area_light(*document_, type, position, {0, -1, 0}, size), -1};
+  select({type == "polygon" ? add_polygon_light(*document_, position, {0, -1, 0}, size)
+                            : view::add_light(*document_, type, position, {0, -1, 0}, size),
+          -1});
   document_->close_step();
   changed();
 }
@@ -343,10 +449,10 @@ void Session::save_scene(const std::string& path) {
   if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(document_->file().path)) file_time_ = time_of(path);
 }
 
-void Session::save_picture(const std::string& path, float exposure_stops) {
+void Session::save_picture(const std::string& path, float exposure_stops, ToneCurve curve) {
   wait_until_settled();
   if (!frame_.last) throw Error(path, "there is no picture to save", message());
-  write_picture(frame_.picture, path, exposure_stops);
+  write_picture(frame_.picture, path, exposure_stops, curve);
 }
 
 }  // namespace steradian::view

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gizmo.h"
-#include "lamps.h"
+#include "outline.h"
 #include "pick.h"
 #include "scene/gltf_animation.h"
 #include "stage.h"
@@ -22,10 +22,15 @@ struct Selection {
   int material = -1;  // of the mesh that was picked; -1: a lamp without one
 };
 
+struct CornerPlace {
+  std::size_t contour = 0, corner = 0;
+  bool operator==(const CornerPlace&) const = default;
+};
+
 class Session : public Stage {
  public:
   // Throws Error where the file cannot be read; what is wrong with its scene is said in message() once the first picture was tried.
-  Session(const std::string& path, RenderOptions options);
+  Session(const std::string& path, RenderOptions options, Worker::Render render = {});
 
   bool update() override;
   void wait_until_settled() override;
@@ -62,9 +67,20 @@ class Session : public Stage {
   const NodeTree& tree() const;            // of the document as it is
   const std::vector<Lamp>& lamps() const;  // of the document as it is
   const Selection& selection() const { return selection_; }
-  void select(Selection selection) { selection_ = selection; }
+  void select(Selection selection) {
+    selection_ = selection;
+    corner_.reset();
+  }
   void select_named(const std::string& name) override;
   void deselect() override { selection_ = {}; }
+  // Of a selected lamp that is a polygon, its corners in the world, contour after contour: a press takes one, and a drag carries it over
+  // the polygon's plane, as far as the outline does not cross itself.
+  const std::vector<std::vector<Vec3d>>& corners() const;
+  std::optional<CornerPlace> corner_under(Vec2d at) const;
+  std::optional<CornerPlace> corner() const;  // that was taken last
+  void add_corner();                          // in the middle of the edge after it, and takes that
+  void remove_corner();
+
   GizmoMode gizmo_mode = GizmoMode::move;
   std::optional<Gizmo> gizmo() const;  // of what is selected
 
@@ -72,10 +88,11 @@ class Session : public Stage {
   const std::vector<scene::GltfAnimation>& animations() const { return animations_; }
   std::size_t animation() const { return animation_; }
   void choose_animation(std::size_t animation);
-  double time() const { return time_; }
-  void set_time(double seconds);  // beyond the end it begins again
+  double duration() const override { return animations_.empty() ? 0 : animations_[animation_].duration; }
+  double time() const override { return time_; }
+  void set_time(double seconds) override;
 
-  void add_light(const std::string& type);  // above what is looked at, and selected
+  void add_light(const std::string& type);  // above what is looked at, and selected; polygon: of five corners
   void remove_selected() override;
   void undo() override;
   void redo() override;
@@ -85,7 +102,7 @@ class Session : public Stage {
   bool unsaved() const override { return !document_->saved(); }
   bool file_changed() const override;
   void save_scene(const std::string& path) override;
-  void save_picture(const std::string& path, float exposure_stops) override;
+  void save_picture(const std::string& path, float exposure_stops, ToneCurve curve) override;
 
  private:
   Ray ray(Vec2d at) const { return ray_through(camera_->camera(), at, size().x, size().y); }
@@ -94,6 +111,9 @@ class Session : public Stage {
   Json shown_json() const;  // of the document, at the moment
   void click(Vec2d at);
   void drag_handle(Vec2d to);
+  const Lamp* selected_mesh() const;  // null where no mesh that shines is selected
+  void drag_corner(Vec2d to);
+  bool put_corners(const Outline& outline);
 
   std::unique_ptr<Document> document_;
   RenderOptions options_;
@@ -123,6 +143,14 @@ class Session : public Stage {
   Gizmo drag_gizmo_;
   NodePose drag_pose_;
   Affine drag_parent_;
+  std::optional<CornerPlace> corner_;
+  bool drags_corner_ = false;
+  Outline drag_outline_;
+
+  // Of what is selected, and of which revision and node.
+  mutable std::optional<Outline> outline_;
+  mutable std::vector<std::vector<Vec3d>> corners_;
+  mutable std::pair<std::uint64_t, int> corners_of_{0, -1};
 
   Worker worker_;
 };

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "steradian/picture.h"
+#include "steradian/tone.h"
 #include "steradian/vector2.h"
 
 namespace steradian::view {
@@ -33,6 +33,12 @@ class Stage {
   // Between true and false pictures are made in a hurry, and all changes are one step of undo.
   virtual void set_moving(bool moving) = 0;
 
+  // Of what moves by itself: how long it does [s], 0 where nothing does, and the moment that is shown. Beyond its end it begins again, or
+  // goes on where it has none.
+  virtual double duration() const = 0;
+  virtual double time() const = 0;
+  virtual void set_time(double seconds) = 0;
+
   virtual void remove_selected() = 0;
   virtual void deselect() = 0;
   virtual void select_named(const std::string& name) = 0;  // the first of that name; nothing where none has it
@@ -46,7 +52,7 @@ class Stage {
   virtual bool file_changed() const = 0;  // since it was read or saved
   virtual void reload() = 0;
   virtual void save_scene(const std::string& path) = 0;
-  virtual void save_picture(const std::string& path, float exposure_stops) = 0;  // waits for the whole picture
+  virtual void save_picture(const std::string& path, float exposure_stops, ToneCurve curve) = 0;  // waits for the whole picture
 
   const std::string& message() const { return message_; }  // what was wrong last; empty: nothing
   void say(std::string message) { message_ = std::move(message); }

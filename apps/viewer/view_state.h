@@ -18,6 +18,7 @@ struct ViewState {
   Drawing* drawing = nullptr;  // where it is one of the plane
 
   float exposure = 0;
+  ToneCurve tone = ToneCurve::neutral;
   bool exposure_known = false;  // automatic until the first picture, then the same for all
   bool panel = true, help = false;
   bool playing = false;  // the animation runs
@@ -25,8 +26,8 @@ struct ViewState {
   float split_at = 0.5f;    // share of the width
   float error_most = 0.1f;  // of the map: white
   std::string other_method = "reference";
-  std::string scene_name, picture_name;  // to save as
-  std::deque<float> frame_ms;            // of the last pictures
+  std::string scene_name, picture_name;       // to save as
+  std::deque<std::vector<PassTime>> history;  // of the last pictures
   bool quit = false;
 
   // Of the picture that is shown; made again where the picture or one of these changed.

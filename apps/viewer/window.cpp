@@ -70,6 +70,7 @@ class Window {
   explicit Window(const WindowOptions& options) : options_(options) {
     open_stage(state_, options.scene, options.render);
     state_.panel = options.panel;
+    state_.tone = options.tone;
     if (options.exposure) {
       state_.exposure = *options.exposure;
       state_.exposure_known = true;
@@ -206,10 +207,11 @@ void Window::open_window() {
 
 void Window::take_picture() {
   state_.display_wanted = true;
+  if (state_.session != nullptr && state_.session->frame().same) return;
   constexpr std::size_t kShown = 120;
-  const double ms = state_.session != nullptr ? state_.session->frame().stats.total_ms : state_.drawing->stats().ms;
-  state_.frame_ms.push_back(static_cast<float>(ms));
-  if (state_.frame_ms.size() > kShown) state_.frame_ms.pop_front();
+  state_.history.push_back(state_.session != nullptr ? state_.session->frame().stats.passes
+                                                     : std::vector<PassTime>{{"tiles", state_.drawing->stats().ms}});
+  if (state_.history.size() > kShown) state_.history.pop_front();
 }
 
 void Window::make_display() {
@@ -226,10 +228,10 @@ void Window::make_display() {
   if (both && state_.error_map)
     state_.display = error_map(picture, *other, static_cast<double>(state_.error_most));
   else if (both && state_.split)
-    state_.display = split(shown(picture, state_.exposure), shown(*other, state_.exposure),
+    state_.display = split(shown(picture, state_.exposure, state_.tone), shown(*other, state_.exposure, state_.tone),
                            static_cast<int>(std::lround(static_cast<double>(state_.split_at) * picture.width)));
   else
-    state_.display = shown(picture, state_.exposure);
+    state_.display = shown(picture, state_.exposure, state_.tone);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, state_.display.width, state_.display.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                state_.display.rgba.data());
@@ -325,7 +327,7 @@ void Window::fly() {
 void Window::run_time() {
   const auto now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - std::exchange(last_moment_, now)).count();
-  if (state_.playing && state_.session != nullptr) state_.session->set_time(state_.session->time() + seconds);
+  if (state_.playing) attempt(state_, [&] { state_.stage->set_time(state_.stage->time() + seconds); });
 }
 
 // The file may be written by another program: it is looked at twice a second.
@@ -385,13 +387,13 @@ void Window::play(const ScriptEvent& event) {
       std::printf("%s %.3f s\n", event.text.c_str(), std::chrono::duration<double>(Clock::now() - start_).count());
       break;
     case ScriptWord::shot: shot_ = event.text; break;
-    case ScriptWord::picture: state_.stage->save_picture(event.text, state_.exposure); break;
+    case ScriptWord::picture: state_.stage->save_picture(event.text, state_.exposure, state_.tone); break;
     case ScriptWord::save: state_.stage->save_scene(event.text); break;
     case ScriptWord::resize: glfwSetWindowSize(window_, static_cast<int>(event.at.x), static_cast<int>(event.at.y)); break;
     case ScriptWord::minimise: glfwIconifyWindow(window_); break;
     case ScriptWord::restore: glfwRestoreWindow(window_); break;
     case ScriptWord::open: open_stage(state_, event.text, options_.render); break;
-    case ScriptWord::quit: state_.quit = true; break;
+    case ScriptWord::quit: glfwSetWindowShouldClose(window_, GLFW_TRUE); break;
   }
 }
 

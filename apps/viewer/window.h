@@ -5,6 +5,7 @@
 #include <string>
 
 #include "steradian/render.h"
+#include "steradian/tone.h"
 
 namespace steradian::view {
 
@@ -12,8 +13,9 @@ struct WindowOptions {
   std::string scene;
   RenderOptions render;
   std::optional<float> exposure;  // none: automatic
-  std::string script;             // a file of script.h to play; empty: none
-  std::string record;             // a file to write what is done to; empty: none
+  ToneCurve tone = ToneCurve::neutral;
+  std::string script;  // a file of script.h to play; empty: none
+  std::string record;  // a file to write what is done to; empty: none
   bool panel = true;
 };
 

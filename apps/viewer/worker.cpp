@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "steradian/error.h"
+
 namespace steradian::view {
 namespace {
 
@@ -19,6 +21,10 @@ RenderOptions reduced(RenderOptions options, int divisor) {
   return options;
 }
 
+// A reference gets better while it is looked at.
+bool is_accumulated(const std::optional<RenderOptions>& other) { return other && other->method == "reference"; }
+constexpr int kFirstPairs = 4;  // of samples a light and pixel: noise, but at once
+
 }  // namespace
 
 int divisor_within(double time_ms, const Cost& cost) {
@@ -29,7 +35,11 @@ int divisor_within(double time_ms, const Cost& cost) {
   return divisor;
 }
 
-Worker::Worker() : thread_([this] { run(); }) {}
+Worker::Worker(Render render)
+    : render_(render ? std::move(render)
+                     : [](const Scene& scene, const RenderOptions& options, RenderCache& cache, RenderStats* stats,
+                          RenderState* state) { return steradian::render(scene, options, cache, stats, state); }),
+      thread_([this] { run(); }) {}
 
 Worker::~Worker() {
   {
@@ -99,11 +109,15 @@ void Worker::answer(const Job& job) {
     const auto start = std::chrono::steady_clock::now();
     LoadOptions options;
     options.aspect = static_cast<double>(request.options.width) / request.options.height;
-    if (!pictures_ || source_ != request.source) pictures_ = std::make_shared<DecodedPictures>();
+    if (!pictures_ || source_ != request.source) {
+      pictures_ = std::make_shared<DecodedPictures>();
+      meshes_ = make_kept_meshes();
+    }
     source_ = request.source;
     options.pictures = pictures_;
+    options.meshes = meshes_;
     scene_.reset();
-    scene_ = std::make_shared<LoadedScene>(load_scene_from_memory(glb_bytes(request.file), request.file.path, options));
+    scene_ = std::make_shared<LoadedScene>(scene::load_scene(request.file, options));
     revision_ = request.revision;
     frame.load_ms = ms_since(start);
   }
@@ -127,27 +141,75 @@ void Worker::answer(const Job& job) {
   constexpr double kLong = 500;
   const double whole = cost_.pixels_ms * cost_.divisor * cost_.divisor;
   if (first > 2 && whole > kLong && !show(job, frame, 2, false)) return;
-  show(job, frame, 1, true);
+  if (show(job, frame, 1, true) && frame.pairs > 0) accumulate(job, std::move(frame));
 }
 
-bool Worker::show(const Job& job, RenderedFrame frame, int divisor, bool last) {
-  const auto render_one = [&](const RenderOptions& full, Picture& picture, RenderStats& stats) {
-    RenderOptions options = reduced(full, divisor);
-    options.stop = &cancel_;
-    RenderState state;
-    picture = render(scene_->scene, options, &stats, &state);
-    return state.complete;
-  };
+bool Worker::render_one(const RenderOptions& wanted, RenderedFrame& frame, Picture& picture, RenderStats& stats) {
+  RenderOptions options = wanted;
+  options.stop = &cancel_;
+  RenderState state;
+  if (!device_lost_.empty()) options.backend = Backend::cpu;
+  try {
+    picture = render_(scene_->scene, options, cache_, &stats, &state);
+  } catch (const UsageError&) {
+    throw;  // what was asked for, not the device
+  } catch (const Error& e) {
+    if (options.backend == Backend::cpu) throw;
+    device_lost_ = e.what();
+    options.backend = Backend::cpu;
+    picture = render_(scene_->scene, options, cache_, &stats, &state);
+  }
+  frame.device_lost = device_lost_;
+  return state.complete;
+}
+
+bool Worker::add_pass(const Job& job, RenderedFrame& frame, int divisor, int pairs) {
+  RenderOptions options = reduced(*job.request.other, divisor);
+  options.target_error = 0;
+  options.spp = pairs;
+  options.seed += accumulation_.pairs();  // another for every pass
+  Picture pass;
+  if (!render_one(options, frame, pass, frame.other_stats)) return false;
+  accumulation_.add(pass, pairs);
+  frame.other = accumulation_.picture();
+  frame.pairs = accumulation_.pairs();
+  frame.standard_error = accumulation_.relative_error();
+  return true;
+}
+
+bool Worker::show(const Job& job, RenderedFrame& frame, int divisor, bool last) {
+  const RenderRequest& request = job.request;
   const auto start = std::chrono::steady_clock::now();
-  if (!render_one(job.request.options, frame.picture, frame.stats)) return false;
-  if (job.request.other && !render_one(*job.request.other, frame.other, frame.other_stats)) return false;
+  if (!render_one(reduced(request.options, divisor), frame, frame.picture, frame.stats)) return false;
+  accumulation_ = {};
+  if (is_accumulated(request.other)) {
+    if (!add_pass(job, frame, divisor, kFirstPairs)) return false;
+  } else if (request.other && !render_one(reduced(*request.other, divisor), frame, frame.other, frame.other_stats)) {
+    return false;
+  }
   const auto build_ms = [](const RenderStats& stats) { return stats.passes.empty() ? 0.0 : stats.passes.front().ms; };
   const double fixed = build_ms(frame.stats) + build_ms(frame.other_stats);
   cost_ = {fixed, std::max(ms_since(start) - fixed, 0.0), divisor};
   frame.divisor = divisor;
-  frame.last = last;
-  publish(std::move(frame));
+  frame.last = last && (frame.pairs == 0 || frame.standard_error <= request.other->target_error);
+  publish(frame);
   return true;
+}
+
+void Worker::accumulate(const Job& job, RenderedFrame frame) {
+  constexpr double kPassMs = 300;            // a pass that takes no longer is followed by one of twice as many samples
+  constexpr double kGoodEnough = 1.0 / 16;   // of the error that is asked for: what a screen of 8 bits shows no more
+  constexpr std::uint64_t kMost = 1u << 20;  // pairs
+  const double target = job.request.other->target_error;
+  int pairs = kFirstPairs;
+  frame.same = true;
+  while (frame.standard_error > target * kGoodEnough && frame.pairs < kMost) {
+    const auto start = std::chrono::steady_clock::now();
+    if (!add_pass(job, frame, 1, pairs)) return;
+    if (ms_since(start) < kPassMs) pairs *= 2;
+    frame.last = frame.standard_error <= target || frame.pairs >= kMost;
+    publish(frame);
+  }
 }
 
 }  // namespace steradian::view

@@ -28,6 +28,11 @@ struct DecodedPictures {
   std::map<int, Image> images;
 };
 
+// The meshes of a file as they stood in the scene: of a file that is read again with other values, those whose nodes, vertices and
+// triangles have not changed are taken as they are. Made by make_kept_meshes, for one file whose bytes beside its JSON stay as they are.
+struct KeptMeshes;
+std::shared_ptr<KeptMeshes> make_kept_meshes();
+
 struct LoadOptions {
   // Area lights kept, strongest first (AreaLight::power); at least 1. None: 256, and room for every mesh and single light, up to 65,536.
   std::optional<int> max_lights = {};
@@ -37,6 +42,7 @@ struct LoadOptions {
   double aspect = 16.0 / 9;                        // width over height of the picture that a default camera fills
   std::vector<AddedLight> lights = {};             // empty: standard where the file's own lights are too weak for a picture
   std::shared_ptr<DecodedPictures> pictures = {};  // kept from one reading of the same file to the next; null: none
+  std::shared_ptr<KeptMeshes> meshes = {};         // likewise
 };
 
 // What a file says of itself.
@@ -51,6 +57,7 @@ struct LoadedScene {
   double texture_ms = 0;              // of the reading: its pictures
   std::vector<std::string> warnings;  // whole sentences, ready to print: what was dropped, defaulted or not supported
   std::vector<int> mesh_nodes;        // by Scene::meshes: the file's node that it is of
+  std::size_t kept_meshes = 0;        // that were taken as they stood (LoadOptions::meshes)
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file

@@ -21,6 +21,9 @@ class PlaneAnimation {
 
   bool moves() const { return moves_; }  // is there an animation in it that counts?
   PlaneSvg at(double seconds) const;     // from the beginning of the document
+  // When everything in it has happened once; what is repeated without end goes on after it.
+  double duration() const;  // [s]
+  bool endless() const;     // something is repeated without end
 
  private:
   std::string svg_, name_;

@@ -22,6 +22,9 @@ struct PlaneStageStats {
   double ms = 0;
 };
 
+// Whether two bodies look the same, as lights and as shadows.
+bool looks_alike(const PlaneBody& a, const PlaneBody& b);
+
 class PlaneStage {
  public:
   // Exact light, without moments, bounces or antialiasing, occluders black. Throws Error for other options, and as PlaneWorld does.
@@ -36,6 +39,8 @@ class PlaneStage {
   void replace(std::size_t body, PlaneBody with);    // shape, place, light and all
   void move(std::size_t body, Vec2d by);             // by user units; a gradient moves along
   void recolour(std::size_t light, Vec3d radiance);  // of a light without a gradient
+  // Becomes another scene, body by body: what looks alike stays. Those behind one that has come or gone are other ones.
+  void follow(const PlaneScene& next);
 
   // The picture of the scene as it is now. Throws Error where the scene has become one that PlaneWorld refuses; the picture then stays.
   const Picture& draw();

@@ -44,7 +44,7 @@ struct RenderOptions {
   bool background = true;      // the camera sees the scene's environment; false: black
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
-  double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture
+  double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture; 0: `spp` pairs in every pixel
   IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;

@@ -40,11 +40,15 @@ Picture linear_picture(const Image& image, const std::string& place, Budget& bud
 }  // namespace
 
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops) {
+  write_picture(picture, path, exposure_stops, ToneCurve::neutral);
+}
+
+void write_picture(const Picture& picture, const std::string& path, float exposure_stops, ToneCurve curve) {
   const std::string e = ending(path);
   if (e == ".exr")
     write_file(path, image::encode_exr(picture));
   else if (e == ".png")
-    write_file(path, image::encode_png(picture, exposure_stops));
+    write_file(path, image::encode_png(picture, exposure_stops, curve));
   else
     throw Error(path, "unknown picture format '" + e + "'", "use .exr (linear) or .png (tone mapped)");
 }

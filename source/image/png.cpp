@@ -140,7 +140,7 @@ std::string encode(int width, int height, Channels channels, const Metadata& met
 
 }  // namespace
 
-std::string encode_png(const Picture& picture, float exposure_stops) {
+std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve curve) {
   const auto layer = picture.layers.find("alpha");
   const Vec3f* alpha = layer == picture.layers.end() ? nullptr : layer->second.data();
   const Channels channels = alpha == nullptr ? Channels::rgb : Channels::rgba;
@@ -151,7 +151,7 @@ std::string encode_png(const Picture& picture, float exposure_stops) {
       const float cover =
           alpha == nullptr ? 1.0f
                            : alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)].x;
-      const Vec3f c = tone_curve(picture.at(x, y) / std::max(cover, 1e-6f), scale);
+      const Vec3f c = tone_curve(picture.at(x, y) / std::max(cover, 1e-6f), scale, curve);
       for (const float channel : {c.x, c.y, c.z}) *byte++ = srgb_byte(channel);
       if (alpha != nullptr) *byte++ = static_cast<std::uint8_t>(std::lround(std::clamp(cover, 0.0f, 1.0f) * 255.0f));
     }

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "core/budget.h"
-#include "steradian/picture.h"
 #include "steradian/texture.h"
+#include "steradian/tone.h"
 
 namespace steradian::image {
 
 // 8 bits a channel of tone_map(pixel); metadata as tEXt chunks.
-std::string encode_png(const Picture& picture, float exposure_stops);
+std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve curve = ToneCurve::neutral);
 
 // The bytes of row y, three a pixel. Must not throw.
 using RowOfBytes = std::function<void(int y, std::uint8_t* row)>;

@@ -1,4 +1,4 @@
-// The tone curve of PNG output.
+// The tone curves of PNG output.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,7 +9,7 @@
 
 #include "image/tone.h"
 #include "steradian/area_light.h"  // luminance
-#include "steradian/picture.h"
+#include "steradian/error.h"
 
 namespace steradian {
 namespace {
@@ -30,7 +30,43 @@ Vec3f pbr_neutral(Vec3f c) {
   return c * (1.0f - g) + Vec3f{new_peak, new_peak, new_peak} * g;
 }
 
+Vec3f reinhard(Vec3f c) { return c / (1.0f + static_cast<float>(luminance(static_cast<Vec3d>(c)))); }
+
+Vec3f filmic(Vec3f c) {
+  const auto curve = [](float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); };
+  return {curve(c.x), curve(c.y), curve(c.z)};
+}
+
+Vec3f curved(Vec3f c, ToneCurve curve) {
+  switch (curve) {
+    case ToneCurve::neutral: return pbr_neutral(c);
+    case ToneCurve::clip: return c;
+    case ToneCurve::reinhard: return reinhard(c);
+    case ToneCurve::filmic: return filmic(c);
+  }
+  return c;
+}
+
 }  // namespace
+
+const char* name_of(ToneCurve curve) {
+  switch (curve) {
+    case ToneCurve::neutral: return "neutral";
+    case ToneCurve::clip: return "clip";
+    case ToneCurve::reinhard: return "reinhard";
+    case ToneCurve::filmic: return "filmic";
+  }
+  return "";
+}
+
+ToneCurve tone_curve_named(const std::string& name) {
+  std::string known;
+  for (const ToneCurve curve : kToneCurves) {
+    if (name == name_of(curve)) return curve;
+    known += (known.empty() ? "" : ", ") + std::string(name_of(curve));
+  }
+  throw UsageError("tone", "no curve is named '" + name + "'", "there are " + known);
+}
 
 float srgb_encode(float linear) {
   if (linear <= 0.0031308f) return 12.92f * linear;
@@ -59,17 +95,19 @@ float auto_exposure(const Picture& picture) {
   return count > 0 ? static_cast<float>(std::clamp(std::log2(0.18) - sum / count, -30.0, 30.0)) : 0.0f;
 }
 
-Vec3f tone_map(Vec3f radiance, float exposure_stops) {
-  const Vec3f c = image::tone_curve(radiance, std::exp2(exposure_stops));
+Vec3f tone_map(Vec3f radiance, float exposure_stops) { return tone_map(radiance, exposure_stops, ToneCurve::neutral); }
+
+Vec3f tone_map(Vec3f radiance, float exposure_stops, ToneCurve curve) {
+  const Vec3f c = image::tone_curve(radiance, std::exp2(exposure_stops), curve);
   const auto encode = [](float x) { return std::clamp(srgb_encode(x), 0.0f, 1.0f); };
   return {encode(c.x), encode(c.y), encode(c.z)};
 }
 
 namespace image {
 
-Vec3f tone_curve(Vec3f radiance, float scale) {
+Vec3f tone_curve(Vec3f radiance, float scale, ToneCurve curve) {
   const auto finite = [](float x) { return std::isfinite(x) ? std::clamp(x, 0.0f, 1e6f) : 0.0f; };
-  const Vec3f c = pbr_neutral({finite(radiance.x * scale), finite(radiance.y * scale), finite(radiance.z * scale)});
+  const Vec3f c = curved({finite(radiance.x * scale), finite(radiance.y * scale), finite(radiance.z * scale)}, curve);
   return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
 }
 
@@ -145,7 +183,17 @@ RowColor neutral(RowColor c) {
 
 }  // namespace
 
-void tone_row(const Vec3f* pixels, std::size_t count, float scale, std::uint8_t* rgba) {
+void tone_row(const Vec3f* pixels, std::size_t count, float scale, std::uint8_t* rgba, ToneCurve curve) {
+  if (curve != ToneCurve::neutral) {
+    for (std::size_t i = 0; i < count; ++i, rgba += 4) {
+      const Vec3f c = tone_curve(pixels[i], scale, curve);
+      rgba[0] = srgb_byte(c.x);
+      rgba[1] = srgb_byte(c.y);
+      rgba[2] = srgb_byte(c.z);
+      rgba[3] = 255;
+    }
+    return;
+  }
   const CodeTable& table = code_table();
   const Row zero(0.0f), one(1.0f), most(std::numeric_limits<float>::max());
   for (std::size_t i = 0; i < count; i += kRow) {

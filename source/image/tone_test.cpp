@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "steradian/error.h"
 #include "steradian/picture.h"
 
 namespace steradian::image {
@@ -46,6 +47,30 @@ TEST(Tone, HalvesMakeTheWhole) {
   }
 }
 
+// Numbers by hand, from the papers' formulas.
+TEST(Tone, CurvesAreThoseOfTheirPapers) {
+  const Vec3f grey{0.5f, 0.5f, 0.5f}, bright{4, 1, 0};
+  EXPECT_EQ(tone_curve(bright, 0.5f, ToneCurve::clip), (Vec3f{1, 0.5f, 0}));
+  EXPECT_NEAR(tone_curve(grey, 1, ToneCurve::reinhard).x, 1.0 / 3, 1e-6);
+  // Of luminance 0.2126 x 4 + 0.7152 = 1.5656: each channel through 2.5656.
+  const Vec3f r = tone_curve(bright, 1, ToneCurve::reinhard);
+  EXPECT_NEAR(r.x, 1, 1e-6) << "4 / 2.5656 is more than a screen has";
+  EXPECT_NEAR(r.y, 0.389772, 1e-5);
+  EXPECT_NEAR(tone_curve(grey, 1, ToneCurve::filmic).x, 0.5 * (2.51 * 0.5 + 0.03) / (0.5 * (2.43 * 0.5 + 0.59) + 0.14), 1e-6);
+  EXPECT_EQ(tone_curve(grey, 1, ToneCurve::neutral), tone_curve(grey, 1));
+  for (const ToneCurve curve : kToneCurves) {
+    EXPECT_EQ(tone_curve_named(name_of(curve)), curve);
+    EXPECT_EQ(tone_curve({0, 0, 0}, 1, curve), (Vec3f{0, 0, 0}));
+    float last = 0;
+    for (float x = 0.01f; x < 100; x *= 1.1f) {
+      const float y = tone_curve({x, x, x}, 1, curve).x;
+      EXPECT_GE(y, last) << name_of(curve) << " at " << x;
+      last = y;
+    }
+  }
+  EXPECT_THROW(tone_curve_named("sepia"), UsageError);
+}
+
 TEST(Tone, RowsAreThePixelsOneByOne) {
   std::mt19937 random(2);
   std::lognormal_distribution<float> radiance(-1, 3);
@@ -58,13 +83,15 @@ TEST(Tone, RowsAreThePixelsOneByOne) {
       if (i % 5 == 0) pixels[i].z = odd[i / 5 % 8];
     }
     std::vector<std::uint8_t> rgba(4 * count);
-    tone_row(pixels.data(), count, 1.7f, rgba.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3f c = tone_curve(pixels[i], 1.7f);
-      ASSERT_EQ(rgba[4 * i], srgb_byte(c.x)) << i;
-      ASSERT_EQ(rgba[4 * i + 1], srgb_byte(c.y)) << i;
-      ASSERT_EQ(rgba[4 * i + 2], srgb_byte(c.z)) << i;
-      ASSERT_EQ(rgba[4 * i + 3], 255);
+    for (const ToneCurve curve : kToneCurves) {
+      tone_row(pixels.data(), count, 1.7f, rgba.data(), curve);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec3f c = tone_curve(pixels[i], 1.7f, curve);
+        ASSERT_EQ(rgba[4 * i], srgb_byte(c.x)) << i;
+        ASSERT_EQ(rgba[4 * i + 1], srgb_byte(c.y)) << i;
+        ASSERT_EQ(rgba[4 * i + 2], srgb_byte(c.z)) << i;
+        ASSERT_EQ(rgba[4 * i + 3], 255);
+      }
     }
   }
 }

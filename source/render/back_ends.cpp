@@ -3,11 +3,13 @@
 
 namespace steradian {
 
-Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
-  if (options.backend == Backend::cpu) return render_on_cpu(scene, options, stats, state);
+namespace {
+
+Picture render_by(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state) {
+  if (options.backend == Backend::cpu) return render_on_cpu(scene, options, cache, stats, state);
   if (vulkan::runs_on_host_alone(scene, options)) {
     const vulkan::Device device({options.device, false});
-    Picture picture = render_on_cpu(scene, options, stats, state);
+    Picture picture = render_on_cpu(scene, options, cache, stats, state);
     if (stats != nullptr)
       stats->warnings.push_back(
           "the CPU renders all of this picture: " + (options.lights == LightSum::tree ? "--lights tree" : "the method " + options.method) +
@@ -18,6 +20,16 @@ Picture render(const Scene& scene, const RenderOptions& options, RenderStats* st
   Picture picture = frame.render(stats);
   if (state != nullptr) state->complete = options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);
   return picture;
+}
+
+}  // namespace
+
+Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
+  return render_by(scene, options, nullptr, stats, state);
+}
+
+Picture render(const Scene& scene, const RenderOptions& options, RenderCache& cache, RenderStats* stats, RenderState* state) {
+  return render_by(scene, options, &cache, stats, state);
 }
 
 }  // namespace steradian

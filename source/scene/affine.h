@@ -16,6 +16,7 @@ struct Affine {
     const Vec3d v = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
     return normalized(determinant() < 0 ? -v : v);
   }
+  bool operator==(const Affine&) const = default;
   friend Affine operator*(const Affine& a, const Affine& b) { return {a.vector(b.x), a.vector(b.y), a.vector(b.z), a.point(b.t)}; }
 };
 

@@ -139,8 +139,7 @@ std::vector<GltfAnimation> read_animations(const GltfFile& file, const Limits& l
   std::vector<GltfAnimation> result;
   if (!file.json.contains("animations")) return result;
   Budget budget(limits);
-  const std::string bytes = glb_bytes(file);
-  const GltfDocument document = read_gltf({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file.path, budget);
+  const GltfDocument document = document_of(file, budget);
   for (const JsonCursor& animation : document.root().elements("animations"))
     result.push_back(read_animation(document, file.json, animation));
   return result;

@@ -95,6 +95,64 @@ TEST(Animation, MovesNodesLightsAndMaterialsOfAFile) {
   EXPECT_EQ(s.area_lights[1].radiance, (Vec3d{0.75, 0.75, 1}));
 }
 
+// Numbers by hand. A joint that has turned by 60 degrees about z carries the vertex (1, 0, 0) that it holds with three quarters of its
+// weight, beside one that stands: to 1/4 (1, 0, 0) + 3/4 (cos 60, sin 60, 0). A target of weight 1/4 adds a quarter of its shift. A camera
+// between two places and two fields of view; lights of KHR_lights_punctual by pointers, one of them into an array.
+TEST(Animation, MovesSkinsWeightsCamerasAndLights) {
+  GltfTestFile f;
+  const int positions = f.add_floats({1, 0, 0, 2, 0, 0, 1, 1, 0}, "VEC3"), target = f.add_floats({0, 0, 4, 0, 0, 0, 0, 0, 0}, "VEC3");
+  const int joints = f.add_accessor(std::vector<std::uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", 5121, 4);
+  const int weights = f.add_floats({0.25f, 0.75f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+  f.add_mesh({{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}});
+  f.primitive()["targets"] = {{{"POSITION", target}}};
+  f.json["meshes"][0]["weights"] = {0.0};
+  f.node()["skin"] = 0;
+  f.append("skins", {{"joints", {1, 2}}});
+  f.append("nodes", nlohmann::json::object());
+  f.append("nodes", nlohmann::json::object());
+  f.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}}}});
+  f.append("nodes", {{"camera", 0}});
+  f.json["extensionsUsed"] = {"KHR_animation_pointer", "KHR_lights_punctual"};
+  f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"intensity", 4}, {"color", {1, 1, 1}}, {"spot", {{"outerConeAngle", 0.4}}}}};
+  f.append("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+
+  const int times = f.add_floats({0, 2}, "SCALAR");
+  nlohmann::json a;
+  const auto animate = [&](const std::vector<float>& values, const char* type, const nlohmann::json& where) {
+    a["channels"].push_back({{"sampler", a["samplers"].size()}, {"target", where}});
+    a["samplers"].push_back({{"input", times}, {"output", f.add_floats(values, type)}});
+  };
+  const auto pointer = [](const char* text) {
+    return nlohmann::json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", text}}}}}};
+  };
+  a["samplers"] = a["channels"] = nlohmann::json::array();
+  const auto s60 = static_cast<float>(std::sin(std::acos(-1.0) / 3)), c60 = 0.5f;  // half of 120 degrees, which are there at the end
+  animate({0, 0, 0, 1, 0, 0, s60, c60}, "VEC4", {{"node", 2}, {"path", "rotation"}});
+  animate({0, 0.5f}, "SCALAR", {{"node", 0}, {"path", "weights"}});
+  animate({0, 0, 5, 0, 2, 7}, "VEC3", {{"node", 3}, {"path", "translation"}});
+  animate({0.5f, 0.9f}, "SCALAR", pointer("/cameras/0/perspective/yfov"));
+  animate({4, 10}, "SCALAR", pointer("/extensions/KHR_lights_punctual/lights/0/intensity"));
+  animate({1, 1, 1, 1, 0.5f, 0}, "VEC3", pointer("/extensions/KHR_lights_punctual/lights/0/color"));
+  animate({0.4f, 0.8f}, "SCALAR", pointer("/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle"));
+  f.append("animations", a);
+
+  GltfFile file = read_gltf_file(f.write("moves.gltf"));
+  const auto animations = read_animations(file);
+  file.json = json_at(file.json, animations.at(0), 1);
+  const Scene s = load_scene(file).scene;
+  const Vec3d vertex = static_cast<Vec3d>(s.meshes.at(0).positions.at(0));
+  EXPECT_NEAR(vertex.x, 0.25 + 0.75 * 0.5, 1e-6);
+  EXPECT_NEAR(vertex.y, 0.75 * 0.8660254037844386, 1e-6);
+  EXPECT_NEAR(vertex.z, 1, 1e-6) << "a quarter of 4; both joints leave z as it is";
+  EXPECT_EQ(s.meshes[0].positions[1], (Vec3f{2, 0, 0})) << "held by the joint that stands";
+  EXPECT_EQ(s.cameras.at(0).position, (Vec3d{0, 1, 6}));
+  EXPECT_NEAR(s.cameras[0].yfov, 0.7, 1e-7);
+  ASSERT_EQ(s.punctual_lights.size(), 1u);
+  EXPECT_EQ(s.punctual_lights[0].intensity, (Vec3d{7, 7 * 0.75, 3.5}));
+  EXPECT_NEAR(s.punctual_lights[0].cos_outer, std::cos(0.6), 1e-7);
+}
+
 TEST(Animation, RefusesWhatIsBroken) {
   using F = GltfTestFile;
   struct Case {

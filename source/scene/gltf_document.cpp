@@ -1,6 +1,7 @@
 #include "scene/gltf_document.h"
 
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_file.h"
 
 #include <cstring>
 #include <filesystem>
@@ -233,12 +234,13 @@ GltfContainer gltf_container(std::span<const std::uint8_t> file, const std::stri
   return {{reinterpret_cast<const char*>(file.data()), file.size()}, {}};
 }
 
-GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget) {
+namespace {
+
+GltfDocument checked(nlohmann::json json, std::optional<std::span<const std::uint8_t>> binary, const std::string& path, Budget& budget) {
   GltfDocument document;
   document.path = path;
   document.sources = std::make_unique<GltfSources>(GltfSources{budget});
-  const GltfContainer container = gltf_container(file, path);
-  document.json = parse_json(container.json, path, budget);
+  document.json = std::move(json);
   const JsonCursor root = document.root();
   if (!document.json.is_object()) root.fail("the document must be a JSON object");
   check_version(root);
@@ -246,8 +248,21 @@ GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& pa
                             "samplers", "scenes", "skins", "textures"})
     for (const JsonCursor& element : root.elements(array)) element.text("name", "");  // objects, names strings
   check_required_extensions(root);
-  read_buffers(document, container.binary);
+  read_buffers(document, binary);
   return document;
+}
+
+}  // namespace
+
+GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget) {
+  const GltfContainer container = gltf_container(file, path);
+  return checked(parse_json(container.json, path, budget), container.binary, path, budget);
+}
+
+GltfDocument document_of(const GltfFile& file, Budget& budget) {
+  std::optional<std::span<const std::uint8_t>> binary;
+  if (file.binary) binary = std::span<const std::uint8_t>(*file.binary);
+  return checked(nlohmann::json(file.json), binary, file.path, budget);
 }
 
 }  // namespace steradian::scene

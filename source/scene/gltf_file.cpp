@@ -24,18 +24,6 @@ void append_chunk(std::string& bytes, std::string_view type, std::string_view da
   bytes.append(padded - data.size(), padding);
 }
 
-std::string base64(const Bytes& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 // The objects of a document that may name a file.
 template <class Use>
 void for_each_uri(Json& json, Use use) {
@@ -102,6 +90,18 @@ GltfFile read_gltf_file(const std::string& path, const Limits& limits) {
 GltfFile gltf_file_from_memory(std::string_view bytes, const std::string& path, const Limits& limits) {
   Budget budget(limits);
   return taken_apart({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, budget);
+}
+
+std::string base64(const Bytes& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
 }
 
 std::string glb_bytes(const GltfFile& file) {

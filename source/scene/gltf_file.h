@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/read_file.h"
-#include "steradian/limits.h"
+#include "scene/gltf_document.h"
+#include "steradian/load_scene.h"
 
 namespace steradian::scene {
 
@@ -26,8 +27,17 @@ GltfFile read_gltf_file(const std::string& path, const Limits& limits = {});
 // The same for the bytes of such a file. path: for messages, and the place that other files are relative to.
 GltfFile gltf_file_from_memory(std::string_view bytes, const std::string& path, const Limits& limits = {});
 
+// As read_gltf makes it of the file's bytes, without writing them out first. It points into file.binary.
+GltfDocument document_of(const GltfFile& file, Budget& budget);
+
+// As steradian::load_scene of the file's bytes.
+LoadedScene load_scene(const GltfFile& file, const LoadOptions& options = {});
+
 // As load_scene_from_memory takes it, with file.path for the files beside it.
 std::string glb_bytes(const GltfFile& file);
+
+// As data URIs have it.
+std::string base64(const Bytes& bytes);
 
 // By the name's ending: a .gltf holds the binary chunk as text. Names of other files are changed to be relative to the new place.
 void write_gltf_file(const GltfFile& file, const std::string& path);

@@ -182,6 +182,7 @@ void check_texture_sets(const SurfaceMaterial& m, const Mesh& mesh, Warnings& wa
 // A primitive that makes triangles: judged once, however many nodes place its mesh.
 struct UsablePrimitive {
   JsonCursor json;
+  int number = 0;  // of its mesh
   int mode = kTriangles;
   int material = -1;
 };
@@ -210,7 +211,9 @@ std::uint64_t bytes_of(const Context& c, const JsonCursor& primitive, int mode) 
 UsableMesh usable_mesh(const Context& c, const JsonCursor& mesh, std::size_t materials) {
   UsableMesh result;
   mesh.at("primitives");
+  int number = -1;
   for (const JsonCursor& primitive : mesh.elements("primitives")) {
+    ++number;
     const int mode = static_cast<int>(primitive.integer("mode", kTriangles, 0, 6));
     if (mode < kTriangles) {
       c.warnings.not_supported("points and lines");
@@ -222,7 +225,7 @@ UsableMesh usable_mesh(const Context& c, const JsonCursor& mesh, std::size_t mat
       continue;
     }
     result.bytes += bytes_of(c, primitive, mode);
-    result.primitives.push_back({primitive, mode, material});
+    result.primitives.push_back({primitive, number, mode, material});
   }
   return result;
 }
@@ -255,8 +258,9 @@ std::vector<Placement> take_placements(const Context& c, const GltfNodes& nodes,
 
 }  // namespace
 
-PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials,
-                         Warnings& warnings) {
+PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials, Warnings& warnings,
+                         KeptMeshes* kept) {
+  if (kept != nullptr) kept->begin(document);
   const Context c{document, warnings, document.count("accessors")};
   const std::size_t given_materials = materials.size();
   std::unordered_map<int, UsableMesh> meshes;
@@ -267,9 +271,26 @@ PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, s
     const std::vector<double> weights = morph_weights(placement.node, mesh_json);
     for (const UsablePrimitive& primitive : meshes.at(placement.mesh).primitives) {
       const JsonCursor attributes = primitive.json.at("attributes");
+      int material = primitive.material;
+      if (material < 0) {
+        if (materials.size() == given_materials) materials.push_back({});
+        material = static_cast<int>(given_materials);
+      }
+      const SurfaceMaterial& m = materials[static_cast<std::size_t>(material)];
+      const bool skinned = placement.skin >= 0 && attributes.has("JOINTS_0");
+      const std::string name = mesh_json.text("name", placement.node.text("name", ""));
+      KeptMeshes::Source source{*placement.world, weights, placement.mesh, material, tangent_set(m), name};
+      result.nodes.push_back(placement.index);
+      if (const Mesh* as_it_was = kept != nullptr && !skinned ? kept->find(placement.index, primitive.number, source) : nullptr) {
+        result.meshes.push_back(*as_it_was);
+        check_texture_sets(m, result.meshes.back(), warnings);
+        ++kept->found;
+        continue;
+      }
       Mesh mesh = read_local(c, primitive.json, weights, primitive.mode);
-      mesh.name = mesh_json.text("name", placement.node.text("name", ""));
-      if (placement.skin >= 0 && attributes.has("JOINTS_0")) {
+      mesh.name = name;
+      mesh.material = material;
+      if (skinned) {
         auto skin = skins.find(placement.skin);
         if (skin == skins.end()) skin = skins.emplace(placement.skin, read_skin(document, nodes, placement.skin)).first;
         const std::vector<Affine> blended = blend_joints(document, skin->second, attributes, mesh.positions.size());
@@ -278,17 +299,10 @@ PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, s
         to_world(mesh, placement.node, [&](std::size_t) { return *placement.world; });
         if (placement.world->determinant() < 0) turn_triangles(mesh);
       }
-      int material = primitive.material;
-      if (material < 0) {
-        if (materials.size() == given_materials) materials.push_back({});
-        material = static_cast<int>(given_materials);
-      }
-      mesh.material = material;
-      const SurfaceMaterial& m = materials[static_cast<std::size_t>(material)];
       check_texture_sets(m, mesh, warnings);
       complete(mesh, m, warnings);
+      if (kept != nullptr && !skinned) kept->keep(placement.index, primitive.number, std::move(source), mesh);
       result.meshes.push_back(std::move(mesh));
-      result.nodes.push_back(placement.index);
     }
   }
   return result;

@@ -8,6 +8,7 @@
 #include "scene/gltf_document.h"
 #include "scene/gltf_environment.h"
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_file.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
@@ -103,7 +104,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   Scene scene;
   GltfTextures textures(document, scene.images, warnings, options.pictures);
   scene.materials = read_materials(document, textures);
-  PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings);
+  PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings, options.meshes.get());
   scene.meshes = std::move(placed.meshes);
   for (Mesh& mesh : scene.meshes) mesh.casts_shadow = !lets_light_through(scene.materials[static_cast<std::size_t>(mesh.material)]);
   scene.cameras = read_cameras(document, nodes, warnings);
@@ -139,14 +140,16 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
     scene.area_lights.push_back(default_light(scene));
   }
   facts.not_supported = warnings.features();
-  return {std::move(scene), std::move(facts), textures.decoding_ms(), warnings.sentences(), std::move(placed.nodes)};
+  return {std::move(scene),     std::move(facts),        textures.decoding_ms(),
+          warnings.sentences(), std::move(placed.nodes), options.meshes != nullptr ? options.meshes->found : 0};
 }
 
-LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, const std::string& path, const LoadOptions& options) {
+template <class Document>  // a function that makes it
+LoadedScene read_within(Budget& budget, const LoadOptions& options, Document document) {
   if (options.max_lights && *options.max_lights < 1)
     throw Error("max_lights", "is " + std::to_string(*options.max_lights) + ", must be at least 1");
   try {
-    return read_scene(read_gltf(file, path, budget), options);
+    return read_scene(document(), options);
   } catch (const std::bad_alloc&) {
     throw budget.out_of_memory();
   }
@@ -154,19 +157,25 @@ LoadedScene read_within(Budget& budget, std::span<const std::uint8_t> file, cons
 
 }  // namespace
 
+LoadedScene load_scene(const GltfFile& file, const LoadOptions& options) {
+  Budget budget(options.limits);
+  return read_within(budget, options, [&] { return document_of(file, budget); });
+}
+
 }  // namespace steradian::scene
 
 namespace steradian {
 
 LoadedScene load_scene_from_memory(std::string_view bytes, const std::string& path, const LoadOptions& options) {
   Budget budget(options.limits);
-  return scene::read_within(budget, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path, options);
+  const std::span<const std::uint8_t> file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  return scene::read_within(budget, options, [&] { return scene::read_gltf(file, path, budget); });
 }
 
 LoadedScene load_scene(const std::string& path, const LoadOptions& options) {
   Budget budget(options.limits);
   const Bytes file = read_file(path, path, budget);
-  return scene::read_within(budget, file, path, options);
+  return scene::read_within(budget, options, [&] { return scene::read_gltf(file, path, budget); });
 }
 
 }  // namespace steradian

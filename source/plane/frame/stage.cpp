@@ -359,6 +359,35 @@ void PlaneStage::recolour(std::size_t light, Vec3d radiance) {
   impl_->scene.bodies[light].light->radiance = radiance;
 }
 
+namespace {
+
+bool alike(const PlaneGradient& a, const PlaneGradient& b) {
+  const auto stops_alike = [](const PlaneStop& s, const PlaneStop& t) { return s.offset == t.offset && s.radiance == t.radiance; };
+  return a.from == b.from && a.to == b.to && std::equal(a.stops.begin(), a.stops.end(), b.stops.begin(), b.stops.end(), stops_alike);
+}
+
+bool alike(const PlaneEmission& a, const PlaneEmission& b) {
+  return a.radiance == b.radiance && a.gradient.has_value() == b.gradient.has_value() && (!a.gradient || alike(*a.gradient, *b.gradient)) &&
+         a.profile == b.profile && a.range == b.range && a.spot_axis == b.spot_axis && a.spot_half_angle == b.spot_half_angle;
+}
+
+}  // namespace
+
+bool looks_alike(const PlaneBody& a, const PlaneBody& b) {
+  return a.shape == b.shape && a.contours == b.contours && a.even_odd == b.even_odd && a.center == b.center && a.x_axis == b.x_axis &&
+         a.y_axis == b.y_axis && a.radius == b.radius && a.light.has_value() == b.light.has_value() &&
+         (!a.light || alike(*a.light, *b.light)) && a.transmittance == b.transmittance && a.mirror == b.mirror &&
+         a.light_depth == b.light_depth;
+}
+
+void PlaneStage::follow(const PlaneScene& next) {
+  const std::size_t kept = std::min(next.bodies.size(), scene().bodies.size());
+  for (std::size_t i = 0; i < kept; ++i)
+    if (!looks_alike(scene().bodies[i], next.bodies[i])) replace(i, next.bodies[i]);
+  while (scene().bodies.size() > next.bodies.size()) remove(scene().bodies.size() - 1);
+  for (std::size_t i = kept; i < next.bodies.size(); ++i) add(next.bodies[i]);
+}
+
 const Picture& PlaneStage::draw() {
   const auto start = std::chrono::steady_clock::now();
   tbb::task_arena arena(impl_->options.threads > 0 ? impl_->options.threads : tbb::task_arena::automatic);

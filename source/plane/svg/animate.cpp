@@ -341,6 +341,20 @@ PlaneAnimation::PlaneAnimation(std::string svg, std::string name, const Limits& 
 PlaneAnimation::PlaneAnimation(const std::string& path, const Limits& limits)
     : PlaneAnimation(plane::svg::read_text(path, limits), path, limits) {}
 
+double PlaneAnimation::duration() const {
+  Document document(svg_, name_);
+  double end = 0;
+  for (const pugi::xml_node n : plane::svg::animations_of(document.root())) end = std::max(end, extent_of(document, n).seconds);
+  return end;
+}
+
+bool PlaneAnimation::endless() const {
+  Document document(svg_, name_);
+  bool any = false;
+  for (const pugi::xml_node n : plane::svg::animations_of(document.root())) any |= extent_of(document, n).endless;
+  return any;
+}
+
 PlaneSvg PlaneAnimation::at(double seconds) const {
   if (!std::isfinite(seconds)) throw Error(name_, "the time is not finite", "give seconds");
   if (!moves_) return load_plane_scene_from_text(svg_, name_, limits_);

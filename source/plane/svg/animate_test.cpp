@@ -35,6 +35,20 @@ TEST(PlaneAnimation, ReadsClocks) {
   for (const char* text : {"", "click", "2 days", "a.end+1s", "1:2:3:4", "-2s"}) EXPECT_FALSE(clock_value(text)) << text;
 }
 
+TEST(PlaneAnimation, KnowsWhenAllHasHappenedOnce) {
+  const auto of = [](const std::string& inside) {
+    return PlaneAnimation("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'><circle r='2'>" + inside + "</circle></svg>",
+                          "drawing", {});
+  };
+  EXPECT_EQ(of("").duration(), 0);
+  EXPECT_EQ(of("<animate attributeName='cx' to='3' begin='1s' dur='2s' repeatCount='2.5'/>").duration(), 6);
+  const PlaneAnimation loop =
+      of("<animate attributeName='cx' to='3' dur='2s' repeatCount='indefinite'/><set attributeName='r' to='1' begin='5s'/>");
+  EXPECT_EQ(loop.duration(), 5);
+  EXPECT_TRUE(loop.endless());
+  EXPECT_FALSE(of("<animate attributeName='cx' to='3' begin='click' dur='2s'/>").endless());
+}
+
 TEST(PlaneAnimation, MixesValues) {
   EXPECT_EQ(value_between("10px", "20px", 0.25), "12.5px");
   EXPECT_EQ(value_between("M0,0 L10-5", "M2 4 L 10 -10", 0.5), "M1 2 L10 -7.5");

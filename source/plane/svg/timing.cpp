@@ -59,14 +59,10 @@ std::optional<double> clock_value(std::string_view text) {
   return {};
 }
 
-std::optional<Progress> progress_of(Document& document, pugi::xml_node n, double seconds) {
-  for (const char* key : {"end", "min", "max"})
-    if (n.attribute(key)) document.ignored.insert(std::string("attribute ") + key + " of animations");
-  const auto begin = begin_of(document, n.attribute("begin").value());
-  if (!begin || seconds < *begin) return {};
-  const double simple = duration_of(document, n, "dur"), at = seconds - *begin;
-  if (simple == kForever) return Progress{};
-  // As in SMIL: the less of what is said about repeats; once where nothing is said.
+namespace {
+
+// How long it is at work, with its repeats. As in SMIL: the less of what is said about them; once where nothing is said.
+double active_of(Document& document, pugi::xml_node n, double simple) {
   const std::string_view repeats = trimmed(n.attribute("repeatCount").value());
   double active = kForever;
   if (n.attribute("repeatDur")) active = duration_of(document, n, "repeatDur");
@@ -77,6 +73,28 @@ std::optional<Progress> progress_of(Document& document, pugi::xml_node n, double
   } else if (repeats.empty() && !n.attribute("repeatDur")) {
     active = simple;
   }
+  return active;
+}
+
+}  // namespace
+
+Extent extent_of(Document& document, pugi::xml_node n) {
+  const auto begin = begin_of(document, n.attribute("begin").value());
+  if (!begin) return {};
+  const double simple = duration_of(document, n, "dur");
+  if (simple == kForever) return {std::max(*begin, 0.0), false};
+  const double active = active_of(document, n, simple);
+  return {std::max(*begin + (active == kForever ? simple : active), 0.0), active == kForever};
+}
+
+std::optional<Progress> progress_of(Document& document, pugi::xml_node n, double seconds) {
+  for (const char* key : {"end", "min", "max"})
+    if (n.attribute(key)) document.ignored.insert(std::string("attribute ") + key + " of animations");
+  const auto begin = begin_of(document, n.attribute("begin").value());
+  if (!begin || seconds < *begin) return {};
+  const double simple = duration_of(document, n, "dur"), at = seconds - *begin;
+  if (simple == kForever) return Progress{};
+  const double active = active_of(document, n, simple);
   const bool over = at >= active;
   if (over && std::string_view(n.attribute("fill").value()) != "freeze") return {};
   const double turns = std::min(over ? active / simple : at / simple, 1e9), whole = std::floor(turns);

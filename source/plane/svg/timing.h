@@ -20,4 +20,12 @@ struct Progress {
 // Empty where the animation has no effect at that time: not yet begun, over and not frozen, or begun by an event.
 std::optional<Progress> progress_of(Document& document, pugi::xml_node animation, double seconds);
 
+// From the beginning of the document to the end of the animation; of one that is repeated without end, to that of its first turn. 0 where
+// it never begins or has no duration.
+struct Extent {
+  double seconds = 0;
+  bool endless = false;
+};
+Extent extent_of(Document& document, pugi::xml_node animation);
+
 }  // namespace steradian::plane::svg

@@ -1,6 +1,7 @@
 #include "render/cpu/frame_surfaces.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace steradian {
 namespace {
@@ -9,11 +10,11 @@ constexpr float kLeastShare = 1e-3f;  // of the light from behind; less is black
 
 }  // namespace
 
-FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options)
+FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, std::shared_ptr<const RayScene> rays)
     : scene_(scene),
       options_(options),
       camera_(find_camera(scene, options.camera), options.width, options.height),
-      rays_(scene),
+      rays_(std::move(rays)),
       environment_(prepare_environment()),
       maps_(scene.images),
       shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, &maps_,
@@ -40,7 +41,7 @@ TileArea FrameSurfaces::area(int index) const {
 
 TilePlane FrameSurfaces::fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind) {
   TileHits hits;
-  rays_clock_.run([&] { trace_tile(rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
+  rays_clock_.run([&] { trace_tile(*rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
   gbuffer_clock_.run([&] {
     shade_tile(scene_, shading_, hits, tile);
     if (environment_ && options_.background) show_background(hits, tile, behind);

@@ -19,14 +19,14 @@ inline constexpr int kMostLayers = 8;  // surfaces that light passes, one behind
 
 class FrameSurfaces {
  public:
-  // Both must stay.
-  FrameSurfaces(const Scene& scene, const RenderOptions& options);
+  // Scene and options must stay.
+  FrameSurfaces(const Scene& scene, const RenderOptions& options, std::shared_ptr<const RayScene> rays);
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int tiles_across() const { return tiles_x_; }
   TileArea area(int index) const;
   const CameraRays& camera() const { return camera_; }
-  const RayScene& rays() const { return rays_; }
+  const RayScene& rays() const { return *rays_; }
   const environment::EnvironmentLight* environment() const { return environment_.get(); }  // null without one
   std::span<const AreaLight> environment_spots() const;                                    // lights beside the scene's own
 
@@ -49,7 +49,7 @@ class FrameSurfaces {
   const Scene& scene_;
   const RenderOptions& options_;
   const CameraRays camera_;
-  const RayScene rays_;
+  const std::shared_ptr<const RayScene> rays_;
   double environment_build_ms_ = 0;
   const std::unique_ptr<const environment::EnvironmentLight> environment_;
   const MipMaps maps_;

@@ -14,8 +14,9 @@ double part(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 
 }  // namespace
 
-OpenLights::OpenLights(const std::vector<PackLight>& lights, const shadow::EdgeMesh& mesh, const std::vector<shadow::Box>& cut_outs)
-    : triangles_(mesh), cut_outs_(cut_outs), leaf_of_(lights.size(), kNone) {
+OpenLights::OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles,
+                       const std::vector<shadow::Box>& cut_outs)
+    : triangles_(triangles), cut_outs_(cut_outs), leaf_of_(lights.size(), kNone) {
   std::vector<Node> leaves;
   for (const PackLight& light : lights) {
     const auto* punctual = std::get_if<packed::Punctual>(&light.shape);

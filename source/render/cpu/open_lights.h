@@ -13,7 +13,7 @@ namespace steradian {
 class OpenLights {
  public:
   // cut_outs: boxes of what blocks light in part, beside the mesh. Keeps the references.
-  OpenLights(const std::vector<PackLight>& lights, const shadow::EdgeMesh& mesh, const std::vector<shadow::Box>& cut_outs);
+  OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles, const std::vector<shadow::Box>& cut_outs);
 
   // A thread's memory.
   struct Work {
@@ -36,7 +36,7 @@ class OpenLights {
   // Lights of which some points of the group may see no more than what their triangles' horizons leave.
   bool is_above(const TilePoints& points, const std::vector<std::uint32_t>& slots, const Node& node) const;
 
-  const shadow::TriangleTree triangles_;
+  const shadow::TriangleTree& triangles_;
   const std::vector<shadow::Box>& cut_outs_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaf_of_;  // by PackLight::index; kNone: never open

@@ -48,8 +48,8 @@ void RayScene::Release::operator()(RTCScene scene) const { rtcReleaseScene(scene
 
 // Cut-out materials: a hit where alpha is below the cutoff is none.
 struct RayScene::AlphaTest {
-  const Scene& scene;
-  const Mesh& mesh;
+  const Scene* scene;
+  const Mesh* mesh;
 
   static void filter(const RTCFilterFunctionNArguments* args) {
     const auto& self = *static_cast<const AlphaTest*>(args->geometryUserPtr);
@@ -57,40 +57,104 @@ struct RayScene::AlphaTest {
       if (args->valid[i] == 0) continue;
       const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
       const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
-      const SurfaceMaterial& material = self.scene.materials[static_cast<std::size_t>(self.mesh.material)];
-      if (base_color_at(self.scene, self.mesh, triangle, u, v).w < material.alpha_cutoff) args->valid[i] = 0;
+      const SurfaceMaterial& material = self.scene->materials[static_cast<std::size_t>(self.mesh->material)];
+      if (base_color_at(*self.scene, *self.mesh, triangle, u, v).w < material.alpha_cutoff) args->valid[i] = 0;
     }
   }
 };
 
-RayScene::RayScene(const Scene& scene) : device_(rtcNewDevice("")) {
+namespace {
+
+unsigned mask_of(const Mesh& mesh, const Scene& scene) {
+  if (mesh.is_light_shape || !mesh.casts_shadow) return kSeenByCamera;
+  const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
+  return kSeenByCamera | kCastsShadow | (cut_out ? kCutOut : kHasEdges);
+}
+
+template <class T>
+bool holds(RTCGeometry geometry, RTCBufferType type, const std::vector<T>& values) {
+  return std::memcmp(rtcGetGeometryBufferData(geometry, type, 0), values.data(), values.size() * sizeof(T)) == 0;
+}
+
+}  // namespace
+
+RayScene::RayScene(const Scene& scene, Lasts lasts) : device_(rtcNewDevice("")) {
   throw_noted_error(device_.get(), "starting");
   rtc_.reset(rtcNewScene(device_.get()));
+  if (lasts == Lasts::many_scenes) rtcSetSceneFlags(rtc_.get(), RTC_SCENE_FLAG_DYNAMIC);
   rtcSetSceneBuildQuality(rtc_.get(), RTC_BUILD_QUALITY_MEDIUM);
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    const Mesh& mesh = scene.meshes[i];
-    if (mesh.indices.empty()) continue;
-    const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owned(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
-                                                                              &rtcReleaseGeometry);
-    throw_noted_error(device_.get(), "making a mesh");
-    RTCGeometry geometry = owned.get();
-    copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(), mesh.positions.size());
-    copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(), mesh.triangle_count());
-    const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
-    rtcSetGeometryMask(geometry, mesh.is_light_shape || !mesh.casts_shadow ? kSeenByCamera
-                                 : cut_out                                 ? kSeenByCamera | kCastsShadow | kCutOut
-                                                                           : kSeenByCamera | kCastsShadow | kHasEdges);
-    if (cut_out) {
-      alpha_tests_.push_back(std::make_unique<AlphaTest>(AlphaTest{scene, mesh}));
-      rtcSetGeometryUserData(geometry, alpha_tests_.back().get());
-      rtcSetGeometryIntersectFilterFunction(geometry, AlphaTest::filter);
-      rtcSetGeometryOccludedFilterFunction(geometry, AlphaTest::filter);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(rtc_.get(), geometry, static_cast<unsigned>(i));
+  follow(scene);
+}
+
+void RayScene::make(unsigned number, const Mesh& mesh) {
+  Part& part = parts_[number];
+  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owned(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
+                                                                            &rtcReleaseGeometry);
+  throw_noted_error(device_.get(), "making a mesh");
+  copy_buffer(owned.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(), mesh.positions.size());
+  copy_buffer(owned.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(), mesh.triangle_count());
+  rtcAttachGeometryByID(rtc_.get(), owned.get(), number);
+  part.geometry = owned.get();
+  part.vertices = mesh.positions.size();
+  part.triangles = mesh.triangle_count();
+}
+
+bool RayScene::put(unsigned number, const Mesh& mesh, const Scene& scene) {
+  Part& part = parts_[number];
+  const unsigned mask = mesh.indices.empty() ? 0 : mask_of(mesh, scene);
+  const bool same_corners = part.geometry != nullptr && part.vertices == mesh.positions.size() && part.triangles == mesh.triangle_count() &&
+                            holds(part.geometry, RTC_BUFFER_TYPE_INDEX, mesh.indices);
+  bool changed = part.mask != mask;
+  if (part.geometry != nullptr && !same_corners) {
+    rtcDetachGeometry(rtc_.get(), number);
+    part = {};
+    changed = true;
   }
-  rtcCommitScene(rtc_.get());
+  if (mask != 0 && part.geometry == nullptr) {
+    make(number, mesh);
+    changed = true;
+  } else if (mask != 0 && !holds(part.geometry, RTC_BUFFER_TYPE_VERTEX, mesh.positions)) {
+    std::memcpy(rtcGetGeometryBufferData(part.geometry, RTC_BUFFER_TYPE_VERTEX, 0), mesh.positions.data(),
+                mesh.positions.size() * sizeof(Vec3f));
+    rtcUpdateGeometryBuffer(part.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    changed = true;
+  }
+  part.mask = mask;
+  if ((mask & kCutOut) != 0) {
+    // Where the scene is another one, its materials are elsewhere even if the triangles are the same.
+    if (part.alpha == nullptr) {
+      part.alpha = std::make_unique<AlphaTest>();
+      rtcSetGeometryIntersectFilterFunction(part.geometry, AlphaTest::filter);
+      rtcSetGeometryOccludedFilterFunction(part.geometry, AlphaTest::filter);
+      rtcSetGeometryUserData(part.geometry, part.alpha.get());
+    }
+    *part.alpha = {&scene, &mesh};
+  } else if (part.alpha != nullptr) {
+    rtcSetGeometryIntersectFilterFunction(part.geometry, nullptr);
+    rtcSetGeometryOccludedFilterFunction(part.geometry, nullptr);
+    part.alpha.reset();
+  }
+  if (changed && part.geometry != nullptr) {
+    rtcSetGeometryMask(part.geometry, mask);
+    rtcCommitGeometry(part.geometry);
+  }
+  return changed;
+}
+
+bool RayScene::follow(const Scene& scene) {
+  bool any = parts_.empty(), edges = false;
+  parts_.resize(std::max(parts_.size(), scene.meshes.size()));
+  const Mesh nothing;
+  for (unsigned i = 0; i < parts_.size(); ++i) {
+    const unsigned before = parts_[i].mask;
+    if (!put(i, i < scene.meshes.size() ? scene.meshes[i] : nothing, scene)) continue;
+    any = true;
+    edges |= ((before | parts_[i].mask) & kHasEdges) != 0;
+  }
+  parts_.resize(scene.meshes.size());
+  if (any) rtcCommitScene(rtc_.get());
   throw_noted_error(device_.get(), "ordering the triangles");
+  return edges;
 }
 
 RayScene::~RayScene() = default;

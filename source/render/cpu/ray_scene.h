@@ -19,10 +19,16 @@ enum class Casters { all, with_edges, cut_outs };
 // The camera sees every mesh. Shadow rays pass the shapes that only stand for rect, disk and sphere lights.
 class RayScene {
  public:
-  explicit RayScene(const Scene& scene);  // throws Error with what Embree reports
+  // many_scenes: sorted mesh by mesh, so that follow() need not sort all; rays take a little longer.
+  enum class Lasts { one_scene, many_scenes };
+  explicit RayScene(const Scene& scene, Lasts lasts = Lasts::one_scene);  // throws Error with what Embree reports
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
+
+  // Becomes that of another scene; meshes with the same triangles stay as they are sorted. Whether edges that cast shadows have changed.
+  // After an Error it is of no scene.
+  bool follow(const Scene& scene);
 
   // Traces 16 neighbouring camera rays; valid[i] is -1 for a ray to trace, 0 for none. hit.geomID[i] is the mesh.
   void intersect(const int valid[16], RTCRayHit16& rays) const;
@@ -49,13 +55,23 @@ class RayScene {
 
  private:
   struct AlphaTest;
+  // A mesh as Embree has it. Its vertices and corners lie in Embree's own copy.
+  struct Part {
+    RTCGeometry geometry = nullptr;  // of rtc_; null: nothing is there
+    std::size_t vertices = 0, triangles = 0;
+    unsigned mask = 0;
+    std::unique_ptr<AlphaTest> alpha;  // of cut-outs
+  };
+  bool put(unsigned number, const Mesh& mesh, const Scene& scene);  // whether anything has changed
+  void make(unsigned number, const Mesh& mesh);
+
   struct Release {
     void operator()(RTCDevice device) const;
     void operator()(RTCScene scene) const;
   };
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> rtc_;
-  std::vector<std::unique_ptr<AlphaTest>> alpha_tests_;
+  std::vector<Part> parts_;  // by mesh
 };
 
 }  // namespace steradian

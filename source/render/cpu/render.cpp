@@ -37,15 +37,16 @@ constexpr int kMaxPairs = 1 << 16;
 
 class Renderer {
  public:
-  Renderer(const Scene& scene, const RenderOptions& options)
+  Renderer(const Scene& scene, const RenderOptions& options, RenderCache* cache)
       : scene_(scene),
         options_(options),
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
-        surfaces_(scene, options),
+        parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
+        surfaces_(scene, options, parts_.rays),
         lights_(prepare_lights(scene, surfaces_.environment_spots())),
         many_lights_(prepare_many_lights()),
-        lighting_(scene, options, method_, lights_, surfaces_.rays(), many_lights_.get()),
+        lighting_(scene, options, method_, lights_, parts_, many_lights_.get()),
         samplers_([this] {
           return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &surfaces_.rays() : nullptr,
                                                  environment() != nullptr ? &environment()->sampler() : nullptr, options_.terminator);
@@ -59,7 +60,7 @@ class Renderer {
     begin(state);
     std::vector<int> pairs(state.done.size(), options_.spp);
     steps_ = static_cast<std::uint64_t>(tile_count());
-    if (method_.kind == MethodKind::reference) pairs = plan_pairs();
+    if (method_.kind == MethodKind::reference && options_.target_error > 0) pairs = plan_pairs();
     if (in_blocks()) {
       each_block([&](const std::vector<int>& tiles) {
         // A block is done as a whole or not at all.
@@ -124,6 +125,8 @@ class Renderer {
     for (const PackLight& light : lights) pointers.push_back(&light);
     return pointers;
   }
+
+  Sorted sorted() const { return options_.shadows != Shadows::off && !method_.estimates() ? Sorted::for_rays_and_edges : Sorted::for_rays; }
 
   std::unique_ptr<ManyLightPass> prepare_many_lights() {
     constexpr std::size_t kMany = 64;  // from here on automatic takes the tree
@@ -344,6 +347,7 @@ class Renderer {
   const RenderOptions& options_;
   const int threads_;
   const DirectMethod method_;
+  const SceneParts parts_;
   FrameSurfaces surfaces_;
   const std::vector<PackLight> lights_;
   const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
@@ -361,8 +365,8 @@ class Renderer {
 
 }  // namespace
 
-Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state) {
-  Renderer renderer(scene, options);
+Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state) {
+  Renderer renderer(scene, options, cache);
   RenderState own;
   RenderState& kept = state != nullptr ? *state : own;
   Picture picture = renderer.render(kept);

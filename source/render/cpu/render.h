@@ -1,11 +1,12 @@
 // The CPU's back end of render.
 #pragma once
 
-#include "steradian/render.h"
+#include "steradian/render_cache.h"
 
 namespace steradian {
 
 // As render (steradian/render.h).
-Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderStats* stats, RenderState* state);
+// cache: null keeps nothing.
+Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state);
 
 }  // namespace steradian

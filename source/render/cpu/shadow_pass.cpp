@@ -21,16 +21,17 @@ using shadow::Shaft;
 using shadow::Viewpoint;
 using Seen = TileShadow::Seen;
 
-ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const RayScene& rays, Shadows mode)
+ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const SceneParts& parts, Shadows mode)
     : packs_(shadow_table_for(active_simd())),
       lanes_(lane_table_for(active_simd())),
-      rays_(rays),
+      edges_(parts.shadows),
+      rays_(*parts.rays),
       mode_(mode),
       lights_(lights),
-      mesh_(shadow::build_edges(scene)),
-      tree_(mesh_),
+      mesh_(edges_->mesh),
+      tree_(edges_->edges),
       ellipse_(std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_of_ellipse(kRoundCorners))),
-      open_(lights, mesh_, cut_outs_) {
+      open_(lights, edges_->triangles, cut_outs_) {
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != AlphaMode::mask) continue;
     shadow::Box box;

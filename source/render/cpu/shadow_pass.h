@@ -9,7 +9,7 @@
 
 #include "render/cpu/light_list.h"
 #include "render/cpu/open_lights.h"
-#include "render/cpu/ray_scene.h"
+#include "render/cpu/scene_parts.h"
 #include "render/cpu/shadow_side.h"
 #include "render/cpu/shadow_taker.h"
 #include "render/cpu/shadow_tile.h"
@@ -29,7 +29,7 @@ struct ShadowCounts {
 class ShadowPass {
  public:
   // Keeps references.
-  ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const RayScene& rays, Shadows mode);
+  ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const SceneParts& parts, Shadows mode);
 
   // Lights before which nothing stands, for all of a tile: they are seen whole, and find() would tell no more.
   void find_open(const TilePoints& points, const std::vector<const PackLight*>& lights, OpenLights::Work& work) const {
@@ -68,11 +68,12 @@ class ShadowPass {
 
   const shadow::ShadowTable& packs_;
   const shadow::LaneTable& lanes_;
+  const std::shared_ptr<const ShadowEdges> edges_;
   const RayScene& rays_;
   const Shadows mode_;
   const std::vector<PackLight>& lights_;
-  shadow::EdgeMesh mesh_;
-  shadow::EdgeTree tree_;
+  const shadow::EdgeMesh& mesh_;
+  const shadow::EdgeTree& tree_;
   std::vector<shadow::Box> cut_outs_;                            // of meshes whose material has holes
   std::shared_ptr<const std::vector<shadow::Segment>> ellipse_;  // outline of the polygons that stand for ellipsoids
   std::vector<Flat> flats_;                                      // one a light; without frames where it is not flat

@@ -31,14 +31,14 @@ struct TileLighting::Work {
 };
 
 TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
-                           const std::vector<PackLight>& lights, const RayScene& rays, ManyLightPass* many_lights)
+                           const std::vector<PackLight>& lights, const SceneParts& parts, ManyLightPass* many_lights)
     : options_(options),
       method_(method),
       many_lights_(many_lights),
       direct_(direct_table_for(active_simd())),
       specular_(method, options.table),
       work_([] { return std::make_shared<Work>(); }) {
-  if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, rays, options.shadows);
+  if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
 }
 
 // plain: of which the diffuse light is still to be done.

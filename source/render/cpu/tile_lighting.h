@@ -24,7 +24,7 @@ class TileLighting {
  public:
   // All must stay; lights: of prepare_lights. many_lights: null where each light is done by itself.
   TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const std::vector<PackLight>& lights,
-               const RayScene& rays, ManyLightPass* many_lights);
+               const SceneParts& parts, ManyLightPass* many_lights);
 
   bool has_shadows() const { return shadows_.has_value(); }
 

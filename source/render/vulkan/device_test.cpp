@@ -5,6 +5,7 @@
 #include "core/budget.h"
 #include "render/vulkan/buffer.h"
 #include "render/vulkan/direct_light.h"
+#include "render/vulkan/handles.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -63,6 +64,15 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
   }
   info.storage_buffer = std::size_t{128} << 20;
   EXPECT_NO_THROW(check_device(info));
+}
+
+TEST(VulkanDevice, ItsLossIsAnErrorThatSaysWhatWasBeingDone) {
+  try {
+    checked("run a compute shader", []() -> int { throw vk::DeviceLostError("gone"); });
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("run a compute shader: the device was lost"), std::string::npos) << e.what();
+  }
 }
 
 }  // namespace steradian::vulkan

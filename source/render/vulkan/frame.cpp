@@ -85,9 +85,10 @@ struct Frame::Parts {
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
         method(chosen(s, o)),
         device(d != nullptr ? std::move(d) : std::make_shared<const Device>(DeviceOptions{o.device, false})),
-        surfaces(s, o),
+        parts(SceneParts::of(s, o.shadows != steradian::Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays)),
+        surfaces(s, o, parts.rays),
         lights(prepare_lights(s, surfaces.environment_spots())),
-        host(s, o, method, lights, surfaces.rays(), nullptr),
+        host(s, o, method, lights, parts, nullptr),
         direct(*device, method, o.table, lights),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
@@ -325,6 +326,7 @@ struct Frame::Parts {
   const int threads;
   const DirectMethod method;
   const std::shared_ptr<const Device> device;
+  const SceneParts parts;
   FrameSurfaces surfaces;
   const std::vector<PackLight> lights;
   std::vector<const PackLight*> light_pointers;

@@ -35,7 +35,7 @@ struct Surfaces {
 };
 
 Surfaces by_cpu(const Scene& scene, const RenderOptions& o, int sample) {
-  FrameSurfaces frame(scene, o);
+  FrameSurfaces frame(scene, o, std::make_shared<const RayScene>(scene));
   Surfaces s{std::vector<Pixel>(static_cast<std::size_t>(o.width * o.height)),
              std::vector<std::uint64_t>(static_cast<std::size_t>(o.width * o.height))};
   const auto tile = std::make_unique<SurfaceTile>();
@@ -59,7 +59,7 @@ Surfaces by_cpu(const Scene& scene, const RenderOptions& o, int sample) {
 
 std::vector<Pixel> by_device(const Device& device, const Scene& scene, const RenderOptions& o, int sample) {
   const CameraRays camera(find_camera(scene, ""), o.width, o.height);
-  const FrameSurfaces frame(scene, o);  // its tiles
+  const FrameSurfaces frame(scene, o, std::make_shared<const RayScene>(scene));  // its tiles
   RasterSurfaces raster(device, scene, camera, o);
   const int count = frame.tile_count();
   const auto tiles = static_cast<std::size_t>(count), slots = static_cast<std::size_t>(kSlots);

@@ -1,0 +1,79 @@
+// Triangles of outlines: as much area as the outline has, none of it twice.
+#include "triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace steradian::view {
+namespace {
+
+double area(const Contours& contours) {
+  double sum = 0;
+  for (const auto& c : contours)
+    for (std::size_t i = 0; i < c.size(); ++i) sum += cross(c[i], c[(i + 1) % c.size()]) / 2;
+  return sum;
+}
+
+// The triangles' area; every one of them must run counter-clockwise, so that none covers what another covers if the sum is the outline's.
+double covered(const Contours& contours) {
+  std::vector<Vec2d> all;
+  for (const auto& c : contours) all.insert(all.end(), c.begin(), c.end());
+  const auto triangles = triangles_of(contours);
+  EXPECT_TRUE(triangles);
+  double sum = 0;
+  for (const auto& t : triangles.value_or(std::vector<std::array<std::uint32_t, 3>>{})) {
+    const double a = cross(all[t[1]] - all[t[0]], all[t[2]] - all[t[0]]) / 2;
+    EXPECT_GT(a, 0);
+    sum += a;
+  }
+  return sum;
+}
+
+std::vector<Vec2d> star(int points, double inner, double outer, Vec2d middle, double sign = 1) {
+  std::vector<Vec2d> result;
+  for (int i = 0; i < 2 * points; ++i) {
+    const double angle = sign * 3.14159265358979324 * i / points, r = i % 2 == 0 ? outer : inner;
+    result.push_back(middle + Vec2d{std::cos(angle), std::sin(angle)} * r);
+  }
+  return result;
+}
+
+TEST(ViewTriangles, CoverStarsAndTheirHoles) {
+  for (const int points : {3, 5, 20}) {
+    const Contours plain = {star(points, 0.3, 1, {2, -1})};
+    EXPECT_NEAR(covered(plain), area(plain), 1e-13);
+  }
+  const Contours square = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  Contours holes = square;
+  for (const Vec2d m : {Vec2d{1, 1}, Vec2d{3, 1}, Vec2d{2, 3}, Vec2d{1, 3}}) holes.push_back(star(4, 0.2, 0.4, m, -1));
+  EXPECT_NEAR(covered(holes), area(holes), 1e-13);
+}
+
+TEST(ViewTriangles, CoverRandomOutlinesAroundAPoint) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> radius(0.2, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    Contours contours(1);
+    const int corners = 3 + trial % 30;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * 3.14159265358979324 * i / corners;
+      contours[0].push_back(Vec2d{std::cos(angle), std::sin(angle)} * radius(random));
+    }
+    EXPECT_NEAR(covered(contours), area(contours), 1e-13) << trial;
+  }
+}
+
+TEST(ViewTriangles, RefuseOutlinesThatCrossOrTouchThemselves) {
+  EXPECT_FALSE(triangles_of({}));
+  EXPECT_FALSE(triangles_of({{{0, 0}, {1, 0}}}));
+  EXPECT_FALSE(triangles_of({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}})) << "clockwise";
+  EXPECT_FALSE(triangles_of({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}})) << "a bow tie";
+  EXPECT_FALSE(triangles_of({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}})) << "a corner on an edge";
+  EXPECT_FALSE(triangles_of({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{3, 1}, {3, 2}, {5, 1}}})) << "a hole over the edge";
+  EXPECT_TRUE(triangles_of({{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}}})) << "a corner on a straight line is one";
+}
+
+}  // namespace
+}  // namespace steradian::view

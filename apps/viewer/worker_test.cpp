@@ -1,0 +1,136 @@
+// What a window's pictures are made of: references that grow, and devices that fail.
+#include "worker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "accumulation.h"
+#include "paths.h"
+#include "session.h"
+#include "steradian/error.h"
+
+namespace steradian::view {
+namespace {
+
+RenderOptions small(const std::string& method = "auto") {
+  RenderOptions options;
+  options.width = 48;
+  options.height = 27;
+  options.shadows = Shadows::on;
+  options.method = method;
+  return options;
+}
+
+std::string room() { return test::kSourceDir + "/scenes/diffuse_floor.glb"; }
+
+// Two passes of 1 and 3 pairs, by hand.
+TEST(ViewAccumulation, IsTheMeanByPairs) {
+  const auto pass = [](float value, float variance) {
+    Picture p(1, 1);
+    p.pixels[0] = {value, 0, 2 * value};
+    p.layers["variance"] = {{variance, 0, variance}};
+    return p;
+  };
+  Accumulation a;
+  EXPECT_EQ(a.relative_error(), 0);
+  a.add(pass(1, 0.5f), 1);
+  a.add(pass(5, 0.25f), 3);
+  EXPECT_EQ(a.pairs(), 4u);
+  EXPECT_EQ(a.picture().pixels[0], (Vec3f{4, 0, 8}));
+  // (1 x 0.5 + 9 x 0.25) / 16 in each of two channels.
+  EXPECT_NEAR(a.picture().layers["variance"][0].x, 2.75 / 16, 1e-7);
+  EXPECT_NEAR(a.relative_error(), std::sqrt(2 * 2.75 / 16 / (16 + 64)), 1e-7);
+}
+
+// Against closed forms, to what its own variance says: of independent pixels' squared deviations in standard errors the mean is 1, with a
+// deviation of sqrt(2/n) where they are normal. 40 passes of four pairs, whose seeds differ as the window's do.
+TEST(ViewAccumulation, GrowsTowardsTheExactPictureAsItsErrorSays) {
+  const LoadedScene loaded = load_scene(room());
+  const Picture exact = render(loaded.scene, small());
+  RenderOptions options = small("reference");
+  options.target_error = 0;
+  options.spp = 4;
+  RenderCache cache;
+  Accumulation a;
+  double last = INFINITY;
+  for (int i = 0; i < 40; ++i) {
+    options.seed = 1 + a.pairs();
+    a.add(render(loaded.scene, options, cache), options.spp);
+    if (i % 10 == 9) {
+      EXPECT_LT(a.relative_error(), last);
+      last = a.relative_error();
+    }
+  }
+  const Picture mean = a.picture();
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    const double variance = static_cast<double>(mean.layers.at("variance")[i].y);
+    const double value = static_cast<double>(exact.pixels[i].y), off = static_cast<double>(mean.pixels[i].y) - value;
+    if (variance <= 1e-8 * value * value) continue;  // nothing random: what stays is the float's rounding
+    sum += off * off / variance;
+    ++count;
+  }
+  std::printf("after %llu pairs: standard error %.4f, mean square of deviations %.3f over %d pixels\n",
+              static_cast<unsigned long long>(a.pairs()), a.relative_error(), sum / count, count);
+  ASSERT_GT(count, 200);
+  // Four standard deviations, and a quarter for tails and for variances that are estimates.
+  EXPECT_NEAR(sum / count, 1, 4 * std::sqrt(2.0 / count) + 0.25);
+}
+
+TEST(ViewSession, AReferenceBesideThePictureGrowsWhileItRests) {
+  Session s(room(), small());
+  RenderOptions reference = small("reference");
+  reference.target_error = 0.02;
+  s.other() = reference;
+  s.changed();
+  s.wait_until_settled();
+  const std::uint64_t pairs = s.frame().pairs;
+  EXPECT_GT(pairs, 0u);
+  EXPECT_LE(s.frame().standard_error, 0.02);
+  while (!s.update()) std::this_thread::yield();
+  EXPECT_GT(s.frame().pairs, pairs) << "it goes on";
+  EXPECT_TRUE(s.settled());
+  EXPECT_TRUE(s.frame().same);
+  double square = 0, off = 0;
+  for (std::size_t i = 0; i < s.frame().picture.pixels.size(); ++i) {
+    const auto a = static_cast<Vec3d>(s.frame().picture.pixels[i]), b = static_cast<Vec3d>(s.frame().other.pixels[i]);
+    square += dot(a, a);
+    off += dot(a - b, a - b);
+  }
+  EXPECT_LT(std::sqrt(off / square), 3 * s.frame().standard_error);
+  // What changes starts it anew.
+  s.camera().orbit(0.05, 0);
+  s.changed();
+  s.wait_until_settled();
+  EXPECT_FALSE(s.frame().same && s.frame().pairs > (1u << 20));
+}
+
+// A device that is lost while it renders, as handles.h says it.
+TEST(ViewSession, GoesOnWithTheCpuWhereADeviceIsLost) {
+  int by_device = 0;
+  RenderOptions options = small();
+  options.backend = Backend::vulkan;
+  Session s(room(), options, [&](const Scene& scene, const RenderOptions& o, RenderCache& cache, RenderStats* stats, RenderState* state) {
+    if (o.backend == Backend::vulkan && ++by_device > 1) throw Error("Vulkan", "run a compute shader: the device was lost", "try again");
+    RenderOptions on_cpu = o;
+    on_cpu.backend = Backend::cpu;
+    return render(scene, on_cpu, cache, stats, state);
+  });
+  while (!s.update()) std::this_thread::yield();
+  s.wait_until_settled();
+  s.camera().orbit(0.1, 0);
+  s.changed();
+  s.wait_until_settled();
+  EXPECT_EQ(by_device, 2) << "it is not asked again";
+  EXPECT_EQ(s.options().backend, Backend::cpu);
+  EXPECT_NE(s.message().find("the device was lost"), std::string::npos) << s.message();
+  EXPECT_NE(s.message().find("the CPU goes on"), std::string::npos) << s.message();
+  RenderOptions cpu = small();
+  const Scene shown = s.frame().scene->scene;
+  EXPECT_EQ(render(shown, cpu).pixels, s.frame().picture.pixels);
+}
+
+}  // namespace
+}  // namespace steradian::view

@@ -1,0 +1,41 @@
+// SceneParts: what the meshes of a scene are sorted into for rays and shadows, whatever looks at them and shines on them.
+#pragma once
+
+#include <memory>
+
+#include "render/cpu/ray_scene.h"
+#include "shadow/gather.h"
+#include "shadow/open_shaft.h"
+#include "steradian/render_cache.h"
+
+namespace steradian {
+
+// The edges that cast shadows, and the trees over them.
+struct ShadowEdges {
+  explicit ShadowEdges(const Scene& scene) : mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
+  ShadowEdges(const ShadowEdges&) = delete;
+  const shadow::EdgeMesh mesh;
+  const shadow::EdgeTree edges;
+  const shadow::TriangleTree triangles;
+};
+
+// edges: for shadows without sampling.
+enum class Sorted { for_rays, for_rays_and_edges };
+
+struct SceneParts {
+  std::shared_ptr<const RayScene> rays;
+  std::shared_ptr<const ShadowEdges> shadows;  // null for rays alone
+
+  static SceneParts of(const Scene& scene, Sorted sorted);
+};
+
+// Those of the last scene.
+struct RenderCache::Parts {
+  // Of this scene, made of the last one's where they are the same.
+  SceneParts follow(const Scene& scene, Sorted sorted);
+
+  std::shared_ptr<RayScene> rays;
+  std::shared_ptr<const ShadowEdges> shadows;
+};
+
+}  // namespace steradian
