@@ -91,11 +91,11 @@ def plane():
 
 def polygon():
     """A corner of a polygon light is drawn out in the picture; a lobe and a tone curve are chosen; a reference grows beside it."""
-    first = [{"wait": "picture"}, {"set": "add", "value": "polygon"}, {"key": "F"}, {"drag": "middle", "from": [200, 100], "to": [200, 130]},
-             {"drag": "left", "from": [20, 20], "to": [20, -40]}, {"wait": "settled"}]
+    above = {"drag": "left", "from": [20, 20], "to": [20, 60]}
+    first = [{"wait": "picture"}, {"set": "add", "value": "polygon"}, {"set": "position", "value": [0, 0.5, 1]}, above, above, {"wait": "settled"}]
     play(SCENES / "diffuse_floor.glb", first + [{"shot": "corner-before.png"}], "--size", "400x225", "--exposure", "0", "--panel", "off")
     corners = squares(OUT / "corner-before.png")
-    assert len(corners) >= 3, corners
+    assert len(corners) == 5, corners
     x, y = corners[0]
     middle = [sum(c[i] for c in corners) / len(corners) for i in (0, 1)]
     out = [round(x + 0.4 * (x - middle[0])), round(y + 0.4 * (y - middle[1]))]
@@ -103,7 +103,7 @@ def polygon():
         {"drag": "left", "from": [x, y], "to": out}, {"wait": "settled"}, {"shot": "corner-after.png"}, {"key": "Escape"},
         {"set": "material", "value": 0}, {"set": "lobe", "value": "phong"}, {"set": "tone", "value": "filmic"}, {"wait": "settled"},
         {"shot": "corner-lobe.png"}, {"picture": "corner.png"}, {"save": "corner.glb"},
-        {"set": "beside", "value": "reference"}, {"key": "C"}, {"wait": "settled"}, {"shot": "corner-split.png"},
+        {"set": "beside", "value": "reference"}, {"key": "C"}, {"wait": 1}, {"shot": "corner-split.png"},
     ], "--size", "400x225", "--exposure", "0", "--panel", "off")
     moved = squares(OUT / "corner-after.png")
     print("corner", (x, y), "dragged to", out, "is seen at", min(moved, key=lambda c: abs(c[0] - out[0]) + abs(c[1] - out[1])))
@@ -111,6 +111,7 @@ def polygon():
     assert pixels(OUT / "corner-lobe.png") == pixels(OUT / "corner.png"), "the tone curve of the window is the file's"
     render("corner.glb", "corner-again.png", "--size", "400x225", "--exposure", "0", "--tone", "filmic")
     assert pixels(OUT / "corner-again.png") == pixels(OUT / "corner.png")
+    assert sum(map(sum, pixels(OUT / "corner.png")[2])) > 20 * 3 * 400 * 225, "and there is something to be seen"
 
 
 def squares(path):

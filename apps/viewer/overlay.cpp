@@ -11,7 +11,7 @@ namespace steradian::view {
 namespace {
 
 constexpr ImU32 kAxisColors[] = {IM_COL32(235, 80, 70, 255), IM_COL32(110, 200, 70, 255), IM_COL32(80, 140, 250, 255)};
-constexpr ImU32 kBright = IM_COL32(255, 220, 90, 255), kMark = IM_COL32(255, 240, 180, 220), kEdge = IM_COL32(0, 0, 0, 160);
+constexpr ImU32 kBright = IM_COL32(255, 220, 90, 255), kMark = IM_COL32(255, 240, 180, 255), kEdge = IM_COL32(0, 0, 0, 160);
 constexpr double kPi = 3.14159265358979324;
 
 class Overlay {
@@ -92,10 +92,6 @@ class Overlay {
   ImDrawList* list_;
 };
 
-}  // namespace
-
-namespace {
-
 void draw_plane_handles(const Drawing& drawing, double scale) {
   if (!drawing.selection()) return;
   const PlaneBox box = bounds_of(drawing.scene().bodies[*drawing.selection()]);
@@ -109,10 +105,6 @@ void draw_plane_handles(const Drawing& drawing, double scale) {
   const ImVec2 corner = at(box.high);
   list->AddRectFilled({corner.x - 5, corner.y - 5}, {corner.x + 5, corner.y + 5}, kBright);
 }
-
-}  // namespace
-
-namespace {
 
 // What stands on both sides of the split screen.
 void name_halves(const Session& s, float x) {

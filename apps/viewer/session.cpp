@@ -155,11 +155,10 @@ void Session::press(PointerButton button, bool shift, Vec2d at) {
   shift_ = shift;
   moved_ = false;
   pressed_ = last_ = at;
-  drags_corner_ = false;
+  drags_corner_.reset();
   handle_ = Handle::none;
   if (const auto corner = button == PointerButton::left && !shift ? corner_under(at) : std::nullopt) {
-    corner_ = corner;
-    drags_corner_ = true;
+    corner_ = drags_corner_ = corner;
     drag_outline_ = *outline_;
     return;
   }
@@ -223,7 +222,7 @@ void Session::release(Vec2d at) {
   drag(at);
   if (!moved_ && *button_ == PointerButton::left && handle_ == Handle::none && !drags_corner_) click(at);
   button_.reset();
-  drags_corner_ = false;
+  drags_corner_.reset();
   handle_ = Handle::none;
   set_moving(false);
 }
@@ -270,9 +269,22 @@ std::optional<CornerPlace> Session::corner() const {
   return corner_;
 }
 
-bool Session::put_corners(const Outline& outline) {
+// The outline is read back from the triangles it becomes: from another corner on, and without corners on a straight line.
+bool Session::put_corners(const Outline& outline, Vec3d taken) {
   const Lamp* lamp = selected_mesh();
   if (lamp == nullptr || !set_outline(*document_, *lamp, outline)) return false;
+  corner_.reset();
+  corners();
+  double nearest = 0;
+  for (const auto& contour : outline.contours)
+    for (const Vec3d& p : contour) nearest = std::max({nearest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  nearest *= 1e-6;  // vertices are single precision
+  for (std::size_t i = 0; outline_ && i < outline_->contours.size(); ++i)
+    for (std::size_t k = 0; k < outline_->contours[i].size(); ++k)
+      if (const double away = length(outline_->contours[i][k] - taken); away <= nearest) {
+        nearest = away;
+        corner_ = CornerPlace{i, k};
+      }
   changed();
   return true;
 }
@@ -280,23 +292,23 @@ bool Session::put_corners(const Outline& outline) {
 void Session::drag_corner(Vec2d to) {
   const Affine& world = tree().world(selection_.node);
   if (!(std::fabs(world.determinant()) > 0)) return;
-  Vec3d& corner = drag_outline_.contours[corner_->contour][corner_->corner];
+  Vec3d& corner = drag_outline_.contours[drags_corner_->contour][drags_corner_->corner];
   const Vec3d before = corner, at = world.point(before), normal = normalized(world.normal(drag_outline_.normal));
   const auto met = meets_plane(at, normal, ray(to));
   if (!met) return;
   corner = inverse(world).point(*met);
-  if (!put_corners(drag_outline_)) corner = before;  // stays where the outline was whole
+  if (!put_corners(drag_outline_, corner)) corner = before;  // stays where the outline was whole
 }
 
 void Session::add_corner() {
   if (!corner()) return;
+  constexpr double kOut = 1e-3;  // of the edge: a corner on it would be none
   Outline outline = *outline_;
   auto& contour = outline.contours[corner_->contour];
-  const std::size_t next = (corner_->corner + 1) % contour.size();
-  contour.insert(contour.begin() + static_cast<std::ptrdiff_t>(corner_->corner) + 1, (contour[corner_->corner] + contour[next]) * 0.5);
-  if (!put_corners(outline)) return;
-  ++corner_->corner;
-  document_->close_step();
+  const Vec3d from = contour[corner_->corner], to = contour[(corner_->corner + 1) % contour.size()];
+  const Vec3d added = (from + to) * 0.5 + cross(to - from, outline.normal) * kOut;
+  contour.insert(contour.begin() + static_cast<std::ptrdiff_t>(corner_->corner) + 1, added);
+  if (put_corners(outline, added)) document_->close_step();
 }
 
 void Session::remove_corner() {
@@ -309,9 +321,8 @@ void Session::remove_corner() {
     outline.contours.erase(outline.contours.begin() + static_cast<std::ptrdiff_t>(corner_->contour));  // a hole of three
   else
     return;
-  if (!put_corners(outline)) return;
-  corner_.reset();
-  document_->close_step();
+  const Vec3d removed = outline_->contours[corner_->contour][corner_->corner];
+  if (put_corners(outline, removed)) document_->close_step();
 }
 
 void Session::click(Vec2d at) {

@@ -78,7 +78,7 @@ class Session : public Stage {
   const std::vector<std::vector<Vec3d>>& corners() const;
   std::optional<CornerPlace> corner_under(Vec2d at) const;
   std::optional<CornerPlace> corner() const;  // that was taken last
-  void add_corner();                          // in the middle of the edge after it, and takes that
+  void add_corner();                          // by the middle of the edge after it, and takes that
   void remove_corner();
 
   GizmoMode gizmo_mode = GizmoMode::move;
@@ -113,7 +113,7 @@ class Session : public Stage {
   void drag_handle(Vec2d to);
   const Lamp* selected_mesh() const;  // null where no mesh that shines is selected
   void drag_corner(Vec2d to);
-  bool put_corners(const Outline& outline);
+  bool put_corners(const Outline& outline, Vec3d taken);
 
   std::unique_ptr<Document> document_;
   RenderOptions options_;
@@ -144,7 +144,7 @@ class Session : public Stage {
   NodePose drag_pose_;
   Affine drag_parent_;
   std::optional<CornerPlace> corner_;
-  bool drags_corner_ = false;
+  std::optional<CornerPlace> drags_corner_;  // of drag_outline_
   Outline drag_outline_;
 
   // Of what is selected, and of which revision and node.

@@ -97,6 +97,7 @@ void Worker::run() {
 
 void Worker::publish(RenderedFrame frame) {
   const std::lock_guard lock(mutex_);
+  if (done_ && !done_->same) frame.same = false;  // that one was never seen
   done_ = std::move(frame);
   changed_.notify_all();
 }
@@ -130,18 +131,21 @@ void Worker::answer(const Job& job) {
 
   const int first = cost_.divisor == 0 ? 4 : divisor_within(kFrameMs, cost_);
   if (!request.refine || first == 1) {
-    if (!show(job, frame, first, first == 1) || request.moving || first == 1) return;
+    if (!show(job, frame, first, first == 1) || request.moving) return;
   }
-  // At rest: a picture of half the size on the way where the whole one takes long.
   {
     const std::lock_guard lock(mutex_);
     refining_ = true;
     if (next_) return;
   }
-  constexpr double kLong = 500;
-  const double whole = cost_.pixels_ms * cost_.divisor * cost_.divisor;
-  if (first > 2 && whole > kLong && !show(job, frame, 2, false)) return;
-  if (show(job, frame, 1, true) && frame.pairs > 0) accumulate(job, std::move(frame));
+  if (first > 1) {
+    // At rest: a picture of half the size on the way where the whole one takes long.
+    constexpr double kLong = 500;
+    const double whole = cost_.pixels_ms * cost_.divisor * cost_.divisor;
+    if (first > 2 && whole > kLong && !show(job, frame, 2, false)) return;
+    if (!show(job, frame, 1, true)) return;
+  }
+  if (frame.pairs > 0) accumulate(job, std::move(frame));
 }
 
 bool Worker::render_one(const RenderOptions& wanted, RenderedFrame& frame, Picture& picture, RenderStats& stats) {
