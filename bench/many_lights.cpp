@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "benches.h"
 #include "floor.h"
 #include "frame.h"
+#include "scene/test_meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::bench {
@@ -60,32 +60,7 @@ AreaLight hall_light(std::mt19937& random, double size) {
   return light;
 }
 
-Mesh wall(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
-  Mesh mesh;
-  mesh.positions = {a, b, c, d};
-  mesh.normals.assign(4, normalized(cross(b - a, d - a)));
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  return mesh;
-}
-
-// A ball of triangles, with the normals of a ball.
-Mesh ball(Vec3d center, double radius) {
-  Mesh mesh;
-  constexpr int kColumns = 48, kRows = 24;
-  for (int j = 0; j <= kRows; ++j)
-    for (int i = 0; i <= kColumns; ++i) {
-      const double a = 2 * std::numbers::pi * i / kColumns, b = std::numbers::pi * (0.001 + 0.998 * j / kRows);
-      const Vec3d n{std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a)};
-      mesh.normals.push_back(static_cast<Vec3f>(n));
-      mesh.positions.push_back(static_cast<Vec3f>(center + n * radius));
-    }
-  for (int j = 0; j < kRows; ++j)
-    for (int i = 0; i < kColumns; ++i) {
-      const auto at = static_cast<std::uint32_t>(j * (kColumns + 1) + i);
-      for (const std::uint32_t k : {at, at + kColumns + 1, at + kColumns + 2, at, at + kColumns + 2, at + 1}) mesh.indices.push_back(k);
-    }
-  return mesh;
-}
+Mesh wall(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return scene::quad_mesh(a, b, c, d, 0); }
 
 // The hall without lights.
 Scene empty_hall() {
@@ -112,7 +87,8 @@ Scene hall(int count) {
 Scene hall_with_balls(int count) {
   Scene scene = hall(count);
   for (int i = 0; i < 24; ++i)
-    scene.meshes.push_back(ball({-15.0 + 6 * (i % 6), 1.2 + 1.5 * (i / 6 % 2), 18.0 - 10 * (i / 6)}, 1.0 + 0.1 * (i % 5)));
+    scene.meshes.push_back(scene::ball_mesh(static_cast<Vec3f>(Vec3d{-15.0 + 6 * (i % 6), 1.2 + 1.5 * (i / 6 % 2), 18.0 - 10 * (i / 6)}),
+                                            1.0f + 0.1f * static_cast<float>(i % 5), 0, 48, 24));
   return scene;
 }
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 
+#include "core/test_memory.h"
 #include "paths.h"
 #include "player.h"
 #include "scene/gltf_test_file.h"
@@ -306,12 +306,6 @@ TEST(ViewSession, ManyFramesLeaveMemoryWhereItWas) {
   tiny.height = 9;
   tiny.threads = 1;
   Session s(room(), tiny);
-  const auto resident = [] {
-    std::ifstream statm("/proc/self/statm");
-    long size = 0, pages = 0;
-    statm >> size >> pages;
-    return pages * 4096;
-  };
   const auto frames = [&](int count) {
     s.select_named("panel");
     for (int i = 0; i < count; ++i) {
@@ -324,13 +318,13 @@ TEST(ViewSession, ManyFramesLeaveMemoryWhereItWas) {
     s.document().close_step();
   };
   frames(100);
-  const long before = resident();
+  const double before = test::resident_mib();
   const char* asked = std::getenv("STERADIAN_FRAMES");
   const int count = asked != nullptr ? std::max(1, std::atoi(asked)) : 10000;
   frames(count);
-  std::printf("%d frames: %.1f MB more\n", count, static_cast<double>(resident() - before) / 1e6);
+  std::printf("%d frames: %.1f MB more\n", count, test::resident_mib() - before);
   // A frame of this size, its scene and its request are some ten kilobytes: were one in fifty kept, 10,000 would show.
-  EXPECT_LT(resident() - before, 2'000'000);
+  EXPECT_LT(test::resident_mib(), before + 2);
 }
 
 // The corner of a polygon seen in the picture is dragged over the polygon's plane, to where the pointer's ray meets it.

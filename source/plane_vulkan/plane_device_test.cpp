@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 
+#include "core/test_memory.h"
 #include "paths.h"
 #include "plane/exact/families.h"
 #include "plane/frame/drawing.h"
@@ -30,13 +30,6 @@ PlaneFrameOptions sized(int width, int height) {
   options.width = width;
   options.height = height;
   return options;
-}
-
-double resident_mib() {
-  std::ifstream file("/proc/self/statm");
-  double all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * 4096 / (1 << 20);
 }
 
 class VulkanPlane : public ::testing::Test {
@@ -165,9 +158,9 @@ TEST_F(VulkanPlane, AHundredFramesLeaveMemoryWhereItWas) {
   const PlaneFrameOptions options = sized(32, 20);
   Picture picture;
   for (int i = 0; i < 30; ++i) device().render_into(picture, world, options);
-  const double before = resident_mib();
+  const double before = test::resident_mib();
   for (int i = 0; i < 100; ++i) device().render_into(picture, world, options);
-  EXPECT_LE(resident_mib(), before + 2);  // 20 KiB a frame
+  EXPECT_LE(test::resident_mib(), before + 2);  // 20 KiB a frame
 }
 
 TEST_F(VulkanPlane, RefusesWhatItDoesNotHave) {

@@ -1,6 +1,9 @@
 // Meshes that tests put their scenes together from.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "steradian/scene.h"
 
 namespace steradian::scene {
@@ -24,6 +27,29 @@ inline double signed_area(const Mesh& mesh) {
     sum += static_cast<double>(dot(cross(b - a, c - a), mesh.normals[mesh.indices[i]])) / 2;
   }
   return sum;
+}
+
+// A ball of facets with the ball's smooth normals: the shading and the geometric horizon differ.
+inline Mesh ball_mesh(Vec3f center, float radius, int material, unsigned columns, unsigned rows) {
+  Mesh mesh;
+  mesh.material = material;
+  const auto share = [](unsigned i, unsigned count) {
+    return std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(count);
+  };
+  for (unsigned j = 0; j <= rows; ++j)
+    for (unsigned i = 0; i <= columns; ++i) {
+      const float u = 2 * share(i % columns, columns), v = share(j, rows);
+      const float s = j == 0 || j == rows ? 0.0f : std::sin(v);
+      const Vec3f n{s * std::cos(u), std::cos(v), -s * std::sin(u)};
+      mesh.positions.push_back(center + n * radius);
+      mesh.normals.push_back(n);
+    }
+  for (unsigned j = 0; j < rows; ++j)
+    for (unsigned i = 0; i < columns; ++i) {
+      const unsigned a = j * (columns + 1) + i, b = a + columns + 1;
+      for (const unsigned v : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(v);
+    }
+  return mesh;
 }
 
 }  // namespace steradian::scene

@@ -5,11 +5,6 @@
 #include <numeric>
 
 namespace steradian::shadow {
-namespace {
-
-double part(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-}  // namespace
 
 // The hull's shadow along an axis is the hull of two rectangles. In each of its four quadrants it has a slanted side if one rectangle
 // reaches further along one coordinate and the other along the other.
@@ -19,7 +14,7 @@ HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     for (const int sx : {-1, 1})
       for (const int sy : {-1, 1}) {
-        const auto corner = [&](const Box& box, int c, int sign) { return part(sign < 0 ? box.low : box.high, c); };
+        const auto corner = [&](const Box& box, int c, int sign) { return coordinate(sign < 0 ? box.low : box.high, c); };
         const double ax = corner(a, x, sx), ay = corner(a, y, sy), bx = corner(b, x, sx), by = corner(b, y, sy);
         const double dx = sx * (ax - bx), dy = sy * (ay - by);
         if (!(dx * dy < 0)) continue;
@@ -31,19 +26,21 @@ HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
 
 bool HullOfBoxes::may_meet(const Box& b) const {
   for (int c = 0; c < 3; ++c)
-    if (part(b.low, c) > part(all_.high, c) || part(b.high, c) < part(all_.low, c)) return false;
+    if (coordinate(b.low, c) > coordinate(all_.high, c) || coordinate(b.high, c) < coordinate(all_.low, c)) return false;
   return std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
-    return s.u * part(s.u > 0 ? b.low : b.high, s.x) + s.v * part(s.v > 0 ? b.low : b.high, s.y) > s.offset;
+    return s.u * coordinate(s.u > 0 ? b.low : b.high, s.x) + s.v * coordinate(s.v > 0 ? b.low : b.high, s.y) > s.offset;
   });
 }
 
 bool HullOfBoxes::may_meet(const Vec3d (&corners)[3]) const {
   const auto all = [&](auto outside) { return outside(corners[0]) && outside(corners[1]) && outside(corners[2]); };
   for (int c = 0; c < 3; ++c)
-    if (all([&](Vec3d p) { return part(p, c) > part(all_.high, c); }) || all([&](Vec3d p) { return part(p, c) < part(all_.low, c); }))
+    if (all([&](Vec3d p) { return coordinate(p, c) > coordinate(all_.high, c); }) ||
+        all([&](Vec3d p) { return coordinate(p, c) < coordinate(all_.low, c); }))
       return false;
-  return std::none_of(slants_, slants_ + count_,
-                      [&](const Slant& s) { return all([&](Vec3d p) { return s.u * part(p, s.x) + s.v * part(p, s.y) > s.offset; }); });
+  return std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
+    return all([&](Vec3d p) { return s.u * coordinate(p, s.x) + s.v * coordinate(p, s.y) > s.offset; });
+  });
 }
 
 void TriangleTree::Viewers::take(const std::vector<Vec3d>& points) {
@@ -94,11 +91,10 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
     nodes_[node] = {box, begin, end - begin};
     return;
   }
-  const Vec3d size = middles.high - middles.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = longest_side(middles);
   const std::uint32_t half = begin + (end - begin) / 2;
   std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-    const double x = part(middle(a), axis), y = part(middle(b), axis);
+    const double x = coordinate(middle(a), axis), y = coordinate(middle(b), axis);
     return x != y ? x < y : a < b;
   });
   const auto children = static_cast<std::uint32_t>(nodes_.size());

@@ -7,21 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "shadow/box.h"
 #include "shadow/edges.h"
 
 namespace steradian::shadow {
-
-struct Box {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(Vec3d p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  void add(const Box& b) {
-    add(b.low);
-    add(b.high);
-  }
-};
 
 // Half spaces that hold the hull of two boxes: its sides, or fewer.
 class HullOfBoxes {

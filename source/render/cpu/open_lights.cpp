@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-double part(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 }  // namespace
 
 OpenLights::OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles,
@@ -60,12 +58,12 @@ void OpenLights::build(std::uint32_t node, std::vector<Node>& leaves, std::size_
     box.add(leaves[i].box);
     margin = std::min(margin, leaves[i].margin);
   }
-  const Vec3d size = box.high - box.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = shadow::longest_side(box);
   const std::size_t half = (begin + end) / 2;
   const auto at = [&](std::size_t i) { return leaves.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(half), at(end), [axis](const Node& a, const Node& b) {
-    const double x = part(a.box.low, axis) + part(a.box.high, axis), y = part(b.box.low, axis) + part(b.box.high, axis);
+  std::nth_element(at(begin), at(half), at(end), [&](const Node& a, const Node& b) {
+    const auto middle = [axis](const Node& n) { return shadow::coordinate(n.box.low + n.box.high, axis); };
+    const double x = middle(a), y = middle(b);
     return x != y ? x < y : a.light < b.light;
   });
   const auto children = static_cast<std::uint32_t>(nodes_.size());

@@ -4,27 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "shadow/box.h"
 #include "steradian/scene.h"
 
 namespace steradian {
 namespace {
 
+using shadow::Box;
+using shadow::coordinate;
+using shadow::longest_side;
+
 // Of the longest side of all: a gap between neighbours as wide as this splits them.
 constexpr double kGap = 0.35;
-
-struct Box {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(Vec3d p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  void add(const Box& b) {
-    add(b.low);
-    add(b.high);
-  }
-};
-
-double coordinate(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 struct Member {
   std::uint32_t number;
@@ -39,9 +30,8 @@ void split(std::vector<Member>& members, std::vector<std::vector<std::uint32_t>>
     ranges.pop_back();
     Box all;
     for (std::size_t i = begin; i < end; ++i) all.add(members[i].box);
-    const Vec3d size = all.high - all.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const double longest = coordinate(size, axis);
+    const int axis = longest_side(all);
+    const double longest = coordinate(all.high - all.low, axis);
     const auto from = members.begin() + static_cast<std::ptrdiff_t>(begin), to = members.begin() + static_cast<std::ptrdiff_t>(end);
     std::stable_sort(from, to, [&](const Member& a, const Member& b) { return coordinate(a.box.low, axis) < coordinate(b.box.low, axis); });
     double reached = -INFINITY;

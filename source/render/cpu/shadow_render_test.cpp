@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "image/z_test.h"
 #include "render/cpu/judged_pictures.h"
@@ -25,29 +24,6 @@ SurfaceMaterial diffuse(float albedo) {
   return m;
 }
 
-// Smooth normals on few facets: the shading and the geometric horizon differ.
-Mesh ball_mesh(Vec3f center, float radius, int material, unsigned columns = 16, unsigned rows = 8) {
-  Mesh mesh;
-  mesh.material = material;
-  const auto share = [](unsigned i, unsigned count) {
-    return std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(count);
-  };
-  for (unsigned j = 0; j <= rows; ++j)
-    for (unsigned i = 0; i <= columns; ++i) {
-      const float u = 2 * share(i % columns, columns), v = share(j, rows);
-      const float s = j == 0 || j == rows ? 0.0f : std::sin(v);
-      const Vec3f n{s * std::cos(u), std::cos(v), -s * std::sin(u)};
-      mesh.positions.push_back(center + n * radius);
-      mesh.normals.push_back(n);
-    }
-  for (unsigned j = 0; j < rows; ++j)
-    for (unsigned i = 0; i < columns; ++i) {
-      const unsigned a = j * (columns + 1) + i, b = a + columns + 1;
-      for (const unsigned v : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(v);
-    }
-  return mesh;
-}
-
 void add_box(Scene& scene, Vec3f low, Vec3f high, int material) {
   const auto face = [&](Vec3f a, Vec3f b, Vec3f c, Vec3f d) { scene.meshes.push_back(quad_mesh(a, b, c, d, material)); };
   const auto [x0, y0, z0] = low;
@@ -66,7 +42,7 @@ Scene still_life() {
   scene.materials = {diffuse(0.6f), diffuse(0.4f)};
   scene.meshes = {quad_mesh({-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}, 0)};
   add_box(scene, {-0.9f, 0, -0.5f}, {-0.3f, 0.7f, 0.1f}, 1);
-  scene.meshes.push_back(ball_mesh({0.4f, 0.35f, 0.1f}, 0.35f, 1));
+  scene.meshes.push_back(ball_mesh({0.4f, 0.35f, 0.1f}, 0.35f, 1, 16, 8));
   scene.meshes.push_back(quad_mesh({0.6f, 1, 0.3f}, {1.2f, 1, 0.2f}, {1.2f, 1.1f, -0.4f}, {0.6f, 1.1f, -0.5f}, 1));
   scene.meshes.push_back(quad_mesh({-0.3f, 0, 0.3f}, {0.1f, 0, 0.3f}, {-0.1f, 0.6f, -0.2f}, {-0.5f, 0.6f, -0.2f}, 1));
   Camera camera;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -61,24 +60,8 @@ Scene hall(const SurfaceMaterial& material) {
   return scene;
 }
 
-// A ball of triangles with the normals of the ball.
-Mesh ball(Vec3f center, float radius) {
-  Mesh mesh;
-  constexpr int kColumns = 32, kRows = 16;
-  for (int j = 0; j <= kRows; ++j)
-    for (int i = 0; i <= kColumns; ++i) {
-      const double a = 2 * std::numbers::pi * i / kColumns, b = std::numbers::pi * (0.001 + 0.998 * j / kRows);
-      const Vec3d n{std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a)};
-      mesh.normals.push_back(static_cast<Vec3f>(n));
-      mesh.positions.push_back(center + static_cast<Vec3f>(n) * radius);
-    }
-  for (int j = 0; j < kRows; ++j)
-    for (int i = 0; i < kColumns; ++i) {
-      const auto at = static_cast<std::uint32_t>(j * (kColumns + 1) + i);
-      for (const std::uint32_t k : {at, at + kColumns + 1, at + kColumns + 2, at, at + kColumns + 2, at + 1}) mesh.indices.push_back(k);
-    }
-  return mesh;
-}
+// Of 1,024 triangles.
+Mesh ball(Vec3f center, float radius) { return scene::ball_mesh(center, radius, 0, 32, 16); }
 
 AreaLight light_of(Shape shape, Vec3d radiance) {
   AreaLight light;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
+#include "core/test_memory.h"
 #include "paths.h"
 #include "render/indirect/test_corner.h"
 #include "render/vulkan/frame.h"
@@ -27,13 +27,6 @@ RenderOptions small(IndirectMode mode, int lights) {
   options.indirect.mode = mode;
   options.indirect.virtual_lights = lights;
   return options;
-}
-
-double resident_mib() {
-  std::ifstream file("/proc/self/statm");
-  double all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * 4096 / (1 << 20);
 }
 
 class VulkanBounce : public ::testing::Test {
@@ -120,9 +113,9 @@ TEST_F(VulkanBounce, AHundredFramesLeaveMemoryWhereItWas) {
   options.backend = Backend::vulkan;
   Frame frame(scene, options);
   for (int i = 0; i < 30; ++i) frame.render();
-  const double before = resident_mib();
+  const double before = test::resident_mib();
   for (int i = 0; i < 100; ++i) frame.render();
-  EXPECT_LE(resident_mib(), before + 2);  // 20 KiB a frame
+  EXPECT_LE(test::resident_mib(), before + 2);  // 20 KiB a frame
 }
 
 TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {

@@ -6,11 +6,6 @@
 #include "render/vulkan/buffer_handles.h"
 
 namespace steradian::vulkan {
-namespace {
-
-constexpr std::uint64_t kLongestWait = 300'000'000'000;  // ns; a device that takes longer hangs
-
-}  // namespace
 
 struct ComputeProgram::Handles {
   std::uint32_t texels = 0;
@@ -39,7 +34,7 @@ ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span
     Handles& h = *handles_;
     h.texels = static_cast<std::uint32_t>(texels);
     const auto buffer_count = static_cast<std::uint32_t>(texels + buffers);
-    for (const auto& spirv : shaders) h.shaders.push_back(d.createShaderModule({{}, spirv.size_bytes(), spirv.data()}));
+    for (const auto& spirv : shaders) h.shaders.push_back(module_of(d, spirv));
 
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < buffer_count; ++i) bindings.emplace_back(i, h.type(i), 1, vk::ShaderStageFlagBits::eCompute);
@@ -114,18 +109,8 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
     }
     h.commands.end();
 
-    d.device.resetFences(*h.done);
-    d.queue.submit(vk::SubmitInfo({}, {}, *h.commands, {}), *h.done);
-    if (d.device.waitForFences(*h.done, VK_TRUE, kLongestWait) != vk::Result::eSuccess)
-      throw Error("Vulkan device '" + device_.info().name + "'", "did not finish a compute shader within five minutes");
-
-    std::vector<double> times;
-    if (!timed) return times;
-    const auto ticks = h.queries.getResults<std::uint64_t>(0, stamps, stamps * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                           vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-    for (std::size_t i = 0; i < dispatches.size(); ++i)
-      times.push_back(static_cast<double>(ticks.second[i + 1] - ticks.second[i]) * static_cast<double>(d.timestamp_period) * 1e-6);
-    return times;
+    submit_and_wait(device_, h.commands, h.done, "a compute shader");
+    return timed ? times_between(device_, h.queries, stamps) : std::vector<double>{};
   });
 }
 

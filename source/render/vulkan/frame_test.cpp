@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <numbers>
 
+#include "core/test_memory.h"
 #include "paths.h"
 #include "render/vulkan/device.h"
 #include "scene/test_meshes.h"
@@ -178,14 +178,6 @@ double shadow_on_host(const Scene& scene, const RenderOptions& options) {
   return stats.shadow_on_host;
 }
 
-// Of this process.
-double resident_mib() {
-  std::ifstream file("/proc/self/statm");
-  double all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * 4096 / (1 << 20);
-}
-
 // A leak of two kilobytes in each of a thousand frames would show. A software device's memory is the process's own.
 void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shadows shadows = Shadows::off) {
   RenderOptions options = small("ltc-compact");
@@ -193,9 +185,9 @@ void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shado
   options.shadows = shadows;
   Frame frame(scene, options, nullptr, surfaces);
   for (int i = 0; i < 100; ++i) frame.render();
-  const double before = resident_mib();
+  const double before = test::resident_mib();
   for (int i = 0; i < frames; ++i) frame.render();
-  const double after = resident_mib();
+  const double after = test::resident_mib();
   std::printf("resident: %.1f MiB after 100 frames, %.1f MiB after %d\n", before, after, frames + 100);
   EXPECT_LE(after, before + 2);
 }

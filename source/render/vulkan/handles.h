@@ -4,6 +4,11 @@
 #define VK_NO_PROTOTYPES  // every function comes from the loader at run time
 #include <vulkan/vulkan_raii.hpp>
 
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "render/vulkan/device.h"
 #include "steradian/error.h"
 
@@ -34,6 +39,32 @@ auto checked(const char* doing, F f) {
   } catch (const vk::SystemError& e) {
     throw Error("Vulkan", std::string(doing) + ": " + e.what());
   }
+}
+
+inline vk::raii::ShaderModule module_of(const vk::raii::Device& device, std::span<const std::uint32_t> spirv) {
+  return device.createShaderModule({{}, spirv.size_bytes(), spirv.data()});
+}
+
+// Hands the commands to the device and waits until it has done them. work: for the error, what a device that hangs did not finish.
+inline void submit_and_wait(const Device& device, const vk::raii::CommandBuffer& commands, const vk::raii::Fence& done, const char* work) {
+  constexpr std::uint64_t longest = 300'000'000'000;  // ns
+  const Device::Handles& d = device.handles();
+  d.device.resetFences(*done);
+  d.queue.submit(vk::SubmitInfo({}, {}, *commands, {}), *done);
+  if (d.device.waitForFences(*done, VK_TRUE, longest) != vk::Result::eSuccess)
+    throw Error("Vulkan device '" + device.info().name + "'", std::string("did not finish ") + work + " within five minutes");
+}
+
+// Milliseconds between neighbouring timestamps of the first `count`.
+inline std::vector<double> times_between(const Device& device, const vk::raii::QueryPool& stamps, std::uint32_t count) {
+  using Flag = vk::QueryResultFlagBits;
+  const auto ticks =
+      stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t), Flag::e64 | Flag::eWait);
+  std::vector<double> times;
+  for (std::uint32_t i = 1; i < count; ++i)
+    times.push_back(static_cast<double>(ticks.second[i] - ticks.second[i - 1]) * static_cast<double>(device.handles().timestamp_period) *
+                    1e-6);
+  return times;
 }
 
 }  // namespace steradian::vulkan

@@ -8,7 +8,6 @@ namespace {
 
 constexpr vk::Format kNumbers = vk::Format::eR32Uint, kDepths = vk::Format::eD32Sfloat;  // every device draws to both
 constexpr float kNearest = 1e-6f;                                                        // in metres; what is nearer is not drawn
-constexpr std::uint64_t kLongestWait = 300'000'000'000;                                  // ns
 
 // As visibility.vert has it.
 struct Push {
@@ -84,10 +83,6 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {
        Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite},
       {0, VK_SUBPASS_EXTERNAL, Stage::eColorAttachmentOutput, Stage::eTransfer, Access::eColorAttachmentWrite, Access::eTransferRead}};
   return d.createRenderPass({{}, attachments, subpass, dependencies});
-}
-
-vk::raii::ShaderModule module_of(const vk::raii::Device& d, std::span<const std::uint32_t> spirv) {
-  return d.createShaderModule({{}, spirv.size_bytes(), spirv.data()});
 }
 
 vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, vk::PipelineLayout layout, vk::RenderPass pass, const CameraView& size) {
@@ -177,7 +172,6 @@ Visibility::~Visibility() = default;
 
 double Visibility::draw(PixelPlace place) {
   return checked("draw triangles", [&] {
-    const Device::Handles& d = device_.handles();
     const Handles& h = *handles_;
     using Stage = vk::PipelineStageFlagBits;
     const bool timed = device_.info().timestamps;
@@ -200,14 +194,8 @@ double Visibility::draw(PixelPlace place) {
     h.commands.pipelineBarrier(Stage::eTransfer, Stage::eComputeShader | Stage::eHost, {}, copied, nullptr, nullptr);
     if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 1);
     h.commands.end();
-    d.device.resetFences(*h.done);
-    d.queue.submit(vk::SubmitInfo({}, {}, *h.commands, {}), *h.done);
-    if (d.device.waitForFences(*h.done, VK_TRUE, kLongestWait) != vk::Result::eSuccess)
-      throw Error("Vulkan device '" + device_.info().name + "'", "did not finish drawing within five minutes");
-    if (!timed) return 0.0;
-    const auto ticks = h.queries.getResults<std::uint64_t>(0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                           vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-    return static_cast<double>(ticks.second[1] - ticks.second[0]) * static_cast<double>(d.timestamp_period) * 1e-6;
+    submit_and_wait(device_, h.commands, h.done, "drawing");
+    return timed ? times_between(device_, h.queries, 2).front() : 0.0;
   });
 }
 
