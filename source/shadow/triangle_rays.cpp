@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shadow/box.h"
+
 namespace steradian::shadow {
 namespace {
-
-Vec3d least(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3d largest(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 // Moeller, Trumbore, "Fast, minimum storage ray-triangle intersection", 1997, for 0 <= t <= 1.
 template <class Triangle>
@@ -38,8 +37,6 @@ bool meets_box(Vec3d low, Vec3d high, Vec3d from, Vec3d inverse) {
   return near <= far * (1 + 1e-12);
 }
 
-double coordinate(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 }  // namespace
 
 TriangleRays::TriangleRays(const EdgeMesh& mesh) {
@@ -54,25 +51,20 @@ TriangleRays::TriangleRays(const EdgeMesh& mesh) {
 }
 
 void TriangleRays::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low, center_low = low, center_high = high;
+  Box box, centers;
   const auto center = [](const Triangle& t) { return t.a + (t.ab + t.ac) / 3.0; };
   for (std::uint32_t i = begin; i < end; ++i) {
     const Triangle& t = triangles_[i];
-    for (const Vec3d v : {t.a, t.a + t.ab, t.a + t.ac}) {
-      low = least(low, v);
-      high = largest(high, v);
-    }
-    center_low = least(center_low, center(t));
-    center_high = largest(center_high, center(t));
+    for (const Vec3d v : {t.a, t.a + t.ab, t.a + t.ac}) box.add(v);
+    centers.add(center(t));
   }
-  const Vec3d size = center_high - center_low;
   // Corners are summed again here: a box must not cut a triangle by a rounding.
-  const double margin = 1e-12 * (std::fabs(low.x) + std::fabs(low.y) + std::fabs(low.z) + length(high - low));
+  const double margin = 1e-12 * (std::fabs(box.low.x) + std::fabs(box.low.y) + std::fabs(box.low.z) + length(box.high - box.low));
   const Vec3d grow{margin, margin, margin};
-  nodes_[node].low = low - grow;
-  nodes_[node].high = high + grow;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (end - begin <= 4 || !(coordinate(size, axis) > 0)) {
+  nodes_[node].low = box.low - grow;
+  nodes_[node].high = box.high + grow;
+  const int axis = longest_side(centers);
+  if (end - begin <= 4 || !(coordinate(centers.high - centers.low, axis) > 0)) {
     nodes_[node].first = begin;
     nodes_[node].count = end - begin;
     return;

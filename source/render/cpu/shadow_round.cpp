@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "render/cpu/shadow_work.h"
+#include "shadow/box.h"
 #include "shadow/round_shaft.h"
 
 namespace steradian {
 
+using shadow::coordinate;
 using shadow::LightFrame;
 using shadow::Shaft;
 using shadow::Viewpoint;
@@ -15,23 +17,10 @@ using Seen = TileShadow::Seen;
 
 namespace {
 
-double coordinate(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-struct Extent {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  int longest() const {
-    const Vec3d size = high - low;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  }
-  double size() const { return coordinate(high - low, longest()); }
-};
-Extent extent_of(const std::vector<Vec3d>& positions) {
-  Extent e;
-  for (const Vec3d& p : positions) {
-    e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y), std::min(e.low.z, p.z)};
-    e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y), std::max(e.high.z, p.z)};
-  }
-  return e;
+shadow::Box box_around(const std::vector<Vec3d>& positions) {
+  shadow::Box box;
+  for (const Vec3d& p : positions) box.add(p);
+  return box;
 }
 
 }  // namespace
@@ -82,11 +71,11 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   work.take(slots);
   const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
   const shadow::Ball ball = shadow::ball_around(*light.area);
-  const Extent extent = extent_of(work.positions);
-  if (!behind && !together && extent.size() > ball.radius) {
+  const shadow::Box box = box_around(work.positions);
+  const int axis = longest_side(box);
+  if (!behind && !together && coordinate(box.high - box.low, axis) > ball.radius) {
     // Too wide for a frame behind the light: halves may have one.
-    const int axis = extent.longest();
-    const double middle = coordinate(extent.low + extent.high, axis) / 2;
+    const double middle = coordinate(box.low + box.high, axis) / 2;
     std::array<std::vector<std::uint32_t>, 2> halves;
     for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < middle ? 0 : 1].push_back(i);
     for (const auto& half : halves)
