@@ -1,6 +1,7 @@
 #include "render/cpu/camera_rays.h"
 
 #include <cmath>
+#include <numbers>
 #include <xsimd/xsimd.hpp>
 
 #include "steradian/error.h"
@@ -8,10 +9,15 @@
 namespace steradian {
 
 PixelPlace pixel_place(int index, int count) {
-  if (count == 1) return {0.5f, 0.5f};
-  const double plastic = 1.32471795724474602596;
-  const auto fraction = [](double x) { return static_cast<float>(x - std::floor(x)); };
-  return {fraction(0.5 + index / plastic), fraction(0.5 + index / (plastic * plastic))};
+  const auto turn = [](int i) {
+    const double x = (i + 1) / std::numbers::phi;
+    return x - std::floor(x);
+  };
+  const double own = turn(index);
+  int row = 0;  // how many of the others have theirs before it
+  for (int i = 0; i < count; ++i) row += turn(i) < own ? 1 : 0;
+  const auto middle = [count](int cell) { return static_cast<float>((cell + 0.5) / count); };
+  return {middle(index), middle(row)};
 }
 
 CameraRays::CameraRays(const Camera& camera, int width, int height) {

@@ -5,9 +5,9 @@
 
 namespace steradian {
 
-// Place of sample `index` of `count` within the pixel, in [0, 1)^2: the centre for one sample, the additive
-// recurrence of the plastic number for more (Roberts 2018), which stays even for any count. Every pixel has the same
-// places, so that methods and references see the same points.
+// Place of sample `index` of `count` within the pixel, in (0, 1)^2: one in each of `count` columns and in each of as many rows, by the
+// order of the multiples of the golden ratio's fractions. So the places are even for any count, and their mean is the pixel's centre: a
+// picture is not moved by them. Every pixel has the same places, so that methods and references see the same points.
 struct PixelPlace {
   float x, y;
 };
