@@ -26,7 +26,7 @@ TEST(CameraRays, PlacesInAPixelAreEvenAndDoNotMoveThePicture) {
   }
 }
 
-// No quarter of the pixel is left out, or crowded, by more than a place (of four or more).
+// No quarter of the pixel is left out, or crowded, by more than one place and a half.
 TEST(CameraRays, PlacesInAPixelFillItsQuarters) {
   for (int count = 4; count <= 64; ++count) {
     int quarters[4] = {};
