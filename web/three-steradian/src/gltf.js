@@ -4,7 +4,8 @@ import { DiskAreaLight, PolygonAreaLight, SphereAreaLight, TubeAreaLight } from 
 
 /**
  * The plug-in: loader.register( ( parser ) => new GLTFAreaLights( parser ) ). Lights hang on their nodes, and gltf.userData.areaLights lists them,
- * for an AreaLightSet. Rects and disks as the extension's draft has them; sphere and capsule are additions of this project.
+ * for an AreaLightSet. Rects and disks as the extension's draft has them: 1000 nits where nothing is said, and of a node's scale the largest of the
+ * three. "extras": {"steradian": {...}} of a light says what is ours: two_sided, scale, aspect, and type sphere or capsule (docs/lights.md).
  */
 export class GLTFAreaLights {
 
@@ -24,7 +25,6 @@ export class GLTFAreaLights {
 		if ( ! definition ) throw new Error( `nodes[ ${nodeIndex} ]: there is no ${place}` );
 		const light = lightOf( definition, place );
 		light.name = this.parser.createUniqueName( definition.name || `area_light_${asked.light}` );
-		light.twoSided = definition.extras?.steradian?.two_sided === true;
 		this.made.push( light );
 		return light;
 
@@ -38,32 +38,44 @@ export class GLTFAreaLights {
 
 }
 
-function positive( value, otherwise, what ) {
+function numberOf( value, otherwise, what, least = 0 ) {
 
 	const x = value ?? otherwise;
-	if ( typeof x !== 'number' || ! ( x > 0 ) ) throw new Error( `${what} is ${x}: give a number above 0` );
+	if ( ! ( Number.isFinite( x ) && x >= least ) ) throw new Error( `${what} is ${x}: give a number ${least > 0 ? 'above 0' : 'that is not negative'}` );
 	return x;
 
 }
 
+const positive = ( value, otherwise, what ) => numberOf( value, otherwise, what, Number.MIN_VALUE );
+
 function lightOf( definition, place ) {
 
-	const color = new Color();
+	const color = new Color(), ours = definition.extras?.steradian ?? {}, extra = `${place}.extras.steradian`;
 	if ( definition.color ) color.setRGB( ...definition.color, LinearSRGBColorSpace );
-	const intensity = definition.intensity ?? 1000; // nits; the default is the draft's
+	const intensity = numberOf( definition.intensity, 1000, `${place}.intensity` ); // nits
 	const size = positive( definition.size, 1, `${place}.size` );
-	switch ( definition.type ) {
+	if ( ours.profile ) console.warn( `${extra}.profile: measured profiles are not served here; the light shines evenly` );
+	const flat = ( light ) => {
+
+		if ( ! [ undefined, 'largest', 'axes' ].includes( ours.scale ) ) throw new Error( `${extra}.scale is '${ours.scale}': there are axes and largest` );
+		light.evenScale = ours.scale !== 'axes';
+		light.twoSided = ours.two_sided === true;
+		return light;
+
+	};
+
+	switch ( ours.type ?? definition.type ) {
 
 		case 'rect': {
 
 			const x = size * positive( definition.rect?.aspect, 1, `${place}.rect.aspect` ) / 2, y = size / 2;
-			return new PolygonAreaLight( color, intensity, [ [ - x, - y ], [ x, - y ], [ x, y ], [ - x, y ] ].map( ( p ) => new Vector2( ...p ) ) );
+			return flat( new PolygonAreaLight( color, intensity, [ [ - x, - y ], [ x, - y ], [ x, y ], [ - x, y ] ].map( ( p ) => new Vector2( ...p ) ) ) );
 
 		}
 
-		case 'disk': return new DiskAreaLight( color, intensity, size / 2 );
+		case 'disk': return flat( new DiskAreaLight( color, intensity, size * positive( ours.aspect, 1, `${extra}.aspect` ) / 2, size / 2 ) );
 		case 'sphere': return new SphereAreaLight( color, intensity, size / 2 );
-		case 'capsule': return new TubeAreaLight( color, intensity, positive( definition.capsule?.length, 1, `${place}.capsule.length` ), size / 2 );
+		case 'capsule': return new TubeAreaLight( color, intensity, numberOf( ( definition.capsule ?? ours.capsule )?.length, 1, `${place}.capsule.length` ), size / 2 );
 		default: throw new Error( `${place}.type is '${definition.type}': there are rect, disk, sphere and capsule` );
 
 	}

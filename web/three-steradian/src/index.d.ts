@@ -6,6 +6,8 @@ export class AreaLight extends Object3D {
 	color: Color;
 	/** Radiance: nits or W/(m2 sr). */
 	intensity: number;
+	/** true: a flat light takes the largest of its world's three scales alone, as those of EXT_lights_area do. */
+	evenScale: boolean;
 }
 
 /** A flat light of any simple outline. */

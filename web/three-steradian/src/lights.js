@@ -1,6 +1,6 @@
 // Lights besides three's RectAreaLight, and what of them goes into uniforms.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-import { Color, Object3D, Vector3 } from 'three';
+import { Color, Matrix4, Object3D, Vector3 } from 'three';
 
 /** What the lights of this package have in common. They shine along their local -z, as RectAreaLight does. */
 export class AreaLight extends Object3D {
@@ -18,6 +18,7 @@ export class AreaLight extends Object3D {
 		this.isLight = true; // WebGPURenderer asks a light's node for what it adds; WebGLRenderer knows none of these
 		this.color = new Color( color );
 		this.intensity = intensity; // radiance: nits or W/(m2 sr)
+		this.evenScale = false; // true: of the world's three scales a flat light takes the largest alone, as the draft of EXT_lights_area has it
 
 	}
 
@@ -96,7 +97,8 @@ export class SphereAreaLight extends AreaLight {
 
 }
 
-/** A tube with round ends, its axis along the local x; length is from one end's centre to the other's. It stays round, with the y scale. */
+/** A tube with round ends, its axis along the local x; length is from one end's centre to the other's. It stays round, with the
+ * geometric mean of the scales across it. */
 export class TubeAreaLight extends AreaLight {
 
 	constructor( color, intensity, length = 1, radius = 0.05 ) {
@@ -118,25 +120,40 @@ export function vectorsOf( light ) {
 
 }
 
-/** Puts them there, from `at` on: corners; or centre and half axes; or both ends and a radius. */
+/** Place, rotation and one scale, the largest of the three. Where a parent's uneven scale shears, z and then x keep their directions. */
+function evenlyScaled( m ) {
+
+	const x = new Vector3(), y = new Vector3(), z = new Vector3();
+	m.extractBasis( x, y, z );
+	const scale = Math.max( x.length(), y.length(), z.length() );
+	z.normalize();
+	x.addScaledVector( z, - x.dot( z ) ).setLength( scale );
+	y.crossVectors( z, x );
+	return new Matrix4().makeBasis( x, y, z.multiplyScalar( scale ) ).copyPosition( m );
+
+}
+
+/** Puts them there, from `at` on: corners; or centre and half axes; or both ends and a radius. A flat light under a mirror still shines along its -z. */
 export function placeLight( light, place, at ) {
 
-	const m = light.matrixWorld, origin = new Vector3().setFromMatrixPosition( m );
-	const axis = ( into, x, y ) => into.set( x, y, 0 ).applyMatrix4( m ).sub( origin );
+	const m = light.evenScale ? evenlyScaled( light.matrixWorld ) : light.matrixWorld, origin = new Vector3().setFromMatrixPosition( m );
+	const axis = ( into, x, y ) => into.set( x, y, 0 ).applyMatrix4( m ).sub( origin ), mirrored = m.determinant() < 0;
 	if ( light.isPolygonAreaLight ) {
 
-		light.corners.forEach( ( p, i ) => place[ at + i ].set( p.x, p.y, 0 ).applyMatrix4( m ) );
+		const { corners } = light;
+		corners.forEach( ( p, i ) => place[ at + ( mirrored ? corners.length - 1 - i : i ) ].set( p.x, p.y, 0 ).applyMatrix4( m ) );
 
 	} else if ( light.isTubeAreaLight ) {
 
 		place[ at ].set( - light.length / 2, 0, 0 ).applyMatrix4( m );
 		place[ at + 1 ].set( light.length / 2, 0, 0 ).applyMatrix4( m );
-		axis( place[ at + 2 ], 0, light.radius );
+		const [ , y, z ] = [ 0, 4, 8 ].map( ( i ) => Math.hypot( ...m.elements.slice( i, i + 3 ) ) );
+		place[ at + 2 ].set( 0, light.radius * Math.sqrt( y * z ), 0 ); // its length counts
 
 	} else {
 
 		place[ at ].copy( origin );
-		axis( place[ at + 1 ], light.isDiskAreaLight ? light.radiusX : light.radius, 0 );
+		axis( place[ at + 1 ], ( mirrored ? - 1 : 1 ) * ( light.isDiskAreaLight ? light.radiusX : light.radius ), 0 );
 		if ( light.isDiskAreaLight ) axis( place[ at + 2 ], 0, light.radiusY );
 
 	}

@@ -141,12 +141,25 @@ BALL = {"type": "sphere", "place": placed([0.2, 0.5, 0.4], [0, -1, 0.1]), "radiu
 TUBE = {"type": "tube", "place": placed([-0.4, 0.5, 0.2], [0, -1, 0.3]), "length": 0.9, "radius": 0.06, "radiance": [8, 8, 6]}
 FRAME = {"type": "polygon", "place": placed([0.1, 1.0, -0.4], [0, -1, 0.4]), "outline": [[-0.8, -0.5], [0.8, -0.5], [0.8, 0.5], [-0.8, 0.5]],
          "holes": [[[-0.6, -0.3], [-0.1, -0.3], [-0.1, 0.3], [-0.6, 0.3]], [[0.2, -0.3], [0.6, -0.3], [0.4, 0.3]]], "radiance": [5, 5, 4]}
-# Of a glTF file: -z shines, size is a height or a diameter; the frame's holes are no part of the extension.
-LIGHTS_OF_A_FILE = [({"type": "rect", "size": 0.5, "rect": {"aspect": 2}, "color": [1, 0.8, 0.6], "intensity": 6}, rect([-0.7, 1, -0.4], [0.3, -1, 0.3], 1, 0.5, [6, 4.8, 3.6])),
-                    ({"type": "disk", "size": 0.7, "intensity": 5, "extras": {"steradian": {"two_sided": True}}}, {**DISK, "radiance": [5, 5, 5]}),
-                    ({"type": "sphere", "size": 0.3, "color": [0.9, 0.8, 0.7], "intensity": 10}, BALL),
-                    ({"type": "capsule", "size": 0.12, "capsule": {"length": 0.9}, "color": [1, 1, 0.75], "intensity": 8}, TUBE)]
-AWAY = {**DISK, "place": placed([0.9, 0.8, -0.5], [-0.3, 1, 0.3]), "two_sided": True}  # its back to the floor
+BEHIND = ([0.9, 0.8, -0.5], [-0.3, 1, 0.3])
+AWAY = {**DISK, "place": placed(*BEHIND), "two_sided": True}  # its back to the floor
+# Of a glTF file, with their nodes' place, rotation and scale: -z shines. What they are is said by the library's reader of the same file.
+LIGHTS_OF_A_FILE = [
+    ({"type": "rect", "size": 0.5, "rect": {"aspect": 2}, "color": [1, 0.8, 0.6], "intensity": 6}, [-0.7, 1, -0.4], [0.3, -1, 0.3], [1, 1, 1]),
+    ({"type": "disk", "size": 0.7, "intensity": 5, "extras": {"steradian": {"two_sided": True}}}, *BEHIND, [1, 1, 1]),
+    ({"type": "sphere", "size": 0.3, "color": [0.9, 0.8, 0.7], "intensity": 10}, [0.2, 0.5, 0.4], [0, -1, 0.1], [1, 1, 1]),
+    ({"type": "capsule", "size": 0.12, "capsule": {"length": 0.9}, "color": [1, 1, 0.75], "intensity": 8}, [-0.4, 0.5, 0.2], [0, -1, 0.3], [1, 1, 1]),
+]
+SCALED_LIGHTS_OF_A_FILE = [  # the default of 1000 nits; the largest of a node's scales, or all of them; mirrored nodes
+    ({"type": "rect", "size": 0.01, "rect": {"aspect": 2}, "color": [1, 0.8, 0.6]}, [-0.7, 0.9, -0.4], [0.3, -1, 0.3], [1, 0.5, 2.5]),
+    ({"type": "disk", "size": 0.4, "intensity": 5}, [0.9, 0.8, -0.5], [-0.3, -1, 0.3], [0.5, -1.5, 1]),
+    ({"type": "disk", "size": 0.4, "intensity": 6, "extras": {"steradian": {"scale": "axes"}}}, [0.1, 0.9, -0.9], [0, -1, 0.5], [2.5, 0.7, 1]),
+    ({"type": "rect", "size": 0.4, "intensity": 6, "extras": {"steradian": {"scale": "axes"}}}, [-0.9, 0.7, 0.5], [0.5, -1, 0], [-0.4, 1.5, 1]),
+    ({"type": "disk", "size": 0.3, "intensity": 7, "extras": {"steradian": {"aspect": 3}}}, [0.7, 0.5, 0.5], [-0.5, -1, 0], [1, 1, 1]),
+    ({"type": "disk", "size": 0.1, "intensity": 9, "extras": {"steradian": {"type": "capsule", "capsule": {"length": 0.5}}}}, [-0.2, 0.4, 0.5], [0, -1, 0.1],
+     [1.5, 0.5, 2]),
+    ({"type": "disk", "size": 0.2, "intensity": 9, "extras": {"steradian": {"type": "sphere"}}}, [0.3, 0.3, 0.1], [0, -1, 0.1], [1, 1, 1]),
+]
 GOLD = {"color": [0.9, 0.6, 0.3], "metalness": 1}
 PLASTIC = {"color": [0.5, 0.4, 0.3], "metalness": 0}
 VELVET = {"color": [0.3, 0.05, 0.1], "metalness": 0, "sheen": [0.8, 0.5, 0.6], "sheenRoughness": 0.4}
@@ -161,7 +174,8 @@ CASES = [  # name, lights, material, roughness
     ("tube, gold", [TUBE], GOLD, 0.35),
     ("polygon with two holes, gold", [FRAME], GOLD, 0.25),
     ("disk from behind, plastic", [AWAY], PLASTIC, 0.4),
-    ("lights of a glTF file, plastic", [light for _, light in LIGHTS_OF_A_FILE], PLASTIC, 0.35),
+    ("lights of a glTF file, plastic", LIGHTS_OF_A_FILE, PLASTIC, 0.35),
+    ("lights of scaled nodes of a glTF file, plastic", SCALED_LIGHTS_OF_A_FILE, PLASTIC, 0.35),
     ("panel on velvet", [PANEL, BALL], VELVET, 0.6),
     ("panel on brushed metal", [PANEL], BRUSHED, 0.4),
 ]
@@ -171,9 +185,30 @@ BOUNDS = {"closed-form": (0.005, 2 / 255), "compact": (0.03, 0.06)}
 
 
 def gltf_of(lights):
-    nodes = [{"matrix": matrix_of(light["place"]), "extensions": {"EXT_lights_area": {"light": i}}} for i, (_, light) in enumerate(lights)]
-    return {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_lights_area"], "extensions": {"EXT_lights_area": {"lights": [d for d, _ in lights]}},
+    def matrix(center, aim, scale):
+        place = placed(center, aim)
+        return matrix_of([*(axis * s for axis, s in zip(place, scale)), place[3]])
+
+    nodes = [{"matrix": matrix(*at), "extensions": {"EXT_lights_area": {"light": i}}} for i, (_, *at) in enumerate(lights)]
+    return {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_lights_area"], "extensions": {"EXT_lights_area": {"lights": [d for d, *_ in lights]}},
             "nodes": nodes, "scenes": [{"nodes": list(range(len(nodes)))}], "scene": 0}
+
+
+def seen_by_library(lights):
+    """What its own reader makes of the file: lights as eval has them."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "lights.gltf"
+        path.write_text(json.dumps(gltf_of(lights)))
+        return steradian.load_scene(str(path)).lights
+
+
+def case_of(name, lights, material, roughness, methods, eye):
+    """What the pages are told, and the picture that they have to make."""
+    case = {"methods": methods, "eye": eye, "fov": FOV, "width": WIDTH, "height": HEIGHT, "roughness": roughness, **material, "lights": []}
+    if "glTF" in name:
+        return {**case, "gltf": gltf_of(lights)}, judged(seen_by_library(lights), material, roughness, eye)
+    case["lights"] = [{**{k: v for k, v in light.items() if k != "place"}, "matrix": matrix_of(light["place"])} for light in lights]
+    return case, judged([eval_light(light) for light in lights], material, roughness, eye)
 
 
 def eval_light(light):
@@ -192,8 +227,8 @@ def eval_light(light):
     return {**found, "type": "polygon", "vertices": placed_at(light["outline"]), "holes": [placed_at(h) for h in light.get("holes", [])]}  # the outlines here run counter-clockwise
 
 
-def judged(lights, material, roughness, eye):
-    """The picture, in double: Lambert exactly, GGX in closed form of high quality."""
+def judged(seen, material, roughness, eye):
+    """The picture of these lights of eval, in double: Lambert exactly, GGX in closed form of high quality."""
     eye = np.array(eye, float)
     forward = -eye / np.linalg.norm(eye)
     right = np.cross(forward, [0, 1, 0])
@@ -210,7 +245,6 @@ def judged(lights, material, roughness, eye):
     lobes = [{"brdf": "ggx", "alpha_x": wide, "alpha_y": alpha, "tangent": [1, 0, 0], "f0": color * metal + 0.04 * (1 - metal), "f90": 1}]
     if metal < 1:
         lobes.append({"brdf": "lambert", "albedo": color * (1 - metal)})
-    seen = [eval_light(light) for light in lights]
     below = sum(steradian.radiance(seen, point, [0, 1, 0], -ray, lobe, quality="high") for lobe in lobes)
     if "sheen" not in material:
         return below
@@ -295,15 +329,11 @@ def main():
     check_example(chromium, f"http://127.0.0.1:{server.server_address[1]}/package/example/index.html", Path(sys.argv[1]) / "example.png")
     eye, failed, errors = [0, 1.6, 2.6], not check_tables(three), {}
     for name, lights, material, roughness in CASES:
-        want = judged(lights, material, roughness, eye)
-        white = np.quantile(want, 0.999)
         methods = ["compact", "closed-form"]
         if name in WITH_THREE_S_OWN:
             methods += ["tables", "three"]
-        case = {"methods": methods, "eye": eye, "fov": FOV, "width": WIDTH, "height": HEIGHT, "roughness": roughness, **material,
-                "lights": [{**{k: v for k, v in light.items() if k != "place"}, "matrix": matrix_of(light["place"])} for light in lights]}
-        if "glTF" in name:
-            case |= {"lights": [], "gltf": gltf_of(LIGHTS_OF_A_FILE)}
+        case, want = case_of(name, lights, material, roughness, methods, eye)
+        white = np.quantile(want, 0.999)
         for method, got in zip(methods, browser_pixels(chromium, server.server_address[1], case)):
             off = np.abs(got - want).max(axis=-1) / white
             mean, rms = got.mean() / want.mean(), np.sqrt(((got - want) ** 2).mean()) / np.sqrt((want ** 2).mean())

@@ -14,7 +14,8 @@ import urllib.parse
 from pathlib import Path
 
 import three_test as common
-from three_test import (AWAY, BALL, BOUNDS, BRUSHED, DISK, FOV, FRAME, GOLD, HEIGHT, LIGHTS_OF_A_FILE, PANEL, PLASTIC, TUBE, UPRIGHT, VELVET, WIDTH, browser, gltf_of, np)
+from three_test import (AWAY, BALL, BOUNDS, BRUSHED, DISK, FRAME, GOLD, HEIGHT, LIGHTS_OF_A_FILE, PANEL, PLASTIC, SCALED_LIGHTS_OF_A_FILE, TUBE, UPRIGHT, VELVET, WIDTH,
+                        browser, np)
 
 OLDER = "three@0.186.1"
 
@@ -24,7 +25,8 @@ CASES = [  # few: a browser without a GPU takes its time to compile them
     ("tube and ball, gold", [TUBE, BALL], GOLD, 0.35),
     ("panel on velvet", [PANEL, BALL], VELVET, 0.6),
     ("panel on brushed metal", [PANEL], BRUSHED, 0.4),
-    ("lights of a glTF file, plastic", [light for _, light in LIGHTS_OF_A_FILE], PLASTIC, 0.35),
+    ("lights of a glTF file, plastic", LIGHTS_OF_A_FILE, PLASTIC, 0.35),
+    ("lights of scaled nodes of a glTF file, plastic", SCALED_LIGHTS_OF_A_FILE, PLASTIC, 0.35),
 ]
 BY_LIBRARY = ("panel and disk by renderer.library, gold", [UPRIGHT, AWAY], GOLD, 0.4)
 WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan"]
@@ -49,15 +51,12 @@ def agrees(chromium, three, tried, webgl, **more):
     eye, good = [0, 1.6, 2.6], True
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(common.Files, three=three))
     threading.Thread(target=server.serve_forever, daemon=True).start()
-    case = {"methods": ["compact", "closed-form"], "eye": eye, "fov": FOV, "width": WIDTH, "height": HEIGHT, "roughness": roughness, "webgl": webgl, **material,
-            "lights": [{**{k: v for k, v in light.items() if k != "place"}, "matrix": common.matrix_of(light["place"])} for light in lights], **more}
-    if "glTF" in name:
-        case |= {"lights": [], "gltf": gltf_of(LIGHTS_OF_A_FILE)}
+    case, want = common.case_of(name, lights, material, roughness, ["compact", "closed-form"], eye)
+    case |= {"webgl": webgl, **more}
     found = pictures(chromium, server.server_address[1], case, name)
     server.shutdown()
     if found is None:
         return None
-    want = common.judged(lights, material, roughness, eye)
     white = np.quantile(want, 0.999)
     for method, got in found.items():
         off = np.quantile(np.abs(got - want).max(axis=-1) / white, 0.995)
