@@ -1,7 +1,8 @@
 // Direct light of a batch of tiles from lights of one kind by one method: a thread a pixel, the lights of its tile's list in turn.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
-// A shader is one lobe by one family of methods: diffuse.comp, ltc.comp, closed_form.comp, representative_point.comp and sheen.comp define which, as LOBE.
+// A shader is one lobe by one family of methods: diffuse.comp, sheen.comp, and of GGX ltc.comp, ltc_clipless.comp,
+// closed_form.comp, half_vector.comp and representative_point.comp define which, as LOBE.
 // Drivers compile all that a shader holds for each of its pipelines.
 #include "layout.glsl"
 #include "shadow_layout.glsl"

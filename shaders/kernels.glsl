@@ -27,5 +27,11 @@
 #include "integral/ggx_closed_form.glsl"
 #include "integral/ggx_cubature.glsl"
 #include "integral/ltc.glsl"
+#include "integral/moment.glsl"
+#include "integral/moment_quadrature.glsl"
+#include "integral/moment_series.glsl"
+#include "integral/moment_cosine.glsl"
+#include "integral/half_vector.glsl"
 
+#include "comparison/ltc_clipless.glsl"
 #include "comparison/representative_point.glsl"

@@ -14,7 +14,7 @@ struct Answer {
     vec2 specular;
 };
 
-#if LOBE == LOBE_LTC
+#if LOBE == LOBE_LTC || LOBE == LOBE_LTC_CLIPLESS
 vec4 look_up(int first, int size, vec2 at) {
     vec2 place = clamp(at, 0.0, 1.0) * float(size - 1);
     vec2 cell = min(floor(place), float(size - 2));
@@ -46,6 +46,37 @@ LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
     return lobe;
 }
 
+// By the light's elements where they are better than the outline.
+float ltc_small_or(float outline, LightElements e, LtcMatrix m) {
+    if (!elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), 8.0)) return outline;
+    float sum = 0.0;
+    for (int k = 0; k < 4; k++) {
+        LightElement element = light_element_at(e, k);
+        sum += element.direction.z > 0.0 ? ltc_lobe(m, element.direction) * element.solid_angle : 0.0;
+    }
+    return sum;
+}
+
+#if LOBE == LOBE_LTC_CLIPLESS
+vec2 clipless(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha) {
+    LtcLobe lobe = ltc_lobe_at(0, sqrt(alpha), view);
+    vec3 sum = vec3(0.0);
+    int count = outline_length(light);
+    int i = 1;
+    vec3 previous = ltc_direction(lobe.matrix, outline_place(light, frame, p, 0).direction);
+    do {
+        Place place = outline_place(light, frame, p, i);
+        vec3 under = ltc_direction(lobe.matrix, place.direction);
+        if (place.joined) sum = ltc_clipless_add_edge(sum, previous, under);
+        previous = under;
+        ++i;
+    } while (i < count);
+    float integral = ltc_clipless_integral(sum, seen.reversed);
+    if (CAREFUL && may_be_small(light, p, 2000.0))
+        integral = ltc_small_or(integral, elements_in(light, seen, frame, p), lobe.matrix);
+    return vec2(lobe.n_a, lobe.f_a) * integral;
+}
+#else
 struct LtcAnswer {
     vec3 irradiance;  // vector, of the diffuse lobe; where both are wanted
     float specular;   // integral of the transformed cosine
@@ -79,13 +110,7 @@ LtcAnswer ltc_walked(Light light, Seen seen, mat3 frame, vec3 p, LtcMatrix m) {
     answer.specular = ltc_integral(walk, seen.reversed);
     if (CAREFUL && may_be_small(light, p, 2000.0)) {
         LightElements e = elements_in(light, seen, frame, p);
-        if (elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), 8.0)) {
-            answer.specular = 0.0;
-            for (int k = 0; k < 4; k++) {
-                LightElement element = light_element_at(e, k);
-                answer.specular += element.direction.z > 0.0 ? ltc_lobe(m, element.direction) * element.solid_angle : 0.0;
-            }
-        }
+        answer.specular = ltc_small_or(answer.specular, e, m);
         if (elements_serve(e, light_elements_diffuse_sharpness(), 2.0)) answer.irradiance = light_elements_irradiance_vector(e);
     }
     if (!seen.lit) answer.irradiance = vec3(0.0);
@@ -96,7 +121,6 @@ LtcAnswer ltc_walked(Light light, Seen seen, mat3 frame, vec3 p, LtcMatrix m) {
 Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha, float loss) {
     float roughness = sqrt(alpha);
     LtcLobe lobe = ltc_lobe_at(0, roughness, view);
-    if (KIND != kPolygon) fill_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * alpha);
     LtcAnswer walked = ltc_walked(light, seen, frame, p, lobe.matrix);
     Answer answer;
     answer.irradiance = TOGETHER ? irradiance_below(walked.irradiance, view, loss) : 0.0;
@@ -108,6 +132,7 @@ Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float a
     if (view.z <= 0.0) answer.specular = vec2(0.0);
     return answer;
 }
+#endif
 #else
 // By the light's elements where they are better than the outline.
 vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView view, float deviation, float roundings) {
@@ -121,11 +146,47 @@ vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView 
     return sum;
 }
 
-#if LOBE == LOBE_CLOSED_FORM
+#if LOBE != LOBE_REPRESENTATIVE_POINT
 ConicArc arcs[ARC_SPACE];
 
+// An edge's share of E.
+#if LOBE == LOBE_CLOSED_FORM
+const bool DRAFT = QUALITY == 0;
+const int EXTRA_NODES = QUALITY == 2 ? 2 : 0;
+
+vec3 vector_of(GgxView view, ConicArc edge) { return conic_vector(edge); }
+#else
+const bool DRAFT = false;
+const int EXTRA_NODES = 0;
+const int SPLITS = QUALITY == 2 ? 8 : 3 + QUALITY;
+const int kSliverNodes = 4;
+
+// Arcs of great circles, and the slivers that they leave of the edge's image: as source/integrals/half_vector.h.
+vec3 vector_of(GgxView view, ConicArc edge) {
+    vec3 sum = vec3(0.0);
+    if (!(edge.end > edge.begin)) return sum;
+    float weight = half_vector_split_weight(edge);
+    ConicNode first = half_vector_split_end(edge, edge.begin, weight);
+    vec3 a = half_vector_at(view, edge, edge.begin);
+    for (int j = 1; j <= SPLITS; j++) {
+        float tau = edge.end;
+        if (j < SPLITS) tau = half_vector_split_pole_mapped(edge, float(j) / float(SPLITS));
+        vec3 b = half_vector_at(view, edge, tau);
+        ConicNode last = half_vector_split_end(edge, tau, weight);
+        sum += ggx_arc(view, a, b);
+        for (int i = 0; i < kSliverNodes; i++) {
+            HalfVectorNode node = half_vector_between(view, edge, first, last, a, b, gauss_legendre_node(kSliverNodes, i));
+            sum += ggx_at_half_vector(view, node.h) * node.solid_angle;
+        }
+        a = b;
+        first = last;
+    }
+    return sum;
+}
+#endif
+
 // Of a light that nothing cuts, whose edges are the outline's own.
-vec2 closed_form_uncut(Light light, mat3 frame, vec3 p, GgxView view, int extra_nodes) {
+vec2 by_arcs_uncut(Light light, mat3 frame, vec3 p, GgxView view) {
     int count = outline_length(light) - 1;
     vec3 previous = outline_place(light, frame, p, 0).direction;
     vec3 e = vec3(0.0);
@@ -133,16 +194,16 @@ vec2 closed_form_uncut(Light light, mat3 frame, vec3 p, GgxView view, int extra_
     do {
         Place place = outline_place(light, frame, p, i + 1);
         ConicArc arc = ggx_edge(view, place.joined ? previous : place.direction, place.direction);
-        e += conic_vector(arc);
-        if (QUALITY > 0) arcs[i] = arc;
+        e += vector_of(view, arc);
+        if (!DRAFT) arcs[i] = arc;
         previous = place.direction;
         ++i;
     } while (i < count);
-    if (QUALITY == 0) return ggx_draft(view, e, 1.0, 1.0);
+    if (DRAFT) return ggx_draft(view, e, 1.0, 1.0);
     GgxCubature c = ggx_cubature_begin(view, e, 1.0, 1.0);
     i = 0;
     do {
-        c = ggx_cubature_edge(c, arcs[i], extra_nodes);
+        c = ggx_cubature_edge(c, arcs[i], EXTRA_NODES);
         ++i;
     } while (i < count);
     return ggx_cubature_finish(c);
@@ -150,10 +211,9 @@ vec2 closed_form_uncut(Light light, mat3 frame, vec3 p, GgxView view, int extra_
 
 // Two walks over the edges: of their vectors' sum, and of the cubature about it. Edges that have no space together are walked
 // afresh the second time.
-vec2 closed_form(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
+vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
     float facing = seen.reversed ? -1.0 : 1.0;
-    int extra_nodes = QUALITY == 2 ? 2 : 0;
-    if (UNCUT && !CHUNKED) return closed_form_uncut(light, frame, p, view, extra_nodes);
+    if (UNCUT && !CHUNKED) return by_arcs_uncut(light, frame, p, view);
     vec3 e = vec3(0.0);
     ClippedWalk walk = clipped_walk_begin(light, frame, p);
     if (CHUNKED) {
@@ -165,25 +225,25 @@ vec2 closed_form(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
                 for (int i = 0; i < edge_count; i++) {
                     ConicArc arc = ggx_edge(view, edge_begins[i], edge_ends[i]);
                     if (turn == 0)
-                        e += conic_vector(arc);
+                        e += vector_of(view, arc);
                     else
-                        c = ggx_cubature_edge(c, arc, extra_nodes);
+                        c = ggx_cubature_edge(c, arc, EXTRA_NODES);
                 }
             }
             if (turn == 0) c = ggx_cubature_begin(view, e, 1.0, facing);
-            if (QUALITY == 0) return ggx_draft(view, e, 1.0, facing);
+            if (DRAFT) return ggx_draft(view, e, 1.0, facing);
         }
         return ggx_cubature_finish(c);
     }
     walk = fill_edges(walk, light, seen, frame, p);
     for (int i = 0; i < edge_count; i++) {
         ConicArc arc = ggx_edge(view, edge_begins[i], edge_ends[i]);
-        e += conic_vector(arc);
-        if (QUALITY > 0) arcs[i] = arc;
+        e += vector_of(view, arc);
+        if (!DRAFT) arcs[i] = arc;
     }
-    if (QUALITY == 0) return ggx_draft(view, e, 1.0, facing);
+    if (DRAFT) return ggx_draft(view, e, 1.0, facing);
     GgxCubature c = ggx_cubature_begin(view, e, 1.0, facing);
-    for (int i = 0; i < edge_count; i++) c = ggx_cubature_edge(c, arcs[i], extra_nodes);
+    for (int i = 0; i < edge_count; i++) c = ggx_cubature_edge(c, arcs[i], EXTRA_NODES);
     return ggx_cubature_finish(c);
 }
 #else
@@ -220,23 +280,30 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
         return answer;
     }
     Seen seen = see(light, p);
-#if LOBE == LOBE_LTC
+#if LOBE == LOBE_LTC || LOBE == LOBE_LTC_CLIPLESS
     mat3 frame = frame_from_normal_and_view(n, v);
-    return ltc_answer(light, seen, frame, p, vec3(dot(frame[0], v), 0.0, dot(n, v)), lobe.ax, loss);
+    vec3 view = vec3(dot(frame[0], v), 0.0, dot(n, v));
+    if (KIND != kPolygon) fill_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * lobe.ax);
+#if LOBE == LOBE_LTC
+    return ltc_answer(light, seen, frame, p, view, lobe.ax, loss);
+#else
+    if (seen.lit && view.z > 0.0) answer.specular = clipless(light, seen, frame, p, view, lobe.ax);
+    return answer;
+#endif
 #else
     if (!seen.lit || !(dot(n, v) > 0.0)) return answer;
     mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
     vec3 view = transform_transposed(frame, v);
     GgxView prepared = ggx_view(view, lobe.ax, lobe.ay);
     if (KIND != kPolygon) fill_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
-#if LOBE == LOBE_CLOSED_FORM
-    answer.specular = closed_form(light, seen, frame, p, prepared);
-    float roundings = 128.0;
-    float least_distance2 = 500.0;
-#else
+#if LOBE == LOBE_REPRESENTATIVE_POINT
     answer.specular = representative_point(light, seen, frame, p, view, lobe.ax);
     float roundings = 8.0;
     float least_distance2 = 2000.0;
+#else
+    answer.specular = by_arcs(light, seen, frame, p, prepared);
+    float roundings = 128.0;
+    float least_distance2 = LOBE == LOBE_CLOSED_FORM ? 500.0 : 30.0;
 #endif
     if (CAREFUL && may_be_small(light, p, least_distance2))
         answer.specular = small_or(answer.specular, light, seen, frame, p, prepared, 0.5 * min(lobe.ax, lobe.ay), roundings);

@@ -40,6 +40,8 @@ PIPELINES = [
     ("ltc", "a polygon, compact table, seen whole", {0: 0, 1: 1, 2: 1, 5: 0, 11: 4, 13: 64, 14: 32, 16: 1}, "a pixel and a light", 0),
     ("closed_form", "a polygon", {0: 0, 5: 0, 11: 4, 12: 4}, "a pixel and a light", 0),
     ("closed_form", "a polygon, seen whole", {0: 0, 5: 0, 11: 4, 12: 4, 16: 1}, "a pixel and a light", 0),
+    ("half_vector", "a polygon", {0: 0, 5: 0, 11: 4, 12: 4}, "a pixel and a light", 0),
+    ("ltc_clipless", "a polygon", {0: 0, 5: 0, 11: 4, 13: 64, 14: 64}, "a pixel and a light", 0),
     ("representative_point", "a polygon", {0: 0, 5: 0, 11: 4}, "a pixel and a light", 0),
     ("sheen", "a polygon", {0: 0, 5: 0}, "a pixel and a light", 0),
     ("phong", "series", {0: 4, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),

@@ -29,7 +29,7 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie };
+enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie, kLtcClipless, kHalfVector };
 
 // The specular lobe's; kDiffuse: none.
 Shader shader_of(const DirectMethod& method) {
@@ -37,13 +37,16 @@ Shader shader_of(const DirectMethod& method) {
     case Method::closed_form: return kClosedForm;
     case Method::ltc:
     case Method::ltc_compact: return kLtc;
+    case Method::ltc_clipless: return kLtcClipless;
     case Method::representative_point: return kRepresentativePoint;
+    case Method::half_vector: return kHalfVector;
     default: return kDiffuse;
   }
 }
 
 LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
   if (!table.empty()) return ltc_pack_tables(scene::read_classic_table(table));
+  if (method.ggx == Method::ltc_clipless) return ltc_classic_pack_tables();
   if (method.ggx == Method::ltc) return method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables();
   return method.ggx == Method::ltc_compact ? ltc_compact_pack_tables() : LtcPackTables{};
 }
@@ -110,8 +113,10 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
       specular_shader_(shader_of(method)),
       tiles_(
           (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
-      program_(device, {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader()}, kBuffers,
-               kTexels) {
+      program_(device,
+               {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(), ltc_clipless_shader(),
+                half_vector_shader()},
+               kBuffers, kTexels) {
   for (const PackLight& light : lights) records_.add(light);
   scene_lights_ = records_.lights.size();
   scene_vertices_ = records_.vertices.size();
@@ -179,14 +184,24 @@ bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) c
   return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon();
 }
 
+// Of a lobe's integral, in the light's mean square deviations: source/shapes/small_light.h.
+float DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
+  switch (pass.shader) {
+    case kDiffuse: return light.kind == kPolygon ? 4000 : 500;
+    case kClosedForm: return 500;
+    case kHalfVector: return 30;
+    default: return 2000;
+  }
+}
+
 // Whether some point of a box may see the light as small, or be near its rim; others spare the shaders both.
 bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
-  const float along_edges = pass.over_lobe() ? 2000.0f : 4000.0f;
-  const bool arcs = pass.over_lobe() ? pass.shader == kClosedForm : light.kind != kPolygon;
+  const float least = least_distance2(light, pass);
   const Distances d = distances(light.middle, where.low, where.high);
-  if (shadowed) return d.farthest > light.deviation2 * 100;  // parts may be small from where all of the light is not; kNeverSmall
-  return d.farthest > light.deviation2 * (arcs ? 500.0f : along_edges) || (pass.over_lobe() && d.nearest < light.near_distance2);
+  if (shadowed)
+    return d.farthest > light.deviation2 * std::min(least, 100.0f);  // parts may be small from where all of the light is not; kNeverSmall
+  return d.farthest > light.deviation2 * least || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
 std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
@@ -195,10 +210,11 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
   const int most = std::max(own(most_edges_), 1);
   const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->places / 2 + 2) > kMostEdges : own(light.edges) > most;
-  const bool fine = method_.quality == Quality::high && (pass.shader == kClosedForm || pass.shader == kRepresentativePoint);
+  const bool by_arcs = pass.shader == kClosedForm || pass.shader == kHalfVector;
+  const bool fine = by_arcs && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
   const int edges = light.kind == kPolygon ? (chunked || shadowed != nullptr ? kMostEdges : most) : space + 2;
-  const int arcs = pass.shader == kClosedForm && !chunked ? edges : 1;
+  const int arcs = by_arcs && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
           pass.with_diffuse ? 1 : 0,
@@ -241,11 +257,12 @@ bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
   return std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& cut) { return cut.get() == &light; });
 }
 
-void DirectLight::list_lights(Tile& tile) {
+void DirectLight::list_lights(Tile& tile) const {
+  const bool leaks = method_.ggx == Method::ltc_clipless;  // what reaches the tile, from below the horizon, too
   for (Square& square : tile.squares) {
     if (!any_surface(square.bounds)) continue;
     for (const PackLight* light : tile.lights.lights) {
-      if (!reaches(*light, square.bounds)) continue;
+      if (!leaks && !reaches(*light, square.bounds)) continue;
       square.lights.push_back({light, is_cut(tile, *light), sees_whole(*light, square.bounds), sees_whole(*light, square.bounds, kPushed)});
     }
   }

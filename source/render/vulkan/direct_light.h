@@ -61,7 +61,7 @@ class DirectLight {
   static void find_squares(const SurfaceTile& surfaces, Tile& tile);
   static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
   // The squares' lights, from the tile's.
-  static void list_lights(Tile& tile);
+  void list_lights(Tile& tile) const;
   // Adds the light of the lists to what some of the tiles had as radiance. states, parts: of the shadowed lights (Shadows), where there
   // are any.
   void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Buffer* states = nullptr,
@@ -80,6 +80,7 @@ class DirectLight {
   void list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass);
   void list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
             const Tile::Shadowed* shadowed);
+  float least_distance2(const LightRecord& light, const Pass& pass) const;
   bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
   std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                     const Tile::Shadowed* shadowed) const;

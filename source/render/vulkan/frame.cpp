@@ -150,7 +150,7 @@ struct Frame::Parts {
       light_on_host(tile, tiles[i].lights.lights, shadowed[i]);
       lists_clock.run([&] {
         DirectLight::find_squares(tile, tiles[i]);
-        DirectLight::list_lights(tiles[i]);
+        direct.list_lights(tiles[i]);
       });
       upload_clock.run([&] { direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
@@ -230,7 +230,7 @@ struct Frame::Parts {
         SurfaceBounds all;
         for (const DirectLight::Square& square : tiles[i].squares) add(all, square.bounds);
         if (any_surface(all)) tiles[i].lights = lights_reaching(light_pointers, all);
-        DirectLight::list_lights(tiles[i]);
+        direct.list_lights(tiles[i]);
       });
     });
     device_clock.run([&] { direct.run(tiles); });

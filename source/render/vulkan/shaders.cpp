@@ -19,6 +19,12 @@ constexpr std::uint32_t kRepresentativePoint[] =
 constexpr std::uint32_t kSheen[] =
 #include "sheen.comp.inc"
     ;
+constexpr std::uint32_t kLtcClipless[] =
+#include "ltc_clipless.comp.inc"
+    ;
+constexpr std::uint32_t kHalfVector[] =
+#include "half_vector.comp.inc"
+    ;
 constexpr std::uint32_t kShadowParts[] =
 #include "shadow_parts.comp.inc"
     ;
@@ -58,6 +64,8 @@ std::span<const std::uint32_t> ltc_shader() { return kLtc; }
 std::span<const std::uint32_t> closed_form_shader() { return kClosedForm; }
 std::span<const std::uint32_t> representative_point_shader() { return kRepresentativePoint; }
 std::span<const std::uint32_t> sheen_shader() { return kSheen; }
+std::span<const std::uint32_t> ltc_clipless_shader() { return kLtcClipless; }
+std::span<const std::uint32_t> half_vector_shader() { return kHalfVector; }
 std::span<const std::uint32_t> shadow_parts_shader() { return kShadowParts; }
 std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
 std::vector<std::span<const std::uint32_t>> bounce_shaders() {

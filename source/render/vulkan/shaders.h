@@ -13,6 +13,8 @@ std::span<const std::uint32_t> ltc_shader();
 std::span<const std::uint32_t> closed_form_shader();
 std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
+std::span<const std::uint32_t> ltc_clipless_shader();
+std::span<const std::uint32_t> half_vector_shader();
 // What points see of lights behind edges.
 std::span<const std::uint32_t> shadow_parts_shader();
 
