@@ -32,7 +32,7 @@ vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     vec3 e;
     float least_distance2 = 500.0;
     float roundings = 128.0;
-    if (KIND == kPolygon) {
+    if (KIND == kPolygon || by_pieces()) {
         e = polygon_vector(light, seen, frame, p);
         least_distance2 = 4000.0;
         roundings = 2.0;

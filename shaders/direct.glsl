@@ -43,9 +43,10 @@ layout(binding = 4) uniform samplerBuffer radiance_before;  // the same buffer a
 layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 7) readonly buffer States { uint states[]; };
-layout(std430, binding = 8) readonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 8) buffer Parts { vec4 parts[]; };
 layout(push_constant) uniform Push { uint first_entry; };
 
+#include "entry.glsl"
 #include "kernels.glsl"
 #include "parts.glsl"
 #include "lights.glsl"
@@ -75,74 +76,101 @@ PunctualIncident punctual_at(Light light, vec3 p) {
 #include "specular.glsl"
 #endif
 
-// The groups of a square lie below each other, those of two squares side by side in turn.
-uint group_of_square(uint square, uint row) { return (square / 2u * uint(kGroupsOfSquare) + row) * 2u + square % 2u; }
-
 vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (int(tile) * kPlanes + plane) * kSlots + int(slot)); }
 
-void main() {
-    uint entry = (first_entry + gl_WorkGroupID.y) * uint(kEntry);
-    uint square = lists[entry];
-    uint first = lists[entry + 1u];
-    uint count = lists[entry + 2u];
-    uint tile = square / uint(kSquares);
-    uint slot = group_of_square(square % uint(kSquares), gl_WorkGroupID.x) * uint(kGroup) + gl_LocalInvocationID.x;
+// What of a pixel's surface the lobe asks for.
+struct Surface {
+    vec3 p;
+    vec3 n;
+    vec3 up;  // the same, but for a coat's lobe
+    vec3 v;
+    float loss;
+#if LOBE == LOBE_DIFFUSE
+    vec3 albedo;
+#elif LOBE == LOBE_SHEEN
+    vec4 sheen;
+#else
+    SpecularLobe lobe;
+    vec3 f0;
+    vec3 f90;
+    vec3 albedo;
+#endif
+};
 
+Surface surface_in(uint tile, uint slot) {
     vec4 position = surface_at(tile, kPosition, slot);
     vec4 normal = surface_at(tile, kNormal, slot);
     vec4 view = surface_at(tile, kView, slot);
-    vec3 p = position.xyz;
-    vec3 n = normal.xyz;
-    vec3 v = view.xyz;
-    float loss = view.w;
-    if (!(dot(n, n) > 0.25)) return;  // no surface
+    Surface s;
+    s.p = position.xyz;
+    s.n = normal.xyz;
+    s.up = normal.xyz;
+    s.v = view.xyz;
+    s.loss = view.w;
 #if LOBE == LOBE_DIFFUSE
-    vec3 albedo = surface_at(tile, kAlbedo, slot).xyz;
+    s.albedo = surface_at(tile, kAlbedo, slot).xyz;
 #elif LOBE == LOBE_SHEEN
-    vec4 sheen = surface_at(tile, kSheen, slot);
+    s.sheen = surface_at(tile, kSheen, slot);
 #else
-    SpecularLobe lobe;
     vec4 tangent = surface_at(tile, kTangent, slot);
-    lobe.tangent = tangent.xyz;
-    lobe.ax = position.w;
-    lobe.ay = normal.w;
-    vec3 f0 = vec3(0.0);
-    vec3 f90 = vec3(0.0);
+    s.lobe.tangent = tangent.xyz;
+    s.lobe.ax = position.w;
+    s.lobe.ay = normal.w;
     if (COAT_LOBE == 1) {
         vec4 coat = surface_at(tile, kCoatNormal, slot);
-        n = coat.xyz;
-        lobe.ax = coat.w;
-        lobe.ay = coat.w;
-        f90 = vec3(tangent.w);
-        f0 = 0.04 * f90;
+        s.n = coat.xyz;
+        s.lobe.ax = coat.w;
+        s.lobe.ay = coat.w;
+        s.f90 = vec3(tangent.w);
+        s.f0 = 0.04 * s.f90;
     } else {
-        f0 = surface_at(tile, kF0, slot).xyz;
-        f90 = surface_at(tile, kF90, slot).xyz;
+        s.f0 = surface_at(tile, kF0, slot).xyz;
+        s.f90 = surface_at(tile, kF90, slot).xyz;
     }
-    vec3 albedo = TOGETHER ? surface_at(tile, kAlbedo, slot).xyz : vec3(0.0);
+    s.albedo = TOGETHER ? surface_at(tile, kAlbedo, slot).xyz : vec3(0.0);
 #endif
+    return s;
+}
 
+// Radiance towards the view.
+vec3 sent_by(Light light, Surface s) {
+#if LOBE == LOBE_DIFFUSE
+    return light.r[0].xyz * s.albedo * lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, s.loss));
+#elif LOBE == LOBE_SHEEN
+    return light.r[0].xyz * s.sheen.xyz * sheen_radiance(light, s.p, s.n, s.v, s.sheen.w);
+#else
+    // What is seen of a light lies above the surface's horizon, and no coat's normal differs from that but by rounding.
+    vec3 n = COAT_LOBE == 1 && by_pieces() ? s.up : s.n;
+    Answer answer = specular_answer(light, s.p, n, s.v, s.lobe, s.loss);
+    return light.r[0].xyz * (s.f0 * (answer.specular.x - answer.specular.y) + s.f90 * answer.specular.y +
+                             s.albedo * lambert_radiance(answer.irradiance));
+#endif
+}
+
+void main() {
+    Entry entry = entry_here();
+    Surface surface = surface_in(entry.tile, entry.slot);
+    if (!(dot(surface.up, surface.up) > 0.25)) return;  // none
     vec3 sum = vec3(0.0);
     uint i = 0u;
     do {
-        vec3 sent;
-        if (SHADOWED) take_part(states[lists[first + 2u * i + 1u] + slot]);
-        Light light = light_at(lists[first + (SHADOWED ? 2u : 1u) * i]);
-#if LOBE == LOBE_DIFFUSE
-        sent = light.r[0].xyz * albedo * lambert_radiance(irradiance_below_boundary(light, p, n, v, loss));
-#elif LOBE == LOBE_SHEEN
-        sent = light.r[0].xyz * sheen.xyz * sheen_radiance(light, p, n, v, sheen.w);
-#else
-        // What is seen of a light lies above the surface's horizon, and no coat's normal differs from that but by rounding.
-        vec3 up = COAT_LOBE == 1 && by_pieces() ? normal.xyz : n;
-        Answer answer = specular_answer(light, p, up, v, lobe, loss);
-        sent = light.r[0].xyz * (f0 * (answer.specular.x - answer.specular.y) + f90 * answer.specular.y +
-                                 albedo * lambert_radiance(answer.irradiance));
-#endif
-        sum += !SHADOWED ? sent : part.seen ? sent * part.weight : vec3(0.0);
+        if (!SHADOWED) {
+            sum += sent_by(light_at(lists[entry.first + i]), surface);
+        } else {
+            take_part(states[lists[entry.first + 2u * i + 1u] + entry.slot]);
+            Light light = light_at(lists[entry.first + 2u * i]);
+            for (int turn = first_turn(); turn <= kLastTurn; turn++) {
+                turn_to(turn);
+                vec3 sent = sent_by(light, surface) * part.weight;
+                if (part.whole > 0)
+                    parts[part.whole - kPartSums + turn].xyz += sent;
+                else
+                    sum += sent;
+            }
+        }
         ++i;
-    } while (i < count);
+    } while (i < entry.count);
 
-    uint at = tile * uint(kRadiance) + slot;
+    uint at = entry.tile * uint(kRadiance) + entry.slot;
     radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
 }

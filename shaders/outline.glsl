@@ -4,6 +4,7 @@
 // Corners that stand for a round light about a lobe.
 vec3 corners[CORNER_SPACE];
 int corner_count;
+bool has_corners() { return KIND != kPolygon && !by_pieces(); }
 
 //   axis, width  of the lobe, in the shading frame
 void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {

@@ -26,9 +26,10 @@ const int kArranged = 1;      // even if no occluder is seen
 const int kCutByTriangle = 2;
 const int kHorizon = 4;       // twice that: of the triangle
 const int kHorizonLeft = 16;  // the box's left side cuts: start, end; of the triangle's: start, end
-const int kBase = 256;        // times how often the lower left corner is hidden
+const int kShares = 256;      // of a round light, for which the outline stands
+const int kBase = 512;        // times how often the lower left corner is hidden
 
-// Answers: a place in cells, what is known, number of places of the outline.
+// Answers: a place in cells, what is known, number of edges of the outline.
 const int kSeesNone = 0;
 const int kSeesWhole = 1;    // if the way to its place is free; so is a part
 const int kAskHost = 2;
@@ -41,6 +42,9 @@ const int kSeesPart = 4;     // and where its record begins
 //   0  centre of the elements relative to the point; number of places of the outline, 0: the light's own
 //   1  reach_a; mean square deviation
 //   2  reach_b; weight
-//   3  area
+//   3  area; 0, or how far on there is the record of the polygon that stands for a round light
 // and its places, relative to the point: 1 where they go on with an edge, 0 where they begin one.
 const int kPartHeader = 4;
+// Of a round light counts what share of the polygon's radiance the part sends. Before the polygon's record stand what arrives of the part,
+// of the polygon and of the light itself, sums over the lobes.
+const int kPartSums = 3;

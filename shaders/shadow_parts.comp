@@ -44,41 +44,67 @@ vec3 corner_at(View view, vec2 cell) {
     return d + view.normal * max(1.0e-6 * length(d) - dot(d, view.normal), 0.0);
 }
 
-// The four elements that stand for the region where it is small: quarters_of of source/shapes/area_moments.h, about a place inside it.
-void write_elements(View view, vec2 inside, uint at, int places) {
-    float area = 0.0;
-    vec2 first = vec2(0.0);
-    vec3 second = vec3(0.0);
-    for (int i = 0; i < piece_count; i++) {
-        vec2 a = (pieces[i].xy - inside) * view.scale;
-        vec2 b = (pieces[i].zw - inside) * view.scale;
-        float twice = a.x * b.y - a.y * b.x;
-        area += twice / 2.0;
-        first += twice * (a + b) / 6.0;
-        second.xz += twice * (a * a + a * b + b * b) / 12.0;
-        second.y += twice * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y) / 24.0;
-    }
-    vec2 c = first / area;
-    second = second / area - vec3(c.x * c.x, c.x * c.y, c.y * c.y);
+// Area moments of what edges bound, about a place of the light's plane.
+struct Moments {
+    float area;
+    vec2 first;
+    vec3 second;  // xx, xy, yy
+};
+
+Moments moments_begin() { return Moments(0.0, vec2(0.0), vec3(0.0)); }
+
+Moments moments_add(Moments m, vec2 a, vec2 b) {
+    float twice = a.x * b.y - a.y * b.x;
+    m.area += twice / 2.0;
+    m.first += twice * (a + b) / 6.0;
+    m.second.xz += twice * (a * a + a * b + b * b) / 12.0;
+    m.second.y += twice * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y) / 24.0;
+    return m;
+}
+
+// A part's record but for its places. With the four elements that stand for it where it is small: quarters_of of
+// source/shapes/area_moments.h.
+//
+//   about  what the moments are about, in cells
+//   ahead  how far on the polygon's record begins, or 0
+void write_record(View view, Moments m, vec2 about, uint at, uint places, uint ahead) {
+    vec2 c = m.first / m.area;
+    vec3 second = m.second / m.area - vec3(c.x * c.x, c.x * c.y, c.y * c.y);
     float middle = (second.x + second.z) / 2.0;
     float apart = length(vec2((second.x - second.z) / 2.0, second.y));
     float turn = 0.5 * atan(2.0 * second.y, second.x - second.z);
     vec2 along = vec2(cos(turn), sin(turn));
     vec2 reach = sqrt(max(2.0 * vec2(middle + apart, middle - apart), 0.0));
-    bool small = area > 0.0 && dot(view.eye, view.eye) > 100.0 * dot(view.extent, view.extent);  // kNeverSmall
-    parts[at] = vec4(view.axes * vec3(inside * view.scale + c - view.eye.xy, view.eye.z), float(places));
+    bool small = m.area > 0.0 && dot(view.eye, view.eye) > 100.0 * dot(view.extent, view.extent);  // kNeverSmall
+    parts[at] = vec4(view.axes * vec3(about * view.scale + c - view.eye.xy, view.eye.z), float(places));
     parts[at + 1u] = vec4(view.axes * vec3(along, 0.0) * reach.x, small ? dot(reach, reach) / 2.0 : 1.0e30);
     parts[at + 2u] = vec4(view.axes * vec3(-along.y, along.x, 0.0) * reach.y, 1.0);
-    parts[at + 3u] = vec4(-view.axes[2] * area, 0.0);
+    parts[at + 3u] = vec4(-view.axes[2] * m.area, float(ahead));
 }
 
-void write_part(View view, vec2 inside, uint at) {
-    write_elements(view, inside, at, 2 * piece_count);
-    at += uint(kPartHeader);
+void write_part(View view, vec2 inside, uint at, uint ahead) {
+    Moments m = moments_begin();
     for (int i = 0; i < piece_count; i++) {
-        parts[at + 2u * uint(i)] = vec4(corner_at(view, pieces[i].xy), 0.0);
-        parts[at + 2u * uint(i) + 1u] = vec4(corner_at(view, pieces[i].zw), 1.0);
+        vec4 p = pieces[i];
+        m = moments_add(m, (p.xy - inside) * view.scale, (p.zw - inside) * view.scale);
+        parts[at + uint(kPartHeader + 2 * i)] = vec4(corner_at(view, p.xy), 0.0);
+        parts[at + uint(kPartHeader + 2 * i + 1)] = vec4(corner_at(view, p.zw), 1.0);
     }
+    write_record(view, m, inside, at, 2u * uint(piece_count), ahead);
+}
+
+// The polygon that stands for a round light, one contour, behind room for the sums.
+void write_polygon(View view, uint corners, uint corner_count, uint at) {
+    for (int i = 0; i < kPartSums; i++) parts[at + uint(i)] = vec4(0.0);
+    at += uint(kPartSums);
+    Moments m = moments_begin();
+    for (uint i = 0u; i < corner_count; i++) {
+        vec4 edge = vec4(ivec4(groups[corners + 2u * i])) * view.scale.xyxy;
+        m = moments_add(m, edge.xy, edge.zw);
+        if (i == 0u) parts[at + uint(kPartHeader)] = vec4(view.axes * vec3(edge.xy - view.eye.xy, view.eye.z), 0.0);
+        parts[at + uint(kPartHeader) + i + 1u] = vec4(view.axes * vec3(edge.zw - view.eye.xy, view.eye.z), 1.0);
+    }
+    write_record(view, m, vec2(0.0), at, corner_count + 1u, 0u);
 }
 
 void main() {
@@ -126,11 +152,14 @@ void main() {
             view.scale = eye.box * kCellSize;
             view.axes = mat3(h3.yzw, h4.yzw, h5.yzw);
             view.extent = vec2(h4.x, h5.x);
+            bool shares = (flags & kShares) != 0;
             uint room = uint(kPartHeader + 2 * piece_count);
-            uint begin = atomicAdd(parts_used, room);
-            answer.w = uint(2 * piece_count);
-            if (begin + room <= parts_room) {
-                write_part(view, place.xy, parts_begin + begin);
+            uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + h1.w + 1u : 0u;
+            uint begin = atomicAdd(parts_used, room + room_of_polygon);
+            answer.w = max(uint(piece_count), shares ? h1.w : 0u);
+            if (begin + room + room_of_polygon <= parts_room) {
+                write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
+                if (shares) write_polygon(view, h1.y, h1.w, parts_begin + begin + room);
                 answer.z = uint(kSeesPart) + parts_begin + begin;
             } else {
                 answer.z = uint(kNoRoom);

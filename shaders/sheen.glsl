@@ -35,7 +35,7 @@ float sheen_radiance(Light light, vec3 p, vec3 n, vec3 v, float alpha) {
     Seen seen = see(light, p);
     if (!seen.lit || !(view.z > 0.0)) return 0.0;
     // About the normal and wide: the lobe has no peak about which corners should gather.
-    if (KIND != kPolygon) fill_corners(light, frame, p, vec3(0.0, 0.0, 1.0), 1.0);
+    if (has_corners()) fill_corners(light, frame, p, vec3(0.0, 0.0, 1.0), 1.0);
     float sent = sheen_over_outline(light, seen, frame, p, lobe);
     if (CAREFUL && may_be_small(light, p, 2000.0)) {
         LightElements e = elements_in(light, seen, frame, p);

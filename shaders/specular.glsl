@@ -283,7 +283,7 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
 #if LOBE == LOBE_LTC || LOBE == LOBE_LTC_CLIPLESS
     mat3 frame = frame_from_normal_and_view(n, v);
     vec3 view = vec3(dot(frame[0], v), 0.0, dot(n, v));
-    if (KIND != kPolygon) fill_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * lobe.ax);
+    if (has_corners()) fill_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * lobe.ax);
 #if LOBE == LOBE_LTC
     return ltc_answer(light, seen, frame, p, view, lobe.ax, loss);
 #else
@@ -295,7 +295,7 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
     mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
     vec3 view = transform_transposed(frame, v);
     GgxView prepared = ggx_view(view, lobe.ax, lobe.ay);
-    if (KIND != kPolygon) fill_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
+    if (has_corners()) fill_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
 #if LOBE == LOBE_REPRESENTATIVE_POINT
     answer.specular = representative_point(light, seen, frame, p, view, lobe.ax);
     float roundings = 8.0;

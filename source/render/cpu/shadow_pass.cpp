@@ -145,7 +145,8 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
   if (!by_rays && !empty && work.in_lanes && !work.cut_outs && !work.group.has_crossing()) {
-    if (work.taker != nullptr && !work.turned && work.taker->find(*side_at(slots.front()), work.group, slots, *work.points)) {
+    if (work.taker != nullptr && !work.turned &&
+        work.taker->find(*side_at(slots.front()), work.whole_outline, work.group, slots, *work.points)) {
       for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
       return;
     }

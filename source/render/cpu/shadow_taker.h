@@ -16,8 +16,9 @@ class ShadowTaker {
   // Whether it lights points by this light, which it then takes.
   virtual bool lights(const PackLight& light) const = 0;
   // Whether it finds what a group of points sees of a flat light behind these edges, among which is no triangle that crosses the light's
-  // plane. Such points are Seen::elsewhere. points: by slot. The side stays.
-  virtual bool find(const LightSide& side, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
+  // plane. Such points are Seen::elsewhere. points: by slot. The side stays. shares: of a light, for which the outline stands: what
+  // counts is the share of the outline's light that a part sends.
+  virtual bool find(const LightSide& side, bool shares, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
                     const std::vector<shadow::Viewpoint>& points) = 0;
   // How the light reaches the tile; after find() for its groups.
   virtual void take(const PackLight& light, const TileShadow& shadow) = 0;

@@ -29,7 +29,8 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie, kLtcClipless, kHalfVector };
+// In the order in which they run: shares are of what all lobes have left.
+enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie, kLtcClipless, kHalfVector, kShares };
 
 // The specular lobe's; kDiffuse: none.
 Shader shader_of(const DirectMethod& method) {
@@ -86,7 +87,9 @@ struct DirectLight::Pass {
   bool coat = false;
   bool with_diffuse = false;  // one walk for both
   bool over_lobe() const { return shader != kDiffuse; }
-  const char* name() const { return shader == kDiffuse ? "direct" : shader == kCharlie ? "sheen" : coat ? "coat" : "specular"; }
+  const char* name() const {
+    return shader == kDiffuse ? "direct" : shader == kCharlie ? "sheen" : shader == kShares ? "shares" : coat ? "coat" : "specular";
+  }
 };
 
 // The lists of a batch: for each pipeline, tiles with their lights.
@@ -105,6 +108,16 @@ struct DirectLight::Work {
     std::vector<Entry> entries;
   };
   std::map<Key, Group> groups;
+
+  // A light of a square: its numbers in the list.
+  void add(const Key& key, const char* name, std::uint32_t square, const std::vector<std::uint32_t>& light) {
+    Group& group = groups[key];
+    group.name = name;
+    if (group.entries.empty() || group.entries.back().square != square) group.entries.push_back({square, 0, {}});
+    ++group.entries.back().count;
+    std::vector<std::uint32_t>& numbers = group.entries.back().lights;
+    numbers.insert(numbers.end(), light.begin(), light.end());
+  }
 };
 
 DirectLight::DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights)
@@ -115,7 +128,7 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
           (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program_(device,
                {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(), ltc_clipless_shader(),
-                half_vector_shader()},
+                half_vector_shader(), shadow_shares_shader()},
                kBuffers, kTexels) {
   for (const PackLight& light : lights) records_.add(light);
   scene_lights_ = records_.lights.size();
@@ -199,9 +212,9 @@ bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& wher
   if (light.kind == kPunctual) return false;
   const float least = least_distance2(light, pass);
   const Distances d = distances(light.middle, where.low, where.high);
-  if (shadowed)
-    return d.farthest > light.deviation2 * std::min(least, 100.0f);  // parts may be small from where all of the light is not; kNeverSmall
-  return d.farthest > light.deviation2 * least || (pass.over_lobe() && d.nearest < light.near_distance2);
+  // Parts may be small from where all of the light is not: kNeverSmall.
+  const float small = shadowed ? std::min(least, 100.0f) : least;
+  return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
 std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
@@ -209,11 +222,11 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   // Of a polygon that nothing cuts the edges are its own, half of those and none of the arcs (light_records.cpp).
   const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
   const int most = std::max(own(most_edges_), 1);
-  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->places / 2 + 2) > kMostEdges : own(light.edges) > most;
+  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
   const bool by_arcs = pass.shader == kClosedForm || pass.shader == kHalfVector;
   const bool fine = by_arcs && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
-  const int edges = light.kind == kPolygon ? (chunked || shadowed != nullptr ? kMostEdges : most) : space + 2;
+  const int edges = chunked || shadowed != nullptr ? kMostEdges : light.kind == kPolygon ? most : space + 2;
   const int arcs = by_arcs && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
@@ -279,6 +292,12 @@ void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const 
       list(work, place, square, pass, {shadowed.light, is_cut(tile, *shadowed.light), false, false}, &shadowed);
 }
 
+void DirectLight::list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square) {
+  for (const Tile::Shadowed& shadowed : tile.shadowed)
+    if (shadowed.shares && reaches(*shadowed.light, square.bounds))
+      work.add({kShares, {}}, Pass{kShares}.name(), place, {0, shadowed.states});
+}
+
 void DirectLight::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
                        const Tile::Shadowed* shadowed) {
   const bool together = brings_diffuse(square, *listed.light);
@@ -290,13 +309,9 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   // Tubes' and balls' irradiance is the same formula either way.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
-  Work::Group& group = work.groups[{own.shader, choices(record, own, careful, whole, shadowed)}];
-  group.name = own.name();
-  if (group.entries.empty() || group.entries.back().square != place) group.entries.push_back({place, 0, {}});
-  ++group.entries.back().count;
-  std::vector<std::uint32_t>& numbers = group.entries.back().lights;
-  numbers.push_back(number);
+  std::vector<std::uint32_t> numbers = {number};
   if (shadowed != nullptr) numbers.push_back(shadowed->states);
+  work.add({own.shader, choices(record, own, careful, whole, shadowed)}, own.name(), place, numbers);
 }
 
 void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
@@ -310,6 +325,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       if (square.any_specular) list(work, place, tiles[i], square, {specular_shader_});
       if (square.any_sheen) list(work, place, tiles[i], square, {kCharlie});
       if (square.any_coat) list(work, place, tiles[i], square, {specular_shader_, true});
+      if (any_surface(square.bounds)) list_shares(work, place, tiles[i], square);
     }
   }
   if (work.groups.empty()) return;

@@ -53,7 +53,8 @@ class DirectLight {
     struct Shadowed {
       const PackLight* light;
       std::uint32_t states;  // where those of the tile begin
-      int places;            // most of a part
+      int edges;             // most of a part
+      bool shares;           // some part counts as a share of a polygon's: shaders/shadow_layout.glsl
     };
     std::vector<Shadowed> shadowed;
   };
@@ -81,6 +82,7 @@ class DirectLight {
   void list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
             const Tile::Shadowed* shadowed);
   float least_distance2(const LightRecord& light, const Pass& pass) const;
+  void list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square);
   bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
   std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                     const Tile::Shadowed* shadowed) const;

@@ -28,11 +28,6 @@ namespace {
 // What of the bounce the shaders do not have.
 bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
 
-bool shaders_have(const PackLight& light) {
-  const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
-  return light.is_even() && (punctual == nullptr || punctual->profile == nullptr);
-}
-
 // What the shaders do not have, and the host lights: a sentence each.
 std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method) {
   std::vector<std::string> sentences;
@@ -177,7 +172,7 @@ struct Frame::Parts {
       std::uint32_t states = 0;
       for (std::size_t i = first; i < first + count; ++i)
         for (const TileShadows::Light& light : shadowed[i].by_light) {
-          tiles[i].shadowed.push_back({light.light, states, light.places});
+          tiles[i].shadowed.push_back({light.light, states, light.edges, light.shares});
           states += static_cast<std::uint32_t>(kTilePixels);
         }
       direct.run(tiles, first, first + count, &shadows->states(), &shadows->parts());

@@ -142,8 +142,10 @@ class VulkanFrame : public testing::Test {
   }
 };
 
-// A floor under a square light, and triangles between them, here and there.
-Scene under_triangles(int count) {
+const Polygon kSquare{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}};
+
+// A floor under a light, and triangles between them, here and there.
+Scene under_triangles(int count, const Shape& light = kSquare) {
   Scene scene;
   SurfaceMaterial floor;
   floor.metallic = 0.3f;
@@ -170,7 +172,7 @@ Scene under_triangles(int count) {
   camera.z = normalized(Vec3d{0, 0.4, 1});
   camera.y = {0, camera.z.z, -camera.z.y};
   scene.cameras = {camera};
-  scene.area_lights = {light_of(Polygon{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}}, {3, 2, 1}, true)};
+  scene.area_lights = {light_of(light, {3, 2, 1}, true)};
   return scene;
 }
 
@@ -269,6 +271,24 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   const double share = shadow_on_host(room, options);
   std::printf("room: %.1f %% of the parts by the host\n", 100 * share);
   EXPECT_LE(share, 0.2);
+}
+
+// By every lobe: of round lights, what counts is the share of a polygon's light.
+TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
+  RenderOptions options = small("auto");
+  options.shadows = Shadows::on;
+  const std::pair<const char*, Shape> lights[] = {
+      {"under a disk", Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}},
+      {"under a ball", Ellipsoid{{0, 2.6, 0}, {0.7, 0, 0}, {0, 0.7, 0}, {0, 0, 0.7}}},
+      {"under an ellipsoid", Ellipsoid{{0, 2.6, 0}, {0.9, 0.2, 0}, {-0.1, 0.4, 0}, {0, 0, 0.6}}},
+      {"under a tube", Capsule{{-0.9, 2.4, 0.2}, {0.8, 2.6, 0}, 0.1}},
+  };
+  for (const auto& [name, light] : lights)
+    for (const char* method : {"auto", "ltc-compact", "representative-point"}) {
+      options.method = method;
+      // One point for all of a light jumps from edge to edge, and shares divide two of them.
+      expect_same(name, under_triangles(12, light), options, std::string(method) == "representative-point" ? 2 : 0);
+    }
 }
 
 TEST_F(VulkanFrame, SaysWhatTheHostLights) {

@@ -83,6 +83,11 @@ struct Writer {
 
 }  // namespace
 
+bool shaders_have(const PackLight& light) {
+  const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
+  return light.is_even() && (punctual == nullptr || punctual->profile == nullptr);
+}
+
 std::uint32_t LightRecords::add(const PackLight& light) {
   Record r{};
   LightRecord record;

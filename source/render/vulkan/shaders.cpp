@@ -28,6 +28,9 @@ constexpr std::uint32_t kHalfVector[] =
 constexpr std::uint32_t kShadowParts[] =
 #include "shadow_parts.comp.inc"
     ;
+constexpr std::uint32_t kShadowShares[] =
+#include "shadow_shares.comp.inc"
+    ;
 constexpr std::uint32_t kBounceLobes[] =
 #include "bounce_lobes.comp.inc"
     ;
@@ -67,6 +70,7 @@ std::span<const std::uint32_t> sheen_shader() { return kSheen; }
 std::span<const std::uint32_t> ltc_clipless_shader() { return kLtcClipless; }
 std::span<const std::uint32_t> half_vector_shader() { return kHalfVector; }
 std::span<const std::uint32_t> shadow_parts_shader() { return kShadowParts; }
+std::span<const std::uint32_t> shadow_shares_shader() { return kShadowShares; }
 std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
 std::vector<std::span<const std::uint32_t>> bounce_shaders() {
   return {kBounceBoxes, kBounceCull, kBounceLight, kBounceFilter, kBounceResolve};

@@ -17,6 +17,8 @@ std::span<const std::uint32_t> ltc_clipless_shader();
 std::span<const std::uint32_t> half_vector_shader();
 // What points see of lights behind edges.
 std::span<const std::uint32_t> shadow_parts_shader();
+// What arrives of round lights that something hides in part.
+std::span<const std::uint32_t> shadow_shares_shader();
 
 // Of the bounce: lobes of virtual lights; boxes, culling, lighting, filter, resolve.
 std::span<const std::uint32_t> bounce_lobes_shader();

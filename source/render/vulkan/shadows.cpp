@@ -27,7 +27,7 @@ struct AnswersHead {
 };
 struct Answer {
   float x, y;
-  std::uint32_t sees, places;
+  std::uint32_t sees, edges;
 };
 static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kVector);
 
@@ -195,8 +195,9 @@ void Shadows::write_states(Batch& batch, const Each& each) {
       if (batch.free[begin.point + k] == 0) continue;
       const TileShadows::Point& point = tile.points[k];
       to[point.light * kTilePixels + point.slot] = answer.sees;
-      int& places = tile.by_light[point.light].places;
-      places = std::max(places, static_cast<int>(answer.places));
+      TileShadows::Light& light = tile.by_light[point.light];
+      light.edges = std::max(light.edges, static_cast<int>(answer.edges));
+      light.shares |= point.shares && answer.sees >= kSeesPart;
     }
   });
 }

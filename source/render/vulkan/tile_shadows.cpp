@@ -77,12 +77,12 @@ void add_edges(const shadow::EdgeArrays& arrays, std::vector<std::uint32_t>& val
 }
 
 // The place of a point, what it asks, its horizons.
-void add_point(const LightSide& side, const Viewpoint& at, std::vector<std::uint32_t>& values) {
+void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vector<std::uint32_t>& values) {
   const shadow::LightFrame& frame = side.frame;
   const Vec3d local = frame.to_local(at.position), eye{local.x, local.y, -local.z};
   const bool cut = is_cut(frame, at), simple = side.middle && dot(*side.middle - at.position, at.normal) > 0 && !cut;
   shadow::SegmentSet set;
-  std::uint32_t flags = (simple ? 0 : flag(kArranged)) | (cut ? flag(kCutByTriangle) : 0);
+  std::uint32_t flags = (simple ? 0 : flag(kArranged)) | (cut ? flag(kCutByTriangle) : 0) | (shares ? flag(kShares) : 0);
   std::int32_t base = shadow::kHidden;
   shadow::Segment horizons[2];
   for (int h = 0; h < (at.geometric_normal ? 2 : 1); ++h) {
@@ -102,6 +102,11 @@ void add_point(const LightSide& side, const Viewpoint& at, std::vector<std::uint
   for (const shadow::Segment& h : horizons) rows.add(h);
 }
 
+bool is_one_contour(const std::vector<shadow::Segment>& outline) {
+  return std::adjacent_find(outline.begin(), outline.end(),
+                            [](const shadow::Segment& e, const shadow::Segment& next) { return e.b.id != next.a.id; }) == outline.end();
+}
+
 }  // namespace
 
 void TileShadows::clear() {
@@ -112,9 +117,9 @@ void TileShadows::clear() {
   points.clear();
 }
 
-bool TileShadows::lights(const PackLight& light) const { return light.is_polygon() && light.is_even(); }
+bool TileShadows::lights(const PackLight& light) const { return shaders_have(light); }
 
-bool TileShadows::find(const LightSide& side, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
+bool TileShadows::find(const LightSide& side, bool shares, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
                        const std::vector<Viewpoint>& at) {
   const shadow::LaneEdges all = edges.lane_edges();
   if (all.edge_count > kMostEdges || all.vertex_count >= kMostPlaces || all.plane_count >= kMostPlaces) return false;
@@ -125,6 +130,7 @@ bool TileShadows::find(const LightSide& side, const shadow::EdgeArrays& edges, c
   std::size_t incidences = 0;
   for (std::size_t i = 0; i < all.more_count; ++i) incidences += all.more[i].count;
   const std::size_t corners = side.outline->size();
+  if (shares && !is_one_contour(*side.outline)) return false;
   if (incidences > kMostIncidences || corners + 2 > static_cast<std::size_t>(kSpaces.back()) / 2) return false;
 
   Group group{};
@@ -146,39 +152,53 @@ bool TileShadows::find(const LightSide& side, const shadow::EdgeArrays& edges, c
                                 bits(f.half_y),      bits(f.axes.z.x),     bits(f.axes.z.y), bits(f.axes.z.z)};
   std::copy(std::begin(rest), std::end(rest), group.header.begin() + 8);
   for (const std::uint32_t slot : slots) {
-    add_point(side, at[slot], values);
-    points.push_back({whole(by_light.size()), slot, &side, at[slot]});
+    add_point(side, at[slot], shares, values);
+    points.push_back({whole(by_light.size()), slot, &side, shares, at[slot]});
   }
   groups.push_back(group);
   return true;
 }
 
-std::uint32_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b,
-                                      const Vec4Floats& area) {
-  const std::uint32_t number = whole(records.size());
+// Where the record begins.
+std::size_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b,
+                                    const Vec4Floats& area) {
   records.insert(records.end(), {center, reach_a, reach_b, area});
-  return flag(kSeesPart) + number;
+  return records.size() - static_cast<std::size_t>(kPartHeader);
 }
 
-std::uint32_t TileShadows::add_part(const packed::Pieces& pieces, std::size_t point, float weight, int& places) {
+std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t point, float weight, int& edges) {
   constexpr std::size_t kBlock = packed::Pieces::kBlock;
   const float* e = pieces.elements(point);
   const auto element = [&](std::size_t first, float w) {
     return with({e[first * kBlock], e[(first + 1) * kBlock], e[(first + 2) * kBlock]}, w);
   };
-  const std::uint32_t state = add_record(element(0, 0), element(3, e[12 * kBlock]), element(6, weight), element(9, 0));
+  const std::size_t begin = add_record(element(0, 0), element(3, e[12 * kBlock]), element(6, weight), element(9, 0));
   const std::size_t first = records.size();
+  int count = 0;
   for (std::size_t k = 0; k < pieces.edge_count(point); ++k) {
     const float* edge = pieces.edge(point, k);
     const Vec3f a{edge[0], edge[kBlock], edge[2 * kBlock]}, b{edge[3 * kBlock], edge[4 * kBlock], edge[5 * kBlock]};
     if (a == b) continue;
-    records.push_back(with(a, 0));
+    if (count == 0 || with(a, 1) != records.back()) records.push_back(with(a, 0));
     records.push_back(with(b, 1));
+    ++count;
   }
-  const std::size_t count = records.size() - first;
-  records[first - static_cast<std::size_t>(kPartHeader)][3] = static_cast<float>(count);
-  places = std::max(places, static_cast<int>(count));
-  return count > 0 ? state : flag(kSeesNone);
+  records[begin][3] = static_cast<float>(records.size() - first);
+  edges = std::max(edges, count);
+  return begin;
+}
+
+// The state of a slot that sees it.
+std::uint32_t TileShadows::add_part(const TileShadow::Batch& batch, std::size_t point, Light& to) {
+  const std::size_t begin = add_outline(batch.visible, point, batch.passes[point], to.edges);
+  if (records[begin][3] == 0) return flag(kSeesNone);
+  if (batch.all.point_count() > 0) {
+    to.shares = true;
+    records.resize(records.size() + static_cast<std::size_t>(kPartSums), Vec4Floats{});
+    records[begin + 3][3] = static_cast<float>(records.size() - begin);
+    add_outline(batch.all, point, 1, to.edges);
+  }
+  return flag(kSeesPart) + whole(begin);
 }
 
 void TileShadows::set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow) {
@@ -187,12 +207,12 @@ void TileShadows::set(std::size_t light, const std::vector<std::uint32_t>& slots
   for (const std::uint32_t i : slots) {
     const Seen seen = shadow.seen[i];
     to.states[i] = flag(seen == Seen::whole ? kSeesWhole : kSeesNone);
-    if (seen == Seen::share) to.states[i] = add_record({}, {}, {0, 0, 0, shadow.share[i]}, {});
+    if (seen == Seen::share) to.states[i] = flag(kSeesPart) + whole(add_record({}, {}, {0, 0, 0, shadow.share[i]}, {}));
   }
   for (std::size_t b = 0; b < shadow.batch_count; ++b) {
     const TileShadow::Batch& batch = shadow.batches[b];
     for (std::size_t k = 0; k < batch.slots.size(); ++k)
-      if (batch.slots[k] != kNoSlot) to.states[batch.slots[k]] = add_part(batch.visible, k, batch.passes[k], to.places);
+      if (batch.slots[k] != kNoSlot) to.states[batch.slots[k]] = add_part(batch, k, to);
   }
 }
 

@@ -19,7 +19,7 @@ class TileShadows : public ShadowTaker {
   void clear();
 
   bool lights(const PackLight& light) const override;
-  bool find(const LightSide& side, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
+  bool find(const LightSide& side, bool shares, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
             const std::vector<shadow::Viewpoint>& points) override;
   void take(const PackLight& light, const TileShadow& shadow) override;
 
@@ -29,11 +29,13 @@ class TileShadows : public ShadowTaker {
   struct Light {
     const PackLight* light;
     std::array<std::uint32_t, kTilePixels> states{};  // records of parts: counted from the tile's first one
-    int places = 0;                                   // most of a part
+    int edges = 0;                                    // most of a part
+    bool shares = false;                              // some part counts as a share of a polygon's
   };
   struct Point {
     std::uint32_t light, slot;
     const LightSide* side;
+    bool shares;
     shadow::Viewpoint at;
   };
   struct Group {
@@ -47,8 +49,9 @@ class TileShadows : public ShadowTaker {
   std::vector<Point> points;
 
  private:
-  std::uint32_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
-  std::uint32_t add_part(const packed::Pieces& pieces, std::size_t point, float weight, int& places);
+  std::size_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
+  std::size_t add_outline(const packed::Pieces& pieces, std::size_t point, float weight, int& edges);
+  std::uint32_t add_part(const TileShadow::Batch& batch, std::size_t point, Light& to);
 };
 
 }  // namespace steradian::vulkan

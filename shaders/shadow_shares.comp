@@ -1,0 +1,39 @@
+// Adds what arrives of round lights that something hides in part, once all lobes have summed it up: a thread a pixel.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "layout.glsl"
+#include "shadow_layout.glsl"
+
+// As direct.glsl's.
+layout(local_size_x = 64) in;
+layout(binding = 4) uniform samplerBuffer radiance_before;
+layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
+layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
+layout(std430, binding = 7) readonly buffer States { uint states[]; };
+layout(std430, binding = 8) readonly buffer Parts { vec4 parts[]; };
+layout(push_constant) uniform Push { uint first_entry; };
+
+#include "entry.glsl"
+
+// What of the light itself arrives: as much of it as of the polygon that stands for it.
+float arriving(float light, float part, float polygon) { return polygon > 0.0 ? part / polygon * light : 0.0; }
+
+void main() {
+    Entry entry = entry_here();
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < entry.count; i++) {
+        uint state = states[lists[entry.first + 2u * i + 1u] + entry.slot];
+        if (state < uint(kSeesPart)) continue;
+        int record = int(state) - kSeesPart;
+        int ahead = int(parts[record + 3].w);
+        if (ahead == 0) continue;
+        vec3 part = parts[record + ahead - kPartSums].xyz;
+        vec3 polygon = parts[record + ahead - kPartSums + 1].xyz;
+        vec3 light = parts[record + ahead - kPartSums + 2].xyz;
+        for (int c = 0; c < 3; c++) sum[c] += arriving(light[c], part[c], polygon[c]);
+    }
+    uint at = entry.tile * uint(kRadiance) + entry.slot;
+    radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
+}
