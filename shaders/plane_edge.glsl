@@ -73,7 +73,8 @@ vec2 edge_integral(Edge e, Emission emission, float from, float to) {
 // One edge of a run, or one that is its own run: what it sends of the slopes that are left of the run's chord.
 vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range) {
     Edge e = edge_of(pair_of_numbers(part), pair_of_numbers(part + 2u), number(part + 4u), inverse_range);
-    e.d = max(e.d, 1.0e-6);
+    // An edge of a run may face away.
+    if (!(e.d > 1.0e-6)) return vec3(0.0);
     float own_low = slope_along(e, number(part + 4u));
     float own_high = slope_along(e, number(part + 5u));
     if (emission.ranged) {
@@ -110,7 +111,24 @@ vec3 edge_light(uint at) {
     vec2 axis = -e.normal;
     float from = slope_along(e, e.begin);
     float to = slope_along(e, number(at + uint(kLightEnd)));
-    open_cut(from, e.d > 1.0e-6 ? to : from);
+    uint low_corners = lists[at + uint(kLightCorners)];
+    uint high_corners = lists[at + uint(kLightCorners) + 1u];
+    if (low_corners > 0u) {
+        uint corner = at + lists[at + uint(kLightWords)] - (low_corners + high_corners) * uint(kVertex);
+        from = kBeyond;
+        to = -kBeyond;
+        for (; low_corners > 0u; low_corners--) {
+            from = min(from, slope_to(axis, pair_of_numbers(corner)));
+            corner += uint(kVertex);
+        }
+        for (; high_corners > 0u; high_corners--) {
+            to = max(to, slope_to(axis, pair_of_numbers(corner)));
+            corner += uint(kVertex);
+        }
+    } else if (!(e.d > 1.0e-6)) {
+        to = from;
+    }
+    open_cut(from, to);
     cut_blockers(at, axis);
     if (parts > 0u) {
         Emission emission;

@@ -53,6 +53,7 @@ const int kLightShape = 22;
 const int kLightCounts = 32;
 const int kLightArc = 44;
 const int kLightWords = 60;  // of it and its lists
+const int kLightCorners = 61;  // of a run: how many it may begin in, and end in; they stand behind the lists
 const int kLight = 64;
 // Words of an entry of each list; spans and bodies are followed by their vertices.
 const int kPart = 12;

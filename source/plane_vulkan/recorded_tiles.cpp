@@ -89,6 +89,8 @@ void put_lists(Words& to, const TileLight& light) {
     put(to, lens.count);
     for (const TileLens::Crossing& c : lens.crossings) put(to, c.x, c.y, c.lx, c.ly, c.bx, c.by, c.begins);
   }
+  put_vertices(to, light.low_corners, light.low_corner_count);
+  put_vertices(to, light.high_corners, light.high_corner_count);
 }
 
 // Rounds of a thread's loops that a job may take, and those of one blocker: its place among the intervals, and what moves for it.
@@ -98,7 +100,8 @@ std::size_t steps_of(const TileLight& light) {
   const auto size = [](int count) { return static_cast<std::size_t>(count); };
   std::size_t within = size(light.disk_count + light.span_count + light.body_count + light.chord_count + light.deep_count +
                             light.round_count + 8 * light.lens_count);
-  std::size_t steps = 16 + size(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count);
+  std::size_t steps = 16 + size(light.low_count + light.high_count + light.low_disk_count + light.high_disk_count + light.low_corner_count +
+                                light.high_corner_count);
   for (int i = 0; i < light.span_count; ++i) steps += size(light.spans[i].begins + light.spans[i].ends);
   for (int i = 0; i < light.body_count; ++i) steps += size(light.bodies[i].vertices.begins + light.bodies[i].vertices.ends);
   steps += within * kStepsOfBlocker;
@@ -159,6 +162,8 @@ void RecordedTiles::add(const TileLight& light) {
   to->resize(first + kLight);
   put_lists(*to, light);
   (*to)[first + kLightWords] = static_cast<std::uint32_t>(to->size() - first);
+  (*to)[first + kLightCorners] = bits(light.low_corner_count);
+  (*to)[first + kLightCorners + 1] = bits(light.high_corner_count);
   end_light(group);
 }
 

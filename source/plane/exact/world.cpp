@@ -149,9 +149,9 @@ double farthest_in(const Box& box, Vec2d p) {
   return length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y)});
 }
 
-// Only what is nearer than the farthest light that reaches the point can matter.
-std::vector<const Curve*> curves_that_matter(const World& world, Vec2d p) {
-  double reach = 0;
+// Only what is nearer than the farthest light that reaches the point can matter. From within a light it is seen at any distance.
+std::vector<const Curve*> curves_that_matter(const World& world, Vec2d p, int inside_light) {
+  double reach = inside_light >= 0 ? farthest_in(world.boxes[static_cast<std::size_t>(inside_light)], p) : 0;
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
     const auto& light = world.scene.bodies[i].light;
     if (!light || world.first_curve[i] == world.first_curve[i + 1]) continue;
@@ -331,7 +331,7 @@ PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSamp
   switch (method) {
     case PlaneMethod::sampled: return plane::sampled_light(*impl_, position, sampling);
     case PlaneMethod::marched: return plane::marched_light(*impl_, position, sampling);
-    default: return plane::envelope_light(*impl_, plane::curves_that_matter(*impl_, position), position, inside.body);
+    default: return plane::envelope_light(*impl_, plane::curves_that_matter(*impl_, position, inside.body), position, inside.body);
   }
 }
 

@@ -110,6 +110,16 @@ TEST(PlaneExact, InsideALightItsEmissionComesFromEverywhereNothingInsideBlocks) 
   EXPECT_NEAR(with.query({50, 30}).radiance.x, 2 * (1 - 2 * std::asin(0.5) / (2 * pi)), 1e-14);
 }
 
+// The range is that of the light outside: within, a box further away than it blocks as much.
+TEST(PlaneExact, InsideALightWithARangeWhatIsBeyondItBlocks) {
+  PlaneBody light = lit(plane_circle({50, 50}, 40));
+  light.light->range = 20;
+  const PlaneWorld world = world_of({light, box(80, 49, 2, 2)});
+  // Its near side, seen from 30 and 60 away.
+  EXPECT_NEAR(world.query({50, 50}).radiance.x, 1 - std::atan2(1, 30) / M_PI, 1e-12);
+  EXPECT_NEAR(world.query({20, 50}).radiance.x, 1 - std::atan2(1, 60) / M_PI, 1e-12);
+}
+
 TEST(PlaneExact, OnALightsEdgeAPointIsInside) {
   const PlaneWorld world = world_of({lit(plane_circle({22, 190}, 4))});
   for (Vec2d p : {Vec2d{22, 186}, {26, 190}, {18, 190}}) EXPECT_NEAR(world.query(p).radiance.x, 1, 1e-12) << p.x << ", " << p.y;

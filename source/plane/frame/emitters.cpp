@@ -57,7 +57,7 @@ class Taking {
     }
     for (std::size_t c = world_.first_curve[body_ + 1]; c-- > world_.first_curve[body_];)
       if (world_.curves[c].kind == Curve::Kind::segment && world_.curves[c].two_sided) add_edges(c, true);
-    return with_runs(result_);
+    return with_runs(world_, result_);
   }
 
  private:

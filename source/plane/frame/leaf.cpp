@@ -59,9 +59,9 @@ double LeafBuilder::extent(Vec2d normal) const { return std::fabs(normal.x) * ti
 SeenLight LeafBuilder::see(const Emitter& e) const {
   SeenLight seen;
   seen.edge = e.kind == Emitter::Kind::edge;
-  seen.normal = e.normal;
+  seen.normal = is_run(e) ? -view_of(e, tile_).axis : e.normal;
   seen.at = light_.a;
-  seen.margin = (seen.edge ? extent(e.normal) : tile_.radius) + 1e-3;
+  seen.margin = (seen.edge ? extent(seen.normal) : tile_.radius) + 1e-3;
   const Vec2d axis = light_.center;
   // Where some pixel may lie within the bounding circle of an ellipse, slopes are not from its centre: see TileArc.
   if (e.kind == Emitter::Kind::arc && length(axis) <= e.bound + tile_.radius) seen.margin = 1e30;
@@ -70,10 +70,17 @@ SeenLight LeafBuilder::see(const Emitter& e) const {
   const Vec2d along = axis / d, left{-along.y, along.x};
   const auto side = [&](HullSide& h, Vec2d normal, Vec2d forward) {
     const double at_a = dot(normal, light_.a), at_b = dot(normal, light_.b);
+    Vec2d furthest = at_a > at_b ? light_.a : light_.b;
+    double at_furthest = std::max(at_a, at_b) + light_.radius;
+    if (!light_.hull.empty()) {
+      at_furthest = -1e300;
+      for (Vec2d v : light_.hull)
+        if (const double at = dot(normal, v); at > at_furthest) at_furthest = at, furthest = v;
+    }
     h.normal = normal;
     h.forward = forward;
-    h.offset = std::max(std::max(at_a, at_b) + light_.radius, extent(normal)) + 1e-9 * d;
-    h.limit = dot(forward, at_a > at_b ? light_.a : light_.b);
+    h.offset = std::max(at_furthest, extent(normal)) + 1e-9 * d;
+    h.limit = dot(forward, furthest);
     if (seen.edge) h.least = extent(forward);
     if (extent(forward) > h.limit) h.limit = -1e300;  // the tile is not before the light: nothing is known
   };
@@ -92,10 +99,13 @@ LeafBuilder::Depth LeafBuilder::depth_of_round(const Blocker& b, Vec2d center) c
     const DividingLine& line = frame_.lines[static_cast<std::size_t>(b.line)];
     return {line.normal, -dot(line.normal, line.point - tile_.center)};
   }
-  const Vec2d at = nearest_on(light_.a, light_.b, center), to = center - at;
+  const bool run = !light_.hull.empty();
+  const double radius = run ? 0 : light_.radius;
+  const Vec2d at = run ? nearest_of({light_.hull.data(), light_.hull.size()}, center) : nearest_on(light_.a, light_.b, center),
+              to = center - at;
   const double d = length(to);
   const Vec2d normal = to / d;
-  const Vec2d through = at + to * ((light_.radius + 0.5 * (d - light_.radius - b.bound)) / d);
+  const Vec2d through = at + to * ((radius + 0.5 * (d - radius - b.bound)) / d);
   return {normal, -dot(normal, through)};
 }
 
@@ -120,6 +130,12 @@ bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
     }
     const Vec2d normal{space.y.y * best.x - space.x.y * best.y, space.x.x * best.y - space.y.x * best.x};
     return best_d2 > 0 && through(normal / length(normal), space.center + space.x * best.x + space.y * best.y);
+  }
+  if (!light_.hull.empty()) {
+    Vec2d vertices[Silhouette::kMost];
+    for (int k = 0; k < count; ++k) vertices[k] = s.at(k);
+    const Gap gap = gap_between({light_.hull.data(), light_.hull.size()}, {vertices, static_cast<std::size_t>(count)});
+    return through(gap.normal, gap.point);
   }
   const Vec2d n = seen_.normal;
   const double slack = 1e-8;
@@ -350,7 +366,7 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
     light.begin = f(dot(light_.b, t));
     light.end = f(dot(light_.a, t));
     from = e.radiance.b;
-    slope = (e.radiance.a - e.radiance.b) / length(e.b - e.a);
+    if (!is_run(e)) slope = (e.radiance.a - e.radiance.b) / length(e.b - e.a);
   } else {
     light.shape = round_of(light_.ellipse);
   }
@@ -367,21 +383,69 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
   return light;
 }
 
-void LeafBuilder::add_parts(const Emitter& run) {
+void LeafBuilder::look_at_edges(const Emitter& run) {
+  edges_.clear();
+  for (const Emitter* e = &run + 1; e < &run + run.group; ++e)
+    if (!is_run(*e)) edges_.push_back({e, facing(*e, tile_)});
+}
+
+// Where a pixel of the tile may see the run begin and end: a bowl by its chord, others where edges that face it meet those that do not.
+void LeafBuilder::add_corners(const Emitter& run, TileLight& light) {
+  low_corners_.clear();
+  high_corners_.clear();
+  const auto corner = [&](Vec2d p) { return TileVertex{f(p.x - tile_.center.x), f(p.y - tile_.center.y)}; };
+  const std::size_t count = edges_.size();
+  if (run.shape == Emitter::RunShape::bowl) {
+    low_corners_.push_back(corner(run.b));
+    high_corners_.push_back(corner(run.a));
+  } else {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (edges_[k].facing == Facing::none) continue;
+      const bool closed = run.shape == Emitter::RunShape::closed;
+      const Facing before = k > 0    ? edges_[k - 1].facing
+                            : closed ? edges_[count - 1].facing
+                                     : Facing::none,
+                   after = k + 1 < count ? edges_[k + 1].facing
+                           : closed      ? edges_[0].facing
+                                         : Facing::none;
+      if (before != Facing::all) high_corners_.push_back(corner(edges_[k].edge->a));
+      if (after != Facing::all) low_corners_.push_back(corner(edges_[k].edge->b));
+    }
+  }
+  light.low_corners = low_corners_.data();
+  light.low_corner_count = static_cast<int>(low_corners_.size());
+  light.high_corners = high_corners_.data();
+  light.high_corner_count = static_cast<int>(high_corners_.size());
+  // Of a bulge or a closed run, what faces a pixel is seen whole.
+  light.all_parts_seen = run.shape != Emitter::RunShape::bowl ||
+                         std::all_of(edges_.begin(), edges_.end(), [](const SeenEdge& e) { return e.facing == Facing::all; });
+}
+
+void LeafBuilder::add_parts(TileLight& light) {
   parts_.clear();
-  for (const Emitter* e = &run + 1; e < &run + run.group; ++e) {
-    if (is_run(*e)) continue;
-    const Vec2d a = e->a - tile_.center, b = e->b - tile_.center, n = e->normal, t{n.y, -n.x};
-    const double size = length(e->b - e->a);
-    const Vec3d from = e->radiance.b, slope = (e->radiance.a - e->radiance.b) / size;
-    const bool small = length(a) - tile_.radius > kSmallParts * size && length(b) - tile_.radius > kSmallParts * size;
+  for (const SeenEdge& seen : edges_) {
+    if (seen.facing == Facing::none) continue;
+    const Emitter& e = *seen.edge;
+    const Vec2d a = e.a - tile_.center, b = e.b - tile_.center, n = e.normal, t{n.y, -n.x};
+    const double size = length(e.b - e.a), least = kSmallParts * size + tile_.radius;
+    const Vec3d from = e.radiance.b, slope = (e.radiance.a - e.radiance.b) / size;
+    const bool small = seen.facing == Facing::all && length(a) > least && length(b) > least;
     parts_.push_back({f(a.x), f(a.y), f(n.x), f(n.y), f(dot(b, t)), f(dot(a, t)), f(from.x), f(from.y), f(from.z), f(slope.x), f(slope.y),
                       f(slope.z), f(b.x), f(b.y), f(a.x), f(a.y), small});
   }
+  light.parts = parts_.data();
+  light.part_count = static_cast<int>(parts_.size());
 }
 
 LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, std::size_t count) {
-  light_ = {e.a - tile_.center, e.b - tile_.center, e.center - tile_.center, e.radius, e.bound, {}};
+  light_.a = e.a - tile_.center;
+  light_.b = e.b - tile_.center;
+  light_.center = e.center - tile_.center;
+  light_.radius = e.radius;
+  light_.bound = e.bound;
+  light_.hull.clear();
+  if (is_run(e))
+    for (Vec2d v : e.hull) light_.hull.push_back(v - tile_.center);
   if (e.kind != Emitter::Kind::edge) {
     light_.ellipse = ellipse_of(e);
     light_.ellipse.center = light_.center;
@@ -399,11 +463,9 @@ LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, st
   shadows_.write(light);
   if (is_run(e)) {
     light.linear = e.wall || emission_of(frame_, e).gradient.has_value();
-    if (light.linear || light.profile != 0 || light.inverse_range > 0) {
-      add_parts(e);
-      light.parts = parts_.data();
-      light.part_count = static_cast<int>(parts_.size());
-    }
+    look_at_edges(e);
+    add_corners(e, light);
+    if (light.linear || light.profile != 0 || light.inverse_range > 0) add_parts(light);
   }
   const std::size_t needed = 32 * shadows_.intervals();
   if (scratch_.size() < needed) scratch_.resize(2 * needed);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "plane/frame/runs.h"
 #include "plane/frame/scene.h"
 #include "plane/frame/shadow_ends.h"
 #include "plane/frame/tile.h"
@@ -36,7 +37,8 @@ class LeafBuilder {
   struct Light {
     Vec2d a, b, center;
     double radius = 0, bound = 0;
-    Ellipse ellipse;  // disk, arc
+    Ellipse ellipse;          // disk, arc
+    std::vector<Vec2d> hull;  // run
   };
 
   double extent(Vec2d normal) const;
@@ -54,7 +56,9 @@ class LeafBuilder {
   TileRound round_of(const Ellipse& e) const;
   TileLight light_of(const Emitter& e) const;
   TileArc arc_of(const Emitter& e) const;
-  void add_parts(const Emitter& run);
+  void look_at_edges(const Emitter& run);
+  void add_corners(const Emitter& run, TileLight& light);
+  void add_parts(TileLight& light);
 
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());
@@ -66,7 +70,13 @@ class LeafBuilder {
   Light light_;
   SeenLight seen_;
   ShadowEnds shadows_;
-  std::vector<TilePart> parts_;  // of a run
+  struct SeenEdge {
+    const Emitter* edge;
+    Facing facing;
+  };
+  std::vector<SeenEdge> edges_;  // of a run
+  std::vector<TilePart> parts_;
+  std::vector<TileVertex> low_corners_, high_corners_;
   std::vector<float> scratch_;
 };
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kApart = 1e-6;
 
+bool has_no_chord(const Emitter& e) { return is_run(e) && e.shape == Emitter::RunShape::closed; }
+
 }  // namespace
 
 // The list of an emitter, where it has room or at the end.
@@ -62,7 +64,9 @@ void Preparation::write_list(std::size_t index, const std::vector<int>& list) {
 
 Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocker& chain) const {
   const Vec2d* v = &frame_.vertices[chain.first];
-  if (e.kind == Emitter::Kind::edge) {
+  if (has_no_chord(e)) {
+    if (chain.body == e.body && is_behind_outline(e, chain.first_edge)) return ChainView::behind;
+  } else if (e.kind == Emitter::Kind::edge) {
     double low = 1e300, high = -1e300;
     for (std::size_t k = 0; k < chain.count; ++k) {
       const double h = dot(v[k] - e.a, e.normal);
@@ -73,12 +77,18 @@ Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocke
     if (chain.body == e.body && low < 0) return ChainView::edge_by_edge;
   }
   const bool near = length(e.center - chain.center) < e.bound + chain.bound + kApart;
-  const double gap = is_run(e) ? e.radius + kApart : kApart;
-  return near && comes_within(gap, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;
+  return near && comes_within(kApart, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;
+}
+
+// Of a closed run and an edge of the same body: is it of the run, or within its hull? Then it is not seen from outside.
+bool Preparation::is_behind_outline(const Emitter& run, int edge) const {
+  const Blocker& b = frame_.blockers[static_cast<std::size_t>(edge)];
+  return holds(region_of(run), frame_.vertices[b.first]) && holds(region_of(run), frame_.vertices[b.first + 1]);
 }
 
 // Does nothing else come near a run, and none of its own outline between its edges and its chord?
 bool Preparation::is_clear(const Emitter* run) {
+  if (run->shape == Emitter::RunShape::hole) return false;
   bool clear = true;
   std::size_t first = run->curve, last = run->curve;
   for (std::size_t k = 1; k < run->group; ++k) {
@@ -87,9 +97,10 @@ bool Preparation::is_clear(const Emitter* run) {
   }
   const auto comes_near = [&](const Blocker& b) {
     if (length(run->center - b.center) >= run->bound + b.bound + kApart) return false;
-    if (b.kind == Blocker::Kind::convex) return comes_within(run->radius + kApart, *run, &frame_.vertices[b.first], b.count);
-    const Vec2d along = run->b - run->a, to = b.center - run->a;
-    return length(to - along * std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0)) < run->radius + b.bound + kApart;
+    spend(run->hull.size());
+    if (b.kind == Blocker::Kind::convex) return comes_within(kApart, *run, &frame_.vertices[b.first], b.count);
+    const ConvexRegion hull = region_of(*run);
+    return holds(hull, b.center) || length(b.center - nearest_of(hull, b.center)) < b.bound + kApart;
   };
   bins_.for_each_within(frame_.blockers, run->center, run->bound + kApart, [&](int k) {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
@@ -103,6 +114,8 @@ bool Preparation::is_clear(const Emitter* run) {
         clear = clear && !comes_near(frame_.blockers[static_cast<std::size_t>(edge)]);
       return;
     }
+    // What the outline of a closed run holds is not seen, and nothing of it crosses.
+    if (has_no_chord(*run)) return;
     const auto own = [&](int edge) {
       const Blocker& e = frame_.blockers[static_cast<std::size_t>(edge)];
       const std::size_t curve = world_.first_curve[static_cast<std::size_t>(b.body)] + static_cast<std::size_t>(edge) -
@@ -134,7 +147,11 @@ void Preparation::find_nearby(std::size_t index, std::vector<int>& list) {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
     if (b.body == e.body) {
       // The rest of a concave light blocks its own edges; a convex one lies behind them.
-      if (e.kind == Emitter::Kind::edge && b.count == 2 && !(is_run(e) && is_of_run(index, k))) own_edge(e, k, list);
+      if (has_no_chord(e)) {
+        if (!is_behind_outline(e, k)) list.push_back(k);
+      } else if (e.kind == Emitter::Kind::edge && b.count == 2 && !(is_run(e) && is_of_run(index, k))) {
+        own_edge(e, k, list);
+      }
       return;
     }
     // Nothing else overlaps a run: is_clear.

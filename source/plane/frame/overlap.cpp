@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "plane/exact/intersect.h"
+#include "plane/frame/runs.h"
 
 namespace steradian::plane {
 namespace {
@@ -126,18 +127,9 @@ bool comes_within(double gap, const Emitter& e, const Vec2d* v, std::size_t coun
     }
     return inside || nearest < 1 + gap / e.radius;
   }
-  // Separating axes: the edges of both.
-  const auto separates = [&](Vec2d p, Vec2d q) {
-    const Vec2d n = Vec2d{q.y - p.y, p.x - q.x} / length(q - p);
-    double low = 1e300, high = -1e300;
-    for (std::size_t k = 0; k < count; ++k) low = std::min(low, dot(v[k] - p, n)), high = std::max(high, dot(v[k] - p, n));
-    const double s = dot(e.a - p, n), t = dot(e.b - p, n);
-    return std::min(s, t) >= high + gap || std::max(s, t) <= low - gap;
-  };
-  if (separates(e.a, e.b)) return false;
-  for (std::size_t k = 0; k < count; ++k)
-    if (separates(v[k], v[(k + 1) % count])) return false;
-  return true;
+  const Vec2d ends[] = {e.a, e.b};
+  const ConvexRegion light = is_run(e) ? region_of(e) : ConvexRegion{ends, 2};
+  return gap_between(light, {v, count}, gap).width < gap;
 }
 
 SegmentParts parts_outside(const Ellipse& ellipse, Vec2d p, Vec2d q) {

@@ -7,10 +7,13 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kMostTurn = std::numbers::pi / 3;  // of a run: its edges face much the same points
-constexpr double kSharpest = std::numbers::pi / 8;  // of one corner
-constexpr std::size_t kParts = 4;                   // that a run is taken apart in
-constexpr double kLeastHeight = 1e-3;               // of the tile over every line: floats must not doubt it
+using std::numbers::pi;
+using RunShape = Emitter::RunShape;
+
+constexpr double kMostTurn = 2 * pi / 3;  // of a run that is not closed
+constexpr double kStraight = 1e-9;        // turns of less are none
+constexpr std::size_t kParts = 4;         // that a run is taken apart in
+constexpr double kLeastHeight = 1e-3;     // of the tile over every line: floats must not doubt it
 
 double turn_between(const Emitter& a, const Emitter& b) {
   const Vec2d u = a.b - a.a, v = b.b - b.a;
@@ -19,7 +22,8 @@ double turn_between(const Emitter& a, const Emitter& b) {
 
 double distance_from_segment(Vec2d a, Vec2d b, Vec2d p) {
   const Vec2d ab = b - a;
-  return length(p - a - ab * std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0));
+  const double l = dot(ab, ab);
+  return length(p - a - ab * (l > 0 ? std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : 0));
 }
 
 // Appends the run of edges [first, first + count), or the edge, and all that it stands for.
@@ -33,10 +37,21 @@ void append(const Emitter* first, std::size_t count, std::vector<Emitter>& to) {
   run.b = first[count - 1].b;
   const Vec2d along = run.b - run.a;
   const double size = length(along);
-  for (std::size_t k = 1; k < count; ++k) run.radius = std::max(run.radius, size > 0 ? distance_from_segment(run.a, run.b, first[k].a) : 0);
+  double bend = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    run.radius = std::max(run.radius, distance_from_segment(run.a, run.b, first[k].a));
+    bend += cross(first[k].a - run.a, along);
+  }
+  run.shape = bend < 0 ? RunShape::bowl : RunShape::bulge;
+  run.hull = {run.a};
+  if (run.radius > kStraight * size)
+    for (std::size_t k = 1; k < count; ++k) run.hull.push_back(first[k].a);
+  run.hull.push_back(run.b);
+  if (bend < 0) std::reverse(run.hull.begin(), run.hull.end());
   run.center = (run.a + run.b) * 0.5;
-  run.bound = run.radius + 0.5 * size;
-  const bool flat = size > 0 && run.radius < 0.5 * size;
+  run.bound = 0;
+  for (Vec2d v : run.hull) run.bound = std::max(run.bound, length(v - run.center));
+  const bool flat = size > 0 && run.radius < size;
   if (flat) {
     run.normal = Vec2d{along.y, -along.x} / size;
     to.push_back(run);
@@ -49,6 +64,49 @@ void append(const Emitter* first, std::size_t count, std::vector<Emitter>& to) {
   if (flat) to[at].group = to.size() - at;
 }
 
+// An outline's edges, one after another, as runs that turn one way.
+void append_chains(const std::vector<Emitter>& strand, std::vector<Emitter>& to) {
+  for (std::size_t i = 0; i < strand.size();) {
+    double turned = 0;
+    std::size_t end = i + 1;
+    for (; end < strand.size(); ++end) {
+      const double turn = turn_between(strand[end - 1], strand[end]);
+      const bool other_way = std::fabs(turn) > kStraight && std::fabs(turned) > kStraight && turn * turned < 0;
+      if (other_way || std::fabs(turned + turn) > kMostTurn) break;
+      turned += turn;
+    }
+    append(&strand[i], end - i, to);
+    i = end;
+  }
+}
+
+// A whole outline. What is neither convex nor a hole is no run.
+void append_outline(const std::vector<Emitter>& edges, std::vector<Emitter>& to) {
+  double least = 1e300, turned = 0, area = 0;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const double turn = turn_between(edges[k], edges[k + 1 < edges.size() ? k + 1 : 0]);
+    least = std::min(least, turn);
+    turned += turn;
+    area += cross(edges[k].a - edges[0].a, edges[k].b - edges[0].a);
+  }
+  const bool convex = least >= -kStraight && std::fabs(turned - 2 * pi) < 1e-6;
+  if (!convex && !(area < 0)) return append_chains(edges, to);
+  const std::size_t at = to.size();
+  Emitter run = edges.front();
+  run.shape = convex ? RunShape::closed : RunShape::hole;
+  Box box;
+  for (const Emitter& e : edges) box.add(e.a), run.hull.push_back(e.a);
+  if (!convex) run.hull = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  run.a = run.b = run.center = (box.low + box.high) * 0.5;
+  run.normal = {};
+  run.bound = 0;
+  for (Vec2d v : run.hull) run.bound = std::max(run.bound, length(v - run.center));
+  run.radius = run.bound;
+  to.push_back(run);
+  append_chains(edges, to);
+  to[at].group = to.size() - at;
+}
+
 template <class F>
 void for_each_edge(const Emitter* run, F f) {
   for (std::size_t k = 1; k < run->group; ++k)
@@ -57,43 +115,73 @@ void for_each_edge(const Emitter* run, F f) {
 
 }  // namespace
 
-std::vector<Emitter> with_runs(const std::vector<Emitter>& emitters) {
+std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& emitters) {
   std::vector<Emitter> result;
   for (std::size_t i = 0; i < emitters.size();) {
     std::size_t end = i + 1;
-    double turned = 0;
     // Outlines that run clockwise come with their edges turned round: each then begins where the next one ends.
     bool backwards = false;
+    const bool two_sided = emitters[i].kind == Emitter::Kind::edge && world.curves[emitters[i].curve].two_sided;
     for (; end < emitters.size() && emitters[end].kind == Emitter::Kind::edge && emitters[i].kind == Emitter::Kind::edge; ++end) {
       const Emitter &before = emitters[end - 1], &next = emitters[end];
       const bool back = before.a == next.b && !(before.b == next.a);
+      if (before.body != next.body || world.curves[next.curve].two_sided != two_sided) break;
       if (!back && !(before.b == next.a)) break;
       if (end > i + 1 && back != backwards) break;
       backwards = back;
-      const double turn = back ? turn_between(next, before) : turn_between(before, next);
-      if (std::fabs(turn) > kSharpest || std::fabs(turned + turn) > kMostTurn) break;
-      turned += turn;
     }
-    std::vector<Emitter> run(emitters.begin() + static_cast<std::ptrdiff_t>(i), emitters.begin() + static_cast<std::ptrdiff_t>(end));
-    if (backwards) std::reverse(run.begin(), run.end());
-    append(run.data(), run.size(), result);
+    std::vector<Emitter> strand(emitters.begin() + static_cast<std::ptrdiff_t>(i), emitters.begin() + static_cast<std::ptrdiff_t>(end));
+    if (backwards) std::reverse(strand.begin(), strand.end());
+    if (!two_sided && strand.size() > 2 && strand.back().b == strand.front().a)
+      append_outline(strand, result);
+    else
+      append_chains(strand, result);
     i = end;
   }
   return result;
 }
 
-Facing facing(const Emitter* run, const TileArea& tile) {
-  bool some = false, all = true;
-  const auto look = [&](const Emitter& e) {
-    const double height = dot(e.normal, tile.center - e.a),
-                 reach = std::fabs(e.normal.x) * tile.half.x + std::fabs(e.normal.y) * tile.half.y;
-    some = some || height + reach > 0;
-    all = all && height - reach > kLeastHeight;
+RunView view_of(const Emitter& run, const TileArea& tile) {
+  RunView best{{}, -1e300};
+  const auto look = [&](Vec2d axis) {
+    double least = 1e300;
+    for (Vec2d v : run.hull) least = std::min(least, dot(axis, v - tile.center));
+    least -= std::fabs(axis.x) * tile.half.x + std::fabs(axis.y) * tile.half.y;
+    if (least > best.least) best = {axis, least};
   };
-  for_each_edge(run, look);
+  const Vec2d to = run.center - tile.center;
+  const double d = length(to);
+  if (d > 0) look(to / d);
+  if (d > 2 * run.bound + 2 * tile.radius) return best;
+  if (run.normal.x != 0 || run.normal.y != 0) look(-run.normal);
+  const Vec2d near = nearest_of(region_of(run), tile.center) - tile.center;
+  if (const double l = length(near); l > 0) look(near / l);
+  for (const Vec2d axis : {Vec2d{1, 0}, Vec2d{-1, 0}, Vec2d{0, 1}, Vec2d{0, -1}}) look(axis);
+  return best;
+}
+
+Facing facing(const Emitter& edge, const TileArea& tile) {
+  const double height = dot(edge.normal, tile.center - edge.a),
+               reach = std::fabs(edge.normal.x) * tile.half.x + std::fabs(edge.normal.y) * tile.half.y;
+  if (height + reach <= 0) return Facing::none;
+  return height - reach > kLeastHeight ? Facing::all : Facing::some;
+}
+
+Facing seen_as_one(const Emitter* run, const TileArea& tile) {
+  const bool apart = view_of(*run, tile).least > kLeastHeight;
+  switch (run->shape) {
+    case RunShape::closed: return apart ? Facing::all : Facing::some;
+    case RunShape::hole: return apart ? Facing::none : Facing::some;
+    case RunShape::bowl:
+      // From behind its chord what enters the hull has crossed the run from its other side.
+      if (apart && facing(*run, tile) == Facing::none) return Facing::none;
+      break;
+    case RunShape::bulge: break;
+  }
+  bool some = false;
+  for_each_edge(run, [&](const Emitter& e) { some = some || facing(e, tile) != Facing::none; });
   if (!some) return Facing::none;
-  look(*run);
-  return all ? Facing::all : Facing::some;
+  return apart && facing(*run, tile) == Facing::all ? Facing::all : Facing::some;
 }
 
 bool crosses_run(const Emitter* run, Vec2d p, Vec2d q) {

@@ -21,16 +21,20 @@ struct Emitter {
   Kind kind = Kind::disk;
   int body = 0;
   Vec2d a, b;             // an edge's ends, lit side to the right of a -> b; a disk's or an ellipse's centre, twice
-  double radius = 0;      // disk; of an arc's ellipse, about its centre; of a run, how far from the chord a -> b it reaches
+  double radius = 0;      // disk; of an arc's ellipse, about its centre; of a run, how far from its chord a -> b, or its middle, it reaches
   RadianceEnds radiance;  // of an edge; linear between. Of an arc: a + b dot(ramp, p - centre)
   Vec2d ramp;
   Ellipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
   double tau0 = 0, tau_span = 0;
   bool whole = false;
-  bool wall = false;      // sends on what arrives: uniform, whatever its body is
-  bool hidden = false;    // all of it lies within a blocker: not seen from outside
-  std::size_t group = 1;  // of a run: with the emitters that it stands for, shorter runs and edges, which follow it
-  std::size_t curve = 0;  // of an edge: in World::curves
+  bool wall = false;    // sends on what arrives: uniform, whatever its body is
+  bool hidden = false;  // all of it lies within a blocker: not seen from outside
+  // Of a run (runs.h): with the emitters that it stands for, shorter runs and edges, which follow it; and the convex region that it bounds.
+  std::size_t group = 1;
+  enum class RunShape { bulge, bowl, closed, hole };
+  RunShape shape = RunShape::bulge;
+  std::vector<Vec2d> hull;  // counter-clockwise; of a hole, about it
+  std::size_t curve = 0;    // of an edge: in World::curves
 
   Vec2d center;  // of a bounding circle
   double bound = 0;

@@ -74,7 +74,7 @@ struct TilePart {
   float red, green, blue;                    // at `begin` ...
   float red_slope, green_slope, blue_slope;  // ... and their change per distance along it
   float from_x, from_y, to_x, to_y;          // its ends: where it begins and ends
-  bool small;                                // no pixel is nearer to it than five times its length
+  bool small;                                // it faces all pixels, and none is nearer to it than five times its length
 };
 
 // Directions in which a spot's light arrives: counter-clockwise from low to high.
@@ -90,7 +90,8 @@ struct TileLight {
   TileRound shape;  // disk, arc
   TileArc arc;
   TileSpot spot;
-  // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along.
+  // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along. Run: the normal is against
+  // a direction in which all of it is ahead of every pixel.
   float x, y, radius;
   float nx, ny, begin, end;
   float inverse_range;                       // 0: no range
@@ -99,8 +100,13 @@ struct TileLight {
   int profile;                               // PlaneProfile as int
   bool linear;
 
-  const TilePart* parts;  // of a run whose chord's own integral is not its light
+  const TilePart* parts;  // of a run whose edges shine each in its own way
   int part_count;
+  bool all_parts_seen;            // none of them is hidden by others
+  const TileVertex* low_corners;  // of a run: it is seen from the first of these
+  int low_corner_count;
+  const TileVertex* high_corners;  // to the last of these
+  int high_corner_count;
   const TileVertex* lows;  // ends of blockers that begin before the light
   int low_count;
   const TileVertex* highs;  // begins of blockers that end behind it

@@ -23,18 +23,26 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
   Cut cut;
   cut.kept = light.scratch;
   // Fourth powers of slopes stay within float's range.
-  cut.low = clamp((broadcast(light.begin) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
-  cut.high = clamp((broadcast(light.end) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
+  if (light.low_corner_count > 0) {
+    cut.low = slope_to(light.low_corners[0], axis);
+    for (int n = 1; n < light.low_corner_count; ++n) cut.low = min(cut.low, slope_to(light.low_corners[n], axis));
+    cut.high = slope_to(light.high_corners[0], axis);
+    for (int n = 1; n < light.high_corner_count; ++n) cut.high = max(cut.high, slope_to(light.high_corners[n], axis));
+  } else {
+    cut.low = clamp((broadcast(light.begin) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
+    cut.high = clamp((broadcast(light.end) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
+    cut.high = select(lit, cut.high, cut.low);
+  }
   const PackReal q = d * d * broadcast(light.inverse_range * light.inverse_range);
   if (light.inverse_range > 0.0f && light.part_count == 0) {
     const PackReal reach = sqrt(max(PackReal(1.0) / max(q, PackReal(1e-30)) - PackReal(1.0), PackReal(0.0)));
     cut.low = max(cut.low, -reach);
     cut.high = min(cut.high, reach);
   }
-  cut.high = select(lit, cut.high, cut.low);
   const PackReal low = cut.low, high = cut.high;
   if (cut.dark() || !cut_blockers(light, axis, cut)) return;
-  if (light.part_count > 0) return add_parts(light, tile, i, axis, cut, cut.count == 0 && all_lanes(cut.low <= low && cut.high >= high));
+  if (light.part_count > 0)
+    return add_parts(light, tile, i, axis, cut, light.all_parts_seen && cut.count == 0 && all_lanes(cut.low <= low && cut.high >= high));
 
   const int power = light.profile == 0 ? 0 : 1;
   PackReal constant(0.0), slope(0.0);

@@ -18,7 +18,8 @@ class PartIntegral {
     // Of the run's axis, seen from this one: a slope m of the run is the direction axis + m across.
     cosine_ = axis_.w(run.x, run.y);
     sine_ = axis_.t(run.x, run.y);
-    d_ = max(axis_.w(broadcast(part.x) - axis_.px, broadcast(part.y) - axis_.py), PackReal(1e-6));
+    const PackReal d = axis_.w(broadcast(part.x) - axis_.px, broadcast(part.y) - axis_.py);
+    d_ = max(d, PackReal(1e-6));
     inverse_d_ = PackReal(1.0) / d_;
     foot_ = axis_.t(axis_.px, axis_.py);
     low_ = clamp((broadcast(part.begin) - foot_) * inverse_d_, PackReal(-kBeyond), PackReal(kBeyond));
@@ -29,6 +30,7 @@ class PartIntegral {
       low_ = max(low_, -reach);
       high_ = min(high_, reach);
     }
+    high_ = select(d > PackReal(1e-6), high_, low_);
   }
 
   STERADIAN_INLINE void add(PackReal from, PackReal to) {

@@ -26,7 +26,7 @@ constexpr int kLevels = 5;
 struct Entry {
   int emitter;
   std::size_t begin, end;  // its blockers in the level's list
-  std::size_t group = 1;   // with the entries of what it stands for, which follow it; a run without them faces all of the tile
+  std::size_t group = 1;  // with the entries of what it stands for, which follow it; a run without them is seen as one from all of the tile
 };
 
 struct Level {
@@ -105,7 +105,7 @@ class Worker {
   void take_first(std::size_t index, const TileArea& tile, Level& to) {
     const Emitter& e = frame_.emitters[index];
     const bool whole = frame_.whole_run[index] != 0;
-    const Facing faces = is_run(e) ? facing(&e, tile) : Facing::all;
+    const Facing faces = is_run(e) ? seen_as_one(&e, tile) : Facing::all;
     if (faces == Facing::none) return;
     const std::size_t at = to.entries.size();
     if (!is_run(e) || whole) {
@@ -121,7 +121,7 @@ class Worker {
   // The same of entries of the level above, the first one and what it stands for.
   void take(const Level& from, std::size_t first, const TileArea& tile, Level& to) {
     const Entry& entry = from.entries[first];
-    const Facing faces = entry.group > 1 ? facing(&frame_.emitters[static_cast<std::size_t>(entry.emitter)], tile) : Facing::all;
+    const Facing faces = entry.group > 1 ? seen_as_one(&frame_.emitters[static_cast<std::size_t>(entry.emitter)], tile) : Facing::all;
     if (faces == Facing::none) return;
     const std::size_t at = to.entries.size();
     if (!filter(entry.emitter, from.blockers, entry.begin, entry.end, tile, to) || faces == Facing::all) return;
@@ -146,10 +146,7 @@ class Worker {
     const double length2 = dot(axis, axis), reach = e.range + bound + half;
     if (e.hidden || length2 >= reach * reach) return false;
     if (e.kind == Emitter::Kind::arc && !e.whole && faces_away(e, tile)) return false;
-    if (e.kind == Emitter::Kind::edge && !is_run(e)) {
-      const Vec2d n = e.normal;
-      if (dot(n, tile.center - e.a) + std::fabs(n.x) * tile.half.x + std::fabs(n.y) * tile.half.y <= 0) return false;
-    }
+    if (e.kind == Emitter::Kind::edge && !is_run(e) && facing(e, tile) == Facing::none) return false;
     to.blockers.reserve_more(end - begin);
     if (hiders_.size() < end - begin) hiders_.resize(2 * (end - begin));
     const std::size_t first = to.blockers.size,

@@ -56,7 +56,7 @@ std::vector<Emitter> wall_emitters(const PlaneBounces::Impl& bounces, WallLight 
     e.range = std::numeric_limits<double>::infinity();
     result.push_back(e);
   }
-  return with_runs(result);
+  return with_runs(world, result);
 }
 
 }  // namespace steradian::plane
