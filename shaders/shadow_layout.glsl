@@ -3,12 +3,13 @@
 
 // Groups of points, vectors of four uints each, the headers of all of them first. Where a vector holds floats, it holds their bits.
 //   0  where the vertices, planes and edges begin; number of edges
-//   1  where the incidences, corners and points begin; number of corners
+//   1  where the incidences, corners and points begin; number of corners, kOwnCorners more where each point has its own
 //   2  number of points, of their first answer; half sides of the box
-//   3  height below which edges block; axis x of the light's frame
-//   4  half side x of the light; axis y
-//   5  half side y; axis z
+//   3  axis x of the light's frame; half side of the light along it
+//   4  axis y; half side
+//   5  axis z; height below which edges block
 const int kShadowHeader = 6;
+const int kOwnCorners = 65536;
 // Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. Those of
 // more than two triangles: where in the incidences theirs begin, and how many. Incidences: plane, walk, four a vector. Corners: cells of
 // the outline's edge that begins there; numbers of its ends.
@@ -20,8 +21,11 @@ const int kManyWalks = 16;
 const int kAgainst = 65536;  // of an incidence
 const int kShadowCorner = 2;
 
-// Points: place in the frame, flags; shading normal; cells of the horizons by it and by the triangle.
+// Points: place in the frame, flags; shading normal; cells of the horizons by it and by the triangle. Of a light that each sees in a
+// plane of its own, then that plane: 3, 4 and 5 of the header; the frame's origin, half side of the box; place in the coordinates
+// of the edges, other half side. Then the cells of its own corners.
 const int kShadowPoint = 4;
+const int kShadowPlane = 5;
 const int kArranged = 1;      // even if no occluder is seen
 const int kCutByTriangle = 2;
 const int kHorizon = 4;       // twice that: of the triangle

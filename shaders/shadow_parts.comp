@@ -7,6 +7,8 @@
 
 layout(constant_id = 0) const int SEGMENT_SPACE = 32;
 layout(constant_id = 1) const int PIECE_SPACE = 32;
+layout(constant_id = 2) const int TURNED_LIGHTS = 0;  // 1: each point sees the light in a plane of its own
+const bool TURNED = TURNED_LIGHTS == 1;
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Groups { uvec4 groups[]; };
@@ -29,18 +31,18 @@ layout(push_constant) uniform Push { uint first_group; };
 #include "shadow_count.glsl"
 #include "shadow_region.glsl"
 
-// Of the light in work.
+// Of the part in work.
 struct View {
-    vec3 eye;
+    Eye eye;
     vec3 normal;
     vec2 scale;  // of cells
-    vec2 extent; // half sides of the light
-    mat3 axes;
 };
+
+vec3 relative(View view, vec2 on_plane) { return view.eye.axes * vec3(on_plane - view.eye.eye.xy, view.eye.eye.z); }
 
 // A place in cells, relative to the point; on or above its horizon, so that no rounding puts an edge below.
 vec3 corner_at(View view, vec2 cell) {
-    vec3 d = view.axes * vec3(cell * view.scale - view.eye.xy, view.eye.z);
+    vec3 d = relative(view, cell * view.scale);
     return d + view.normal * max(1.0e-6 * length(d) - dot(d, view.normal), 0.0);
 }
 
@@ -75,11 +77,12 @@ void write_record(View view, Moments m, vec2 about, uint at, uint places, uint a
     float turn = 0.5 * atan(2.0 * second.y, second.x - second.z);
     vec2 along = vec2(cos(turn), sin(turn));
     vec2 reach = sqrt(max(2.0 * vec2(middle + apart, middle - apart), 0.0));
-    bool small = m.area > 0.0 && dot(view.eye, view.eye) > 100.0 * dot(view.extent, view.extent);  // kNeverSmall
-    parts[at] = vec4(view.axes * vec3(about * view.scale + c - view.eye.xy, view.eye.z), float(places));
-    parts[at + 1u] = vec4(view.axes * vec3(along, 0.0) * reach.x, small ? dot(reach, reach) / 2.0 : 1.0e30);
-    parts[at + 2u] = vec4(view.axes * vec3(-along.y, along.x, 0.0) * reach.y, 1.0);
-    parts[at + 3u] = vec4(-view.axes[2] * m.area, float(ahead));
+    Eye eye = view.eye;
+    bool small = m.area > 0.0 && dot(eye.eye, eye.eye) > 100.0 * dot(eye.extent, eye.extent);  // kNeverSmall
+    parts[at] = vec4(relative(view, about * view.scale + c), float(places));
+    parts[at + 1u] = vec4(eye.axes * vec3(along, 0.0) * reach.x, small ? dot(reach, reach) / 2.0 : 1.0e30);
+    parts[at + 2u] = vec4(eye.axes * vec3(-along.y, along.x, 0.0) * reach.y, 1.0);
+    parts[at + 3u] = vec4(-eye.axes[2] * m.area, float(ahead));
 }
 
 void write_part(View view, vec2 inside, uint at, uint ahead) {
@@ -94,17 +97,39 @@ void write_part(View view, vec2 inside, uint at, uint ahead) {
 }
 
 // The polygon that stands for a round light, one contour, behind room for the sums.
-void write_polygon(View view, uint corners, uint corner_count, uint at) {
+void write_polygon(View view, Corners corners, uint at) {
     for (int i = 0; i < kPartSums; i++) parts[at + uint(i)] = vec4(0.0);
     at += uint(kPartSums);
     Moments m = moments_begin();
-    for (uint i = 0u; i < corner_count; i++) {
-        vec4 edge = vec4(ivec4(groups[corners + 2u * i])) * view.scale.xyxy;
+    for (uint i = 0u; i < corners.count; i++) {
+        vec4 edge = vec4(corner_cells(corners, i)) * view.scale.xyxy;
         m = moments_add(m, edge.xy, edge.zw);
-        if (i == 0u) parts[at + uint(kPartHeader)] = vec4(view.axes * vec3(edge.xy - view.eye.xy, view.eye.z), 0.0);
-        parts[at + uint(kPartHeader) + i + 1u] = vec4(view.axes * vec3(edge.zw - view.eye.xy, view.eye.z), 1.0);
+        if (i == 0u) parts[at + uint(kPartHeader)] = vec4(relative(view, edge.xy), 0.0);
+        parts[at + uint(kPartHeader) + i + 1u] = vec4(relative(view, edge.zw), 1.0);
     }
-    write_record(view, m, vec2(0.0), at, corner_count + 1u, 0u);
+    write_record(view, m, vec2(0.0), at, corners.count + 1u, 0u);
+}
+
+Eye eye_at(uint at, uint header) {
+    uint plane = TURNED ? at + uint(kShadowPoint) : header + 3u;
+    vec4 x = uintBitsToFloat(groups[plane]);
+    vec4 y = uintBitsToFloat(groups[plane + 1u]);
+    vec4 z = uintBitsToFloat(groups[plane + 2u]);
+    Eye eye;
+    eye.eye = uintBitsToFloat(groups[at].xyz);
+    eye.at = vec3(eye.eye.xy, -eye.eye.z);
+    eye.box = uintBitsToFloat(groups[header + 2u].zw);
+    eye.height = z.w;
+    eye.axes = mat3(x.xyz, y.xyz, z.xyz);
+    eye.extent = vec2(x.w, y.w);
+    if (TURNED) {
+        vec4 origin = uintBitsToFloat(groups[plane + 3u]);
+        vec4 place = uintBitsToFloat(groups[plane + 4u]);
+        eye.origin = origin.xyz;
+        eye.at = place.xyz;
+        eye.box = vec2(origin.w, place.w);
+    }
+    return eye;
 }
 
 void main() {
@@ -114,19 +139,14 @@ void main() {
     if (number >= h2.x) return;
     uvec4 begins = groups[header];
     uvec4 h1 = groups[header + 1u];
-    vec4 h3 = uintBitsToFloat(groups[header + 3u]);
-    vec4 h4 = uintBitsToFloat(groups[header + 4u]);
-    vec4 h5 = uintBitsToFloat(groups[header + 5u]);
-    uint at = h1.z + uint(kShadowPoint) * number;
-    uvec4 first = groups[at];
-    int flags = int(first.w);
+    uint vectors = uint(kShadowPoint + (TURNED ? kShadowPlane : 0));
+    Corners corners = Corners(h1.y, 0u, h1.w % uint(kOwnCorners));
+    bool own = h1.w >= uint(kOwnCorners);
+    uint at = h1.z + number * (vectors + (own ? corners.count : 0u));
+    if (own) corners.own = at + vectors;
+    int flags = int(groups[at].w);
     int base = kHidden * (flags / kBase);
-
-    Eye eye;
-    eye.eye = uintBitsToFloat(first.xyz);
-    eye.at = vec3(eye.eye.xy, -eye.eye.z);
-    eye.box = uintBitsToFloat(h2.zw);
-    eye.height = h3.x;
+    Eye eye = eye_at(at, header);
 
     segment_count = 0;
     piece_count = 0;
@@ -135,7 +155,7 @@ void main() {
     bool occluded = segment_count > 0;
     uvec4 answer = uvec4(0u, 0u, uint(kSeesWhole), 0u);
     if (!too_much && (occluded || (flags & kArranged) != 0)) {
-        see_surroundings(h1.y, h1.w, at, flags);
+        see_surroundings(corners, at, flags);
         cut_segments(base);
         vec3 place = vec3(0.0);
         bool wide = !too_much && piece_count > 0 && region_is_wide();
@@ -146,20 +166,15 @@ void main() {
         } else if (piece_count == 0) {
             answer.z = uint(kSeesNone);
         } else if (occluded || (flags & kCutByTriangle) != 0) {
-            View view;
-            view.eye = eye.eye;
-            view.normal = uintBitsToFloat(groups[at + 1u].xyz);
-            view.scale = eye.box * kCellSize;
-            view.axes = mat3(h3.yzw, h4.yzw, h5.yzw);
-            view.extent = vec2(h4.x, h5.x);
+            View view = View(eye, uintBitsToFloat(groups[at + 1u].xyz), eye.box * kCellSize);
             bool shares = (flags & kShares) != 0;
             uint room = uint(kPartHeader + 2 * piece_count);
-            uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + h1.w + 1u : 0u;
+            uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + corners.count + 1u : 0u;
             uint begin = atomicAdd(parts_used, room + room_of_polygon);
-            answer.w = max(uint(piece_count), shares ? h1.w : 0u);
+            answer.w = max(uint(piece_count), shares ? corners.count : 0u);
             if (begin + room + room_of_polygon <= parts_room) {
                 write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
-                if (shares) write_polygon(view, h1.y, h1.w, parts_begin + begin + room);
+                if (shares) write_polygon(view, corners, parts_begin + begin + room);
                 answer.z = uint(kSeesPart) + parts_begin + begin;
             } else {
                 answer.z = uint(kNoRoom);

@@ -23,12 +23,19 @@ void add_segment(ivec4 ends, uvec2 named, int weight) {
     ++segment_count;
 }
 
+// A point before a light's plane.
 struct Eye {
-    vec3 at;       // in the light's frame, below its plane
-    vec3 eye;      // shadow_project
+    vec3 at;       // in the coordinates of the edges
+    vec3 eye;      // in the light's frame, below its plane: shadow_project
     vec2 box;
     float height;  // only what lies below blocks
+    mat3 axes;     // of the light's frame
+    vec3 origin;   // of a frame that is not the edges' own
+    vec2 extent;   // half sides of the light
 };
+
+// A vertex in the light's frame.
+vec3 place_of(Eye eye, vec3 v) { return TURNED ? (v - eye.origin) * eye.axes : v; }
 
 const int kAboveOut = 16;  // beside one bit for each side: left, right, bottom, top
 
@@ -109,8 +116,8 @@ void see_edges(Eye eye, uvec4 begins, uint incidences) {
         for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
             uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
             uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
-            vec3 v0 = uintBitsToFloat(bits0.xyz);
-            vec3 v1 = uintBitsToFloat(bits1.xyz);
+            vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
+            vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
             End a = look_at(eye, v0);
             End b = look_at(eye, v1);
             bool above_a = (a.outside & kAboveOut) != 0;
@@ -129,11 +136,19 @@ void see_edges(Eye eye, uvec4 begins, uint incidences) {
     }
 }
 
+// The edges of a light's outline, in cells.
+struct Corners {
+    uint first;  // of the group's
+    uint own;    // of the point's, or 0
+    uint count;
+};
+ivec4 corner_cells(Corners c, uint i) { return ivec4(groups[c.own > 0u ? c.own + i : c.first + 2u * i]); }
+
 // The outline, and the horizons that the host found.
-void see_surroundings(uint corners, uint corner_count, uint at, int flags) {
-    for (uint i = 0u; i < corner_count; i++) {
-        uvec4 named = groups[corners + 2u * i + 1u];
-        add_segment(ivec4(groups[corners + 2u * i]), kCornerName | named.xy, -kHidden);
+void see_surroundings(Corners c, uint at, int flags) {
+    for (uint i = 0u; i < c.count; i++) {
+        uvec4 named = groups[c.first + 2u * i + 1u];
+        add_segment(corner_cells(c, i), kCornerName | named.xy, -kHidden);
     }
     for (int h = 0; h < 2; h++) {
         if ((flags & (kHorizon << h)) == 0) continue;

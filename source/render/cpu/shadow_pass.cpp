@@ -69,19 +69,24 @@ ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result
 void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts,
                       ShadowTaker* taker) const {
   Work& work = begin(points, result, counts, taker);
-  const Flat& flat = flats_[light.index];
   if (!light.is_area())
     find_punctual(tile, light, work);
-  else if (!flat.polygon.vertices.empty())
-    find_flat(points.groups, light, flat, work);
   else
-    find_round(points.groups, light, flat, work);
+    find_area(points.groups, light, work);
   result.batch_parts();
 }
 
-void ShadowPass::find_flat_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const {
-  find_flat(points.groups, light, flats_[light.index], begin(points, result, counts, nullptr));
+void ShadowPass::find_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const {
+  find_area(points.groups, light, begin(points, result, counts, nullptr));
   result.batch_parts();
+}
+
+void ShadowPass::find_area(const PointGroups& groups, const PackLight& light, Work& work) const {
+  const Flat& flat = flats_[light.index];
+  if (!flat.polygon.vertices.empty())
+    find_flat(groups, light, flat, work);
+  else
+    find_round(groups, light, flat, work);
 }
 
 void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const {
@@ -144,12 +149,13 @@ void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, co
 void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const {
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
-  if (!by_rays && !empty && work.in_lanes && !work.cut_outs && !work.group.has_crossing()) {
-    if (work.taker != nullptr && !work.turned &&
-        work.taker->find(*side_at(slots.front()), work.whole_outline, work.group, slots, *work.points)) {
-      for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
-      return;
-    }
+  const bool even = !by_rays && !empty && !work.cut_outs && !work.group.has_crossing();
+  if (even && work.taker != nullptr &&
+      work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {
+    for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
+    return;
+  }
+  if (even && work.in_lanes) {
     const LightSide* sides[shadow::kPoints];
     std::uint32_t of[shadow::kPoints];
     std::size_t count = 0;

@@ -38,8 +38,8 @@ class ShadowPass {
   // taker: where it is not null, some groups are its to find.
   void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts,
             ShadowTaker* taker = nullptr) const;
-  // The same for some points in their slots, before a flat light.
-  void find_flat_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
+  // The same for some points in their slots, before an area light.
+  void find_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
 
  private:
   struct Flat {
@@ -49,11 +49,11 @@ class ShadowPass {
   };
   struct Work;
   Work& begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const;
+  void find_area(const PointGroups& groups, const PackLight& light, Work& work) const;
   void find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
   void find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
-  // The side of the light that a slot sees, or null. It may be the same for all, or stay valid for sixteen calls.
-  using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
+  using SideAt = ShadowTaker::SideAt;
   // work.group holds what the group needs.
   void find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const;
   void gather_round(const Flat& flat, const shadow::Shaft& shaft, Work& work) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "render/cpu/shadow_side.h"
@@ -15,11 +16,20 @@ class ShadowTaker {
   virtual ~ShadowTaker() = default;
   // Whether it lights points by this light, which it then takes.
   virtual bool lights(const PackLight& light) const = 0;
-  // Whether it finds what a group of points sees of a flat light behind these edges, among which is no triangle that crosses the light's
-  // plane. Such points are Seen::elsewhere. points: by slot. The side stays. shares: of a light, for which the outline stands: what
-  // counts is the share of the outline's light that a part sends.
-  virtual bool find(const LightSide& side, bool shares, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
-                    const std::vector<shadow::Viewpoint>& points) = 0;
+
+  // The side of a light that a slot sees, or null. It may be the same for all and stay, or be valid for sixteen calls.
+  using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
+  // Points before an area light, and the edges between; no triangle among these crosses the light's plane.
+  struct Group {
+    const shadow::EdgeArrays& edges;
+    const shadow::LightFrame* base;  // in whose coordinates they are, where each point sees a side of its own; else null
+    bool shares;                     // of the outline's light count: what share of it a part sends
+    const std::vector<std::uint32_t>& slots;
+    const std::vector<shadow::Viewpoint>& points;  // by slot
+    const SideAt& side_at;
+  };
+  // Whether it finds what they see. They are Seen::elsewhere then.
+  virtual bool find(const Group& group) = 0;
   // How the light reaches the tile; after find() for its groups.
   virtual void take(const PackLight& light, const TileShadow& shadow) = 0;
 };

@@ -96,9 +96,9 @@ std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const 
   return add_past_blockers(tile, lights, work, taker);
 }
 
-const TileShadow& TileLighting::find_flat_at(const TilePoints& points, const PackLight& light) {
+const TileShadow& TileLighting::find_at(const TilePoints& points, const PackLight& light) {
   Work& work = *work_.local();
-  shadow_clock_.run([&] { shadows_->find_flat_at(points, light, work.shadow, work.counts); });
+  shadow_clock_.run([&] { shadows_->find_at(points, light, work.shadow, work.counts); });
   return work.shadow;
 }
 

@@ -39,8 +39,8 @@ class TileLighting {
   // ... of those of them before which something does stand, and returns the others. Coats with a normal of their own are done with for
   // good: they weigh nothing in the tile then. taker: where it is not null, some lights are its to add.
   std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker = nullptr);
-  // What some points see of a flat light. It stays until the thread asks for more.
-  const TileShadow& find_flat_at(const TilePoints& points, const PackLight& light);
+  // What some points see of an area light. It stays until the thread asks for more.
+  const TileShadow& find_at(const TilePoints& points, const PackLight& light);
 
   PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
   PassTime specular_time(int threads) const { return specular_clock_.time(threads); }

@@ -279,16 +279,22 @@ TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
   options.shadows = Shadows::on;
   const std::pair<const char*, Shape> lights[] = {
       {"under a disk", Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}},
-      {"under a ball", Ellipsoid{{0, 2.6, 0}, {0.7, 0, 0}, {0, 0.7, 0}, {0, 0, 0.7}}},
-      {"under an ellipsoid", Ellipsoid{{0, 2.6, 0}, {0.9, 0.2, 0}, {-0.1, 0.4, 0}, {0, 0, 0.6}}},
+      {"under a ball", Ellipsoid{{0, 2.7, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}}},
+      {"under an ellipsoid", Ellipsoid{{0, 2.9, 0}, {0.6, 0.1, 0}, {-0.05, 0.3, 0}, {0, 0, 0.4}}},
       {"under a tube", Capsule{{-0.9, 2.4, 0.2}, {0.8, 2.6, 0}, 0.1}},
   };
-  for (const auto& [name, light] : lights)
+  for (const auto& [name, light] : lights) {
+    const Scene scene = under_triangles(12, light);
     for (const char* method : {"auto", "ltc-compact", "representative-point"}) {
       options.method = method;
       // One point for all of a light jumps from edge to edge, and shares divide two of them.
-      expect_same(name, under_triangles(12, light), options, std::string(method) == "representative-point" ? 2 : 0);
+      expect_same(name, scene, options, std::string(method) == "representative-point" ? 2 : 0);
     }
+    // The planes through which tubes are seen may pass the triangles.
+    if (!std::holds_alternative<Capsule>(light)) {
+      EXPECT_EQ(shadow_on_host(scene, options), 0) << name;
+    }
+  }
 }
 
 TEST_F(VulkanFrame, SaysWhatTheHostLights) {

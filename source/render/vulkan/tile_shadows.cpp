@@ -16,7 +16,7 @@ constexpr std::size_t kMostEdges = 1024, kMostIncidences = 1024;  // of a group:
 constexpr std::uint32_t kMostNumber = 1 << 27;                    // of a vertex or edge: names have 28 bits
 constexpr std::size_t kMostPlaces = 1 << 16;                      // of vertices and planes in a group
 
-static_assert(std::tuple_size_v<decltype(TileShadows::Group::header)> == 4 * static_cast<std::size_t>(kShadowHeader));
+static_assert(std::tuple_size_v<decltype(TileShadows::Search::header)> == 4 * static_cast<std::size_t>(kShadowHeader));
 
 std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 std::uint32_t bits(double x) { return bits(static_cast<float>(x)); }
@@ -102,6 +102,21 @@ void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vec
   for (const shadow::Segment& h : horizons) rows.add(h);
 }
 
+using FourBits = std::array<std::uint32_t, 4>;
+FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
+
+// 3, 4 and 5 of a header.
+std::array<FourBits, 3> plane_of(const shadow::LightFrame& f) {
+  return {with_bits(f.axes.x, f.half_x), with_bits(f.axes.y, f.half_y), with_bits(f.axes.z, -f.eta)};
+}
+
+void add_plane(const LightSide& side, const shadow::LightFrame& base, const Viewpoint& at, std::vector<std::uint32_t>& values) {
+  const shadow::LightFrame& f = side.frame;
+  for (const FourBits& row : plane_of(f)) values.insert(values.end(), row.begin(), row.end());
+  for (const FourBits& row : {with_bits(base.to_local(f.origin), f.box_x), with_bits(base.to_local(at.position), f.box_y)})
+    values.insert(values.end(), row.begin(), row.end());
+}
+
 bool is_one_contour(const std::vector<shadow::Segment>& outline) {
   return std::adjacent_find(outline.begin(), outline.end(),
                             [](const shadow::Segment& e, const shadow::Segment& next) { return e.b.id != next.a.id; }) == outline.end();
@@ -115,12 +130,13 @@ void TileShadows::clear() {
   groups.clear();
   values.clear();
   points.clear();
+  sides.clear();
 }
 
 bool TileShadows::lights(const PackLight& light) const { return shaders_have(light); }
 
-bool TileShadows::find(const LightSide& side, bool shares, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
-                       const std::vector<Viewpoint>& at) {
+bool TileShadows::find(const Group& asked) {
+  const shadow::EdgeArrays& edges = asked.edges;
   const shadow::LaneEdges all = edges.lane_edges();
   if (all.edge_count > kMostEdges || all.vertex_count >= kMostPlaces || all.plane_count >= kMostPlaces) return false;
   for (std::size_t i = 0; i < all.edge_count; ++i)
@@ -129,32 +145,58 @@ bool TileShadows::find(const LightSide& side, bool shares, const shadow::EdgeArr
     if (edges.vertex_number(i) >= kMostNumber) return false;
   std::size_t incidences = 0;
   for (std::size_t i = 0; i < all.more_count; ++i) incidences += all.more[i].count;
-  const std::size_t corners = side.outline->size();
-  if (shares && !is_one_contour(*side.outline)) return false;
-  if (incidences > kMostIncidences || corners + 2 > static_cast<std::size_t>(kSpaces.back()) / 2) return false;
+  if (incidences > kMostIncidences) return false;
 
-  Group group{};
+  // The sides, and whether their outlines are one.
+  const std::size_t sides_before = sides.size();
+  std::vector<Point> found;
+  bool own_corners = false;
+  for (const std::uint32_t slot : asked.slots) {
+    const LightSide* side = asked.side_at(slot);
+    if (side == nullptr) continue;
+    if (asked.base != nullptr) side = &sides.emplace_back(*side);
+    found.push_back({whole(by_light.size()), slot, side, asked.shares, asked.points[slot]});
+    own_corners |= side->outline != found.front().side->outline;
+  }
+  if (found.empty()) return true;
+  const std::vector<shadow::Segment>& outline = *found.front().side->outline;
+  const std::size_t corners = outline.size();
+  const bool fits = corners + 2 <= static_cast<std::size_t>(kSpaces.back()) / 2 && (!asked.shares || is_one_contour(outline)) &&
+                    std::all_of(found.begin(), found.end(), [&](const Point& p) { return p.side->outline->size() == corners; });
+  if (!fits) {
+    sides.resize(sides_before);
+    return false;
+  }
+
+  Search group{};
   const std::size_t segments = all.edge_count + corners + 2;
   group.space = *std::find_if(kSpaces.begin(), kSpaces.end() - 1, [&](int space) { return static_cast<std::size_t>(space) >= segments; });
+  group.turned = asked.base != nullptr;
   add_edges(edges, values, group.header);
   Rows rows(values);
   group.header[5] = rows.size();
-  for (const shadow::Segment& s : *side.outline) {
+  for (const shadow::Segment& s : outline) {
     rows.add(s);
     rows.add(static_cast<std::uint32_t>(s.a.id & ~shadow::kCornerId), static_cast<std::uint32_t>(s.b.id & ~shadow::kCornerId), 0, 0);
   }
   group.header[6] = rows.size();
-  group.header[7] = whole(corners);
-  const shadow::LightFrame& f = side.frame;
-  const std::uint32_t rest[] = {whole(slots.size()), whole(points.size()), bits(f.box_x),    bits(f.box_y),
-                                bits(-f.eta),        bits(f.axes.x.x),     bits(f.axes.x.y), bits(f.axes.x.z),
-                                bits(f.half_x),      bits(f.axes.y.x),     bits(f.axes.y.y), bits(f.axes.y.z),
-                                bits(f.half_y),      bits(f.axes.z.x),     bits(f.axes.z.y), bits(f.axes.z.z)};
-  std::copy(std::begin(rest), std::end(rest), group.header.begin() + 8);
-  for (const std::uint32_t slot : slots) {
-    add_point(side, at[slot], shares, values);
-    points.push_back({whole(by_light.size()), slot, &side, shares, at[slot]});
+  group.header[7] = whole(corners) + (own_corners ? flag(kOwnCorners) : 0u);
+  group.header[8] = whole(found.size());
+  group.header[9] = whole(points.size());
+  if (!group.turned) {
+    const shadow::LightFrame& f = found.front().side->frame;
+    group.header[10] = bits(f.box_x);
+    group.header[11] = bits(f.box_y);
+    const std::array<FourBits, 3> plane = plane_of(f);
+    for (std::size_t i = 0; i < plane.size(); ++i) std::copy(plane[i].begin(), plane[i].end(), group.header.begin() + 12 + 4 * i);
   }
+  for (const Point& point : found) {
+    add_point(*point.side, point.at, asked.shares, values);
+    if (group.turned) add_plane(*point.side, *asked.base, point.at, values);
+    if (own_corners)
+      for (const shadow::Segment& s : *point.side->outline) rows.add(s);
+  }
+  points.insert(points.end(), found.begin(), found.end());
   groups.push_back(group);
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "render/cpu/shadow_taker.h"
@@ -19,8 +20,7 @@ class TileShadows : public ShadowTaker {
   void clear();
 
   bool lights(const PackLight& light) const override;
-  bool find(const LightSide& side, bool shares, const shadow::EdgeArrays& edges, const std::vector<std::uint32_t>& slots,
-            const std::vector<shadow::Viewpoint>& points) override;
+  bool find(const Group& group) override;
   void take(const PackLight& light, const TileShadow& shadow) override;
 
   // Writes what some slots of a light see.
@@ -38,15 +38,17 @@ class TileShadows : public ShadowTaker {
     bool shares;
     shadow::Viewpoint at;
   };
-  struct Group {
+  struct Search {
     std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
     int space;                             // for segments: a thread's
+    bool turned;                           // each point sees the light in a plane of its own
   };
   std::vector<Light> by_light;
   std::vector<Vec4Floats> records;  // of parts
-  std::vector<Group> groups;
+  std::vector<Search> groups;
   std::vector<std::uint32_t> values;  // of groups
   std::vector<Point> points;
+  std::deque<LightSide> sides;  // that do not stay elsewhere
 
  private:
   std::size_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
