@@ -19,7 +19,8 @@ inline constexpr int kAllBounces = -1;
 
 struct PlaneBounceOptions {
   int bounces = kAllBounces;  // how often light is sent on, at most
-  double tolerance = 1e-3;    // elements are halved where they are further off than this share of the brightest wall
+  double tolerance = 1e-3;    // elements are halved where they are further off than this share of the brightest wall, short ones where
+                              // they are further off by as much as they are shorter than a 32nd of the picture
   Limits limits;
 };
 

@@ -6,8 +6,12 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/budget.h"
+#include "plane/bounce/fixed_point.h"
+#include "plane/bounce/outlook.h"
+#include "plane/bounce/rows.h"
 #include "plane/bounce/weigh.h"
 #include "plane/extras/extras.h"
 #include "steradian/error.h"
@@ -21,7 +25,7 @@ constexpr double kMostAlbedo = 0.98;  // of all bounces: a closed white room wou
 constexpr double kInitialParts = 32;  // elements to the picture's larger side, before any is halved
 constexpr int kMostRounds = 5;
 constexpr int kMostSweeps = 2000;
-constexpr double kSettled = 1e-7;         // a sweep that changes less than this share of the brightest node is the last
+constexpr double kSettled = 1e-14;        // a sweep that changes less than this share of the brightest is the last
 constexpr double kErrorSettled = 1e-3;    // the same of what errors are estimated to be
 constexpr double kRoughlySettled = 1e-4;  // while elements are still halved
 
@@ -29,99 +33,131 @@ double largest(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::
 Vec3d times(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 Vec3d magnitude(Vec3d v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
-// What a point of a wall sees: pieces of walls in front of it, and the light that arrives at once.
+// What a point of a wall sees: parts of walls in front of it, and the light that arrives at once.
 struct Node {
   ElementPlace place;
-  std::vector<Visible> walls;
+  std::vector<SeenPart> walls;
   Vec3d direct;  // integral of radiance times the cosine
-
-  // Parts of what is seen that lie in front.
-  template <class F>
-  static void for_each_in_front(const Visible& v, double middle, F f) {
-    for (int turn = -1; turn <= 1; ++turn) {
-      Visible part = v;
-      part.begin = std::max(v.begin, middle - 0.5 * pi + 2 * pi * turn);
-      part.end = std::min(v.end, middle + 0.5 * pi + 2 * pi * turn);
-      if (part.end > part.begin) f(part);
-    }
-  }
 };
 
-// All of the curve behind the line through a point, which a normal points away from.
-bool lies_behind(const Curve& c, Vec2d at, Vec2d normal) {
-  if (c.kind == Curve::Kind::segment) return dot(c.a - at, normal) < 0 && dot(c.b - at, normal) < 0;
-  return dot(c.ellipse.center - at, normal) < -std::hypot(dot(c.ellipse.x, normal), dot(c.ellipse.y, normal));
-}
-
-Node look(const World& world, const Elements& elements, const Element& element, double share) {
+Node look(const World& world, const Outlook& outlook, const Elements& elements, const Element& element, double share) {
   Node node;
   node.place = place_on(world, element, share);
   const Vec2d at = node.place.at, normal = node.place.normal;
   if (!is_open(world, node.place)) return node;
-  thread_local std::vector<const Curve*> curves;
-  curves.clear();
-  for (std::size_t c = 0; c < world.curves.size(); ++c)
-    if (c != element.curve && !lies_behind(world.curves[c], at, normal)) curves.push_back(&world.curves[c]);
+  thread_local std::vector<SeenPart> parts;
+  outlook.look(&world.curves[element.curve], at, normal, parts);
   PlaneLight lights;
-  for (const Visible& v : lower_envelope(curves, at, world.scene.bodies, {-1})) {
-    const auto& light = world.scene.bodies[static_cast<std::size_t>(v.curve->body)].light;
-    Node::for_each_in_front(v, angle_of(normal), [&](const Visible& part) {
-      if (light) add_emission(part, *light, at, EmissionParts::radiance_and_moments, lights);
-      if (elements.reflects(part, world)) node.walls.push_back(part);
-    });
+  for (const SeenPart& part : parts) {
+    if (const auto& light = world.scene.bodies[static_cast<std::size_t>(part.curve->body)].light) {
+      const SeenAngles angles = angles_of(part, normal);
+      for (int k = 0; k < angles.count; ++k) add_emission(angles.parts[k], *light, at, EmissionParts::radiance_and_moments, lights);
+    }
+    if (elements.reflects(part, world)) node.walls.push_back(part);
   }
   node.direct = lights.moment_x * normal.x + lights.moment_y * normal.y;
   return node;
 }
 
-// The integral of what the elements send, over the directions of a node's pieces, times the cosine.
+// The integral of what the elements send, over the directions of a node's parts, times the cosine.
 class Row {
  public:
-  struct Weight {
-    std::size_t element;
-    double constant, slope;
-  };
-
   Row() = default;
-  Row(const World& world, const Elements& elements, const Node& node) {
-    for (const Visible& v : node.walls) add(world, elements, node, v);
+  Row(const RowsTable& table, const World& world, const Elements& elements, const Node& node) {
+    Making& making = begin();
+    for (std::size_t k = 0; k < node.walls.size(); ++k) add(world, elements, node, k, making);
+    finish(table, node.place.normal, making);
   }
 
   // After some elements have been halved: what other walls send stays as it is.
-  void follow(const World& world, const Elements& before, const Elements& elements, const Node& node) {
-    const Row old = std::move(*this);
-    *this = {};
+  void follow(const RowsTable& table, const World& world, const Elements& before, const Elements& elements, const Node& node) {
+    Making& making = begin();
     std::size_t at = 0;
     for (std::size_t k = 0; k < node.walls.size(); ++k) {
       const auto [was_first, was_last] = before.of(node.walls[k], world);
       const auto [first, last] = elements.of(node.walls[k], world);
+      const std::size_t end = ends_[k];
       if (last - first != was_last - was_first) {
-        add(world, elements, node, node.walls[k]);
+        add(world, elements, node, k, making);
       } else {
-        for (std::size_t i = at; i < old.ends_[k]; ++i)
-          weights_.push_back({old.weights_[i].element - was_first + first, old.weights_[i].constant, old.weights_[i].slope});
-        ends_.push_back(weights_.size());
+        for (std::size_t i = at; i < end; ++i) making.elements.push_back(static_cast<std::uint32_t>(elements_[i] - was_first + first));
+        making.weights.insert(making.weights.end(), weights_.begin() + static_cast<std::ptrdiff_t>(at),
+                              weights_.begin() + static_cast<std::ptrdiff_t>(end));
+        making.part_ends.push_back(making.weights.size());
       }
-      at = old.ends_[k];
+      at = end;
     }
+    finish(table, node.place.normal, making);
   }
 
-  template <class Value>
-  Vec3d gather(const std::vector<Element>& elements, Value value) const {
-    Vec3d sum;
-    for (const Weight& w : weights_) sum += value(elements[w.element], w);
-    return sum;
+  Vec3d gather(const RowsTable& table, const std::vector<ElementLine>& lines) const {
+    const auto sum = table.gather(elements_, weights_.data(), lines.data());
+    return {sum[0], sum[1], sum[2]};
   }
 
  private:
-  void add(const World& world, const Elements& elements, const Node& node, const Visible& v) {
-    weigh(world, elements, v, node.place.at, &node.place.normal, [&](std::size_t element, double w0, double w1) {
-      weights_.push_back({element, w0, w1});
-    });
-    ends_.push_back(weights_.size());
+  // A row that is being made. Pieces of segments wait until the ends of all of them are there.
+  struct Making {
+    struct Piece {
+      SeenPiece seen;
+      std::size_t end, weight;  // its first ones
+    };
+    EndColumns ends;
+    std::vector<Piece> pieces;
+    std::vector<std::uint32_t> elements;
+    std::vector<ElementWeight> weights;
+    std::vector<std::size_t> part_ends;
+  };
+  static Making& begin() {
+    thread_local Making making;
+    making.ends.count = 0;
+    making.pieces.clear();
+    making.elements.clear();
+    making.part_ends.clear();
+    making.weights.clear();
+    return making;
   }
-  std::vector<Weight> weights_;
-  std::vector<std::size_t> ends_;  // by piece of the node's walls
+
+  static void add(const World& world, const Elements& elements, const Node& node, std::size_t k, Making& making) {
+    const SeenPart& part = node.walls[k];
+    const Vec2d at = node.place.at, normal = node.place.normal;
+    if (part.curve->kind == Curve::Kind::segment) {
+      const SeenPiece seen(*part.curve, at, direction_of(part.begin, normal), direction_of(part.end, normal), elements,
+                           elements.of(part, world));
+      making.pieces.push_back({seen, making.ends.count, making.weights.size()});
+      seen.for_each_end([&](double t) { making.ends.add(t); });
+      for (std::size_t i = seen.first(); i < seen.last(); ++i) making.elements.push_back(static_cast<std::uint32_t>(i));
+      making.weights.resize(making.elements.size());
+    } else {
+      const SeenAngles angles = angles_of(part, normal);
+      for (int i = 0; i < angles.count; ++i)
+        weigh(world, elements, angles.parts[i], at, &normal, [&](std::size_t element, double w0, double w1) {
+          making.elements.push_back(static_cast<std::uint32_t>(element));
+          making.weights.push_back({w0, w1});
+        });
+    }
+    making.part_ends.push_back(making.weights.size());
+  }
+
+  void finish(const RowsTable& table, Vec2d normal, Making& making) {
+    table.evaluate(making.ends);
+    for (const Making::Piece& piece : making.pieces) {
+      ElementWeight* weight = making.weights.data() + piece.weight;
+      piece.seen.for_each_weight(
+          piece.end, [&](std::size_t k) { return piece.seen.with_cosine(making.ends[k], normal); },
+          // Nowhere is u above 1, nor anything seen from behind.
+          [&](std::size_t, double w0, double w1) {
+            *weight++ = {w0, std::clamp(w1, -std::fabs(w0), std::fabs(w0))};
+          });
+    }
+    elements_ = making.elements;
+    weights_ = making.weights;
+    ends_ = making.part_ends;
+  }
+
+  std::vector<std::uint32_t> elements_;
+  std::vector<ElementWeight> weights_;  // of each of them
+  std::vector<std::size_t> ends_;       // by part of the node's walls
 };
 
 class Solver {
@@ -130,6 +166,7 @@ class Solver {
       : world_(world),
         options_(options),
         budget_(options.limits),
+        outlook_(world),
         elements_(world, std::max(world.scene.width, world.scene.height) / kInitialParts,
                   options.bounces == kAllBounces ? kMostAlbedo : 1.0) {}
 
@@ -142,8 +179,10 @@ class Solver {
       if (stats_.rounds == kMostRounds || std::none_of(marked.begin(), marked.end(), [](char m) { return m != 0; })) break;
       halve(marked);
     }
-    solve(kSettled);
-    check();
+    if (options_.bounces == kAllBounces) {
+      solve(kSettled);
+      check();
+    }
     spread_error();
     stats_.elements = elements_.all().size();
     result.elements = std::move(elements_);
@@ -156,8 +195,9 @@ class Solver {
   struct Nodes {
     Node at[3];
     Row rows[3];
-    Vec3d radiance[3];
+    Vec3d middle;  // what the third one sends on
   };
+  using Lines = std::vector<ElementLine>;
 
   void look_at(const std::vector<char>& fresh) {
     const std::size_t count = elements_.all().size();
@@ -165,69 +205,108 @@ class Solver {
     const std::string what =
         "what " + std::to_string(looks) + " elements of its walls see of " + std::to_string(world_.curves.size()) + " edges";
     budget_.take_work(world_.scene.name, what, 3 * looks * world_.curves.size() * 150);
-    budget_.take_memory(world_.scene.name, what, 3 * looks * (sizeof(Node) + 40 * (sizeof(Visible) + sizeof(Row::Weight))));
+    budget_.take_memory(world_.scene.name, what, 3 * looks * (sizeof(Node) + 40 * (sizeof(SeenPart) + 4 * sizeof(ElementWeight))));
     nodes_.resize(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       if (fresh[i] == 0) return;
       for (int k = 0; k < 3; ++k) {
-        nodes_[i].at[k] = look(world_, elements_, elements_.all()[i], kShares[k]);
-        nodes_[i].rows[k] = Row(world_, elements_, nodes_[i].at[k]);
+        nodes_[i].at[k] = look(world_, outlook_, elements_, elements_.all()[i], kShares[k]);
+        nodes_[i].rows[k] = Row(table_, world_, elements_, nodes_[i].at[k]);
       }
     });
   }
 
   // What a node sends on, of what arrives at once and from all elements.
-  Vec3d sent(std::size_t i, int k) const {
-    const Vec3d arrives = nodes_[i].at[k].direct + nodes_[i].rows[k].gather(elements_.all(), [](const Element& e, const Row::Weight& w) {
-      return e.constant * w.constant + e.slope * w.slope;
-    });
-    return times(elements_.all()[i].albedo, arrives) * 0.5;
+  Vec3d sent(std::size_t i, int k, const Lines& lines) const {
+    return times(elements_.all()[i].albedo, nodes_[i].at[k].direct + nodes_[i].rows[k].gather(table_, lines)) * 0.5;
   }
 
-  // The line through an element's two nodes.
-  void lay_radiance(std::size_t i) {
-    const Nodes& n = nodes_[i];
-    Element& e = elements_.all()[i];
-    const double u0 = n.at[0].place.u, u1 = n.at[1].place.u;
-    e.slope = (n.radiance[1] - n.radiance[0]) / (u1 - u0);
-    e.constant = n.radiance[0] - e.slope * u0;
+  // The line through what an element's two nodes send.
+  ElementLine line_of(std::size_t i, const Lines& lines) const {
+    const Vec3d first = sent(i, 0, lines), second = sent(i, 1, lines);
+    const double u0 = nodes_[i].at[0].place.u, u1 = nodes_[i].at[1].place.u;
+    const Vec3d slope = (second - first) / (u1 - u0), constant = first - slope * u0;
+    return {{constant.x, constant.y, constant.z, 0}, {slope.x, slope.y, slope.z, 0}};
   }
+
+  static std::span<double> numbers(Lines& lines) { return {lines.data()->constant, 8 * lines.size()}; }
 
   // All bounces go on from what is there; those that are counted begin with none.
   void solve(double settled) {
-    const bool all = options_.bounces == kAllBounces;
-    if (!all)
-      for (Element& e : elements_.all()) e.constant = e.slope = {};
-    for (int sweep = 0; sweep < (all ? kMostSweeps : options_.bounces); ++sweep) {
+    Lines lines(nodes_.size());
+    if (lines.empty()) return;
+    if (options_.bounces == kAllBounces)
+      settle(settled, lines);
+    else
+      count_bounces(lines);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      Element& e = elements_.all()[i];
+      e.constant = {lines[i].constant[0], lines[i].constant[1], lines[i].constant[2]};
+      e.slope = {lines[i].slope[0], lines[i].slope[1], lines[i].slope[2]};
+    }
+  }
+
+  void settle(double settled, Lines& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Element& e = elements_.all()[i];
+      lines[i] = {{e.constant.x, e.constant.y, e.constant.z, 0}, {e.slope.x, e.slope.y, e.slope.z, 0}};
+    }
+    FixedPoint fixed_point(8 * lines.size());
+    Lines before;
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
       ++stats_.sweeps;
+      before = lines;
+      // In place: what follows sees it at once.
+      for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = line_of(i, lines);
       double change = 0, most = 0;
-      for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        for (int k = 0; k < (all ? 2 : 3); ++k) {
-          const Vec3d next = sent(i, k);
-          change = std::max(change, largest(next - nodes_[i].radiance[k]));
-          most = std::max(most, largest(next));
-          nodes_[i].radiance[k] = next;
-        }
-        // In place: what follows sees it at once. Bounces that are counted wait for the end of the sweep.
-        if (all) lay_radiance(i);
+      const std::span<double> now = numbers(lines), then = numbers(before);
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        change = std::max(change, std::fabs(now[i] - then[i]));
+        most = std::max(most, std::fabs(now[i]));
       }
-      if (!all)
-        for (std::size_t i = 0; i < nodes_.size(); ++i) lay_radiance(i);
       if (change <= settled * most) break;
+      fixed_point.improve(then, now);
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) nodes_[i].middle = sent(i, 2, lines);
+  }
+
+  // Each waits for the end of the one before it.
+  void count_bounces(Lines& lines) {
+    Lines next(lines.size());
+    for (int bounce = 0; bounce < options_.bounces; ++bounce) {
+      ++stats_.sweeps;
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        next[i] = line_of(i, lines);
+        nodes_[i].middle = sent(i, 2, lines);
+      }
+      lines.swap(next);
     }
   }
 
   // How far each element is off at its middle; those that are too far.
   std::vector<char> check() {
     std::vector<char> marked(nodes_.size(), 0);
-    if (options_.bounces == kAllBounces)
-      for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].radiance[2] = sent(i, 2);
+    const double size = std::max(world_.scene.width, world_.scene.height);
     double brightest = 0;
-    for (const Nodes& n : nodes_) brightest = std::max({brightest, largest(n.radiance[0]), largest(n.radiance[1])});
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Element& e = elements_.all()[i];
+      for (int k = 0; k < 2; ++k) brightest = std::max(brightest, largest(e.constant + e.slope * nodes_[i].at[k].place.u));
+    }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       Element& e = elements_.all()[i];
-      e.error = magnitude(nodes_[i].radiance[2] - e.constant - e.slope * nodes_[i].at[2].place.u);
-      marked[i] = largest(e.error) > options_.tolerance * brightest;
+      e.error = magnitude(nodes_[i].middle - e.constant - e.slope * nodes_[i].at[2].place.u);
+      // By the tolerance, an element of the first length; a shorter one may be off by more, as it sends less.
+      const auto judge = [&](std::size_t k, double error) {
+        if (error * 2 * elements_.all()[k].half * kInitialParts > options_.tolerance * brightest * size) marked[k] = 1;
+      };
+      judge(i, largest(e.error));
+      // A sharp edge of light may spare the middle: then lines do not meet. Half of what they are apart is each one's, at its end.
+      if (i + 1 == nodes_.size()) continue;
+      const Element& next = elements_.all()[i + 1];
+      if (next.curve != e.curve || next.back != e.back || next.from != e.to) continue;
+      const double apart = largest(e.constant + e.slope - next.constant + next.slope);
+      judge(i, 0.25 * apart);
+      judge(i + 1, 0.25 * apart);
     }
     return marked;
   }
@@ -249,7 +328,7 @@ class Solver {
     elements_.halve(world_, marked);
     tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
       if (fresh[i] != 0) return;
-      for (int k = 0; k < 3; ++k) nodes_[i].rows[k].follow(world_, before, elements_, nodes_[i].at[k]);
+      for (int k = 0; k < 3; ++k) nodes_[i].rows[k].follow(table_, world_, before, elements_, nodes_[i].at[k]);
     });
     look_at(fresh);
   }
@@ -257,21 +336,23 @@ class Solver {
   // Errors are sent on as light is.
   void spread_error() {
     std::vector<Element>& all = elements_.all();
-    std::vector<Vec3d> own(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) own[i] = all[i].error;
+    Lines errors(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) errors[i] = {{all[i].error.x, all[i].error.y, all[i].error.z, 0}, {}};
     for (int sweep = 0; sweep < 50; ++sweep) {
       double change = 0, most = 0;
       for (std::size_t i = 0; i < all.size(); ++i) {
-        const Vec3d arrives = nodes_[i].rows[2].gather(all, [](const Element& e, const Row::Weight& w) { return e.error * w.constant; });
-        const Vec3d next = own[i] + times(all[i].albedo, arrives) * 0.5;
-        change = std::max(change, largest(next - all[i].error));
+        const Vec3d next = all[i].error + times(all[i].albedo, nodes_[i].rows[2].gather(table_, errors)) * 0.5;
+        const Vec3d was{errors[i].constant[0], errors[i].constant[1], errors[i].constant[2]};
+        change = std::max(change, largest(next - was));
         most = std::max(most, largest(next));
-        all[i].error = next;
+        errors[i] = {{next.x, next.y, next.z, 0}, {}};
       }
       if (change <= kErrorSettled * most) break;
     }
     double size = 0, squares = 0, mean = 0;
-    for (const Element& e : all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Element& e = all[i];
+      e.error = {errors[i].constant[0], errors[i].constant[1], errors[i].constant[2]};
       const Vec3d light = magnitude(e.constant);
       size += e.half;
       mean += e.half * (light.x + light.y + light.z);
@@ -283,7 +364,9 @@ class Solver {
   const World& world_;
   const PlaneBounceOptions& options_;
   Budget budget_;
+  Outlook outlook_;
   Elements elements_;
+  const RowsTable& table_ = rows_table_for(active_simd());
   std::vector<Nodes> nodes_;
   PlaneBounceStats stats_;
 };

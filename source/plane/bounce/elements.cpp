@@ -162,6 +162,8 @@ void Elements::index(const World& world) {
   first_.assign(2 * world.curves.size() + 1, 0);
   for (const Element& e : all_) ++first_[2 * e.curve + (e.back ? 1 : 0) + 1];
   for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
+  spans_.clear();
+  for (const Element& e : all_) spans_.push_back({e.from, e.to, 1 / (e.to - e.from)});
 }
 
 }  // namespace steradian::plane

@@ -36,6 +36,11 @@ bool is_open(const World& world, const ElementPlace& place);
 // What a body reflects; none where that is nothing.
 std::optional<Vec3d> albedo_of(const PlaneBody& body, double most);
 
+// Where an element lies on its curve: what rows ask for, without the rest of it.
+struct ElementSpan {
+  double from, to, per_share;  // 1 / (to - from)
+};
+
 // All of the elements, by curve and side and by rising place, no longer than `size`; cut where other outlines cross.
 class Elements {
  public:
@@ -43,6 +48,7 @@ class Elements {
   Elements(const World& world, double size, double most_albedo);
 
   const std::vector<Element>& all() const { return all_; }
+  const std::vector<ElementSpan>& spans() const { return spans_; }
   std::vector<Element>& all() { return all_; }
   // Halves those that are marked.
   void halve(const World& world, const std::vector<char>& marked);
@@ -52,17 +58,21 @@ class Elements {
     const std::size_t k = 2 * curve + (back ? 1 : 0);
     return {first_[k], first_[k + 1]};
   }
-  std::pair<std::size_t, std::size_t> of(const Visible& v, const World& world) const {
-    return of(static_cast<std::size_t>(v.curve - world.curves.data()), v.back);
+  // Of a part of a curve, seen as a point or as a wall sees it.
+  template <class Part>
+  std::pair<std::size_t, std::size_t> of(const Part& part, const World& world) const {
+    return of(static_cast<std::size_t>(part.curve - world.curves.data()), part.back);
   }
-  bool reflects(const Visible& v, const World& world) const {
-    const auto [first, last] = of(v, world);
+  template <class Part>
+  bool reflects(const Part& part, const World& world) const {
+    const auto [first, last] = of(part, world);
     return first < last;
   }
 
  private:
   void index(const World& world);
   std::vector<Element> all_;
+  std::vector<ElementSpan> spans_;
   std::vector<std::size_t> first_;
 };
 

@@ -1,10 +1,10 @@
-// What a visible piece of a wall sends, element by element. Segments in closed form, with t the tangent of the angle from their
-// perpendicular:
+// What a visible piece of a wall sends, element by element: the integrals of 1 and of the place u over its directions, times the cosine at
+// the wall that receives it, if it is one. Of segments, with t the tangent of the angle from their perpendicular and s = sqrt(1 + t^2),
 //
-//   u = m t + c,  integral of u^k (nc + ns t) (1 + t^2)^(-3/2) dt from I0 = t/s, I1 = -1/s, I2 = asinh t - t/s,  s = sqrt(1 + t^2);
+//   u = m t + c,  integral of u^k (nc + ns t) s^-3 dt from I0 = t/s, I1 = -1/s, I2 = asinh t - t/s,
+//                 integral of u^k s^-2 dt             from atan t, log s;
 //
-// narrow pieces, on which these cancel, and arcs by Gauss-Legendre, in the tangent of the angle from the piece's middle and in the
-// ellipse's own parameter.
+// of arcs by Gauss-Legendre in the ellipse's own parameter.
 #pragma once
 
 #include <algorithm>
@@ -14,92 +14,93 @@
 #include <utility>
 
 #include "plane/bounce/elements.h"
+#include "plane/bounce/rows.h"
 
 namespace steradian::plane {
 
 // Abramowitz and Stegun, table 25.4, n = 6: on [-1, 1] to the polynomials of degree 11.
-inline constexpr std::array<std::pair<double, double>, 6> kGauss6 = {{{-0.932469514203152, 0.171324492379170},
-                                                                      {-0.661209386466265, 0.360761573048139},
-                                                                      {-0.238619186083197, 0.467913934572691},
-                                                                      {0.238619186083197, 0.467913934572691},
-                                                                      {0.661209386466265, 0.360761573048139},
-                                                                      {0.932469514203152, 0.171324492379170}}};
+inline constexpr std::array<std::pair<double, double>, 6> kGauss6 = {{{-0.93246951420315203, 0.17132449237917035},
+                                                                      {-0.66120938646626451, 0.36076157304813861},
+                                                                      {-0.23861918608319691, 0.46791393457269105},
+                                                                      {0.23861918608319691, 0.46791393457269105},
+                                                                      {0.66120938646626451, 0.36076157304813861},
+                                                                      {0.93246951420315203, 0.17132449237917035}}};
 
-class SegmentWeights {
+// A piece of a segment, between two directions, and the ends of the elements in it.
+class SeenPiece {
  public:
-  SegmentWeights(const Visible& piece, Vec2d from, const Vec2d* normal) {
-    const Curve& curve = *piece.curve;
+  SeenPiece(const Curve& curve, Vec2d from, Vec2d begin, Vec2d end, const Elements& elements, std::pair<std::size_t, std::size_t> side) {
     const Vec2d e = curve.b - curve.a;
     size_ = length(e);
     along_ = e / size_;
     across_ = {-along_.y, along_.x};
-    d_ = dot(curve.a - from, across_);
-    if (d_ < 0) across_ = -across_, d_ = -d_;
-    d_ = std::max(d_, 1e-300);
+    distance_ = dot(curve.a - from, across_);
+    if (distance_ < 0) across_ = -across_, distance_ = -distance_;
+    distance_ = std::max(distance_, 1e-12);
     foot_ = dot(from - curve.a, along_);
-    weighed_ = normal != nullptr;
-    if (weighed_) nc_ = dot(*normal, across_), ns_ = dot(*normal, along_);
-    first_ = tangent(piece.begin);
-    last_ = tangent(piece.end);
-    if (first_ > last_) std::swap(first_, last_);
+    begin_ = tangent(begin);
+    end_ = tangent(end);
+    if (begin_ > end_) std::swap(begin_, end_);
+    // With room for rounding.
+    const double low = (begin_ * distance_ + foot_) / size_ - 1e-9, high = (end_ * distance_ + foot_) / size_ + 1e-9;
+    spans_ = elements.spans().data();
+    first_ = last_ = static_cast<std::size_t>(
+        std::partition_point(spans_ + side.first, spans_ + side.second, [low](const ElementSpan& span) { return span.to <= low; }) -
+        spans_);
+    while (last_ < side.second && spans_[last_].from < high) ++last_;
   }
 
-  // Of the curve, where the piece begins and ends: with room for rounding.
-  std::pair<double, double> shares() const { return {(first_ * d_ + foot_) / size_ - 1e-9, (last_ * d_ + foot_) / size_ + 1e-9}; }
+  std::size_t first() const { return first_; }
+  std::size_t last() const { return last_; }
 
-  // The piece's part that lies between two shares of the curve, with u = -1 and 1 at `low` and `high`.
+  // Calls f(t) for the ends of what is seen of each element: two of them, which neighbours share, but for gaps.
   template <class F>
-  void add(double low, double high, F f) const {
-    const double t0 = std::max(first_, (low * size_ - foot_) / d_), t1 = std::min(last_, (high * size_ - foot_) / d_);
-    if (!(t1 > t0)) return;
-    const double half = 0.5 * (high - low) * size_, m = d_ / half, c = (foot_ - 0.5 * (high + low) * size_) / half;
-    const double s0 = std::sqrt(1 + t0 * t0), s1 = std::sqrt(1 + t1 * t1), product = s0 * s1, cosine = 1 + t0 * t1;
-    // The tangent of half the angle between the two, without the difference of two angles.
-    const double q = (t1 - t0) / (product + cosine);
-    double w0 = 0, w1 = 0;
-    if (q > 0 && q < kNarrow) {
-      add_narrow(q, (t0 * s1 + t1 * s0) / (s0 + s1), m, c, w0, w1);
-    } else if (weighed_) {
-      const double i0 = t1 / s1 - t0 / s0, i1 = 1 / s0 - 1 / s1, i2 = std::asinh(t1) - std::asinh(t0) - i0;
-      w0 = nc_ * i0 + ns_ * i1;
-      w1 = m * (nc_ * i1 + ns_ * i2) + c * w0;
-    } else {
-      w0 = std::atan2(t1 - t0, cosine);
-      w1 = m * std::log(s1 / s0) + c * w0;
+  void for_each_end(F f) const {
+    const double scale = size_ / distance_, shift = foot_ / distance_;
+    double t = begin_;
+    for (std::size_t k = first_; k < last_; ++k) {
+      if (k == first_ || spans_[k].from != spans_[k - 1].to) f(t = std::max(t, std::min(end_, spans_[k].from * scale - shift)));
+      f(t = std::max(t, std::min(end_, spans_[k].to * scale - shift)));
     }
-    f(w0, w1);
+  }
+
+  // Calls f(element, w0, w1) for every element, with a function of the ends' numbers, in their order, whose differences are the integrals
+  // of 1 and t. Off by a few ulp of 1; the second, of that times the distance in elements.
+  template <class Primitive, class F>
+  void for_each_weight(std::size_t end, Primitive primitive, F f) const {
+    const double scale = 2 / size_;
+    std::array<double, 2> a{}, b{};
+    for (std::size_t k = first_; k < last_; ++k) {
+      const ElementSpan& span = spans_[k];
+      a = k == first_ || span.from != spans_[k - 1].to ? primitive(end++) : b;
+      b = primitive(end++);
+      const double w0 = b[0] - a[0];
+      const double w1 = scale * span.per_share * (distance_ * (b[1] - a[1]) + (foot_ - 0.5 * (span.to + span.from) * size_) * w0);
+      f(k, w0, w1);
+    }
+  }
+
+  // Integrals of 1 and t times the cosine, up to an end.
+  std::array<double, 2> with_cosine(const EndValues& end, Vec2d normal) const {
+    const double nc = dot(normal, across_), ns = dot(normal, along_);
+    return {nc * end.sine - ns * end.cosine, ns * (end.area - end.sine) - nc * end.cosine};
   }
 
  private:
-  // The tangent of half an angle of 0.15, below which the closed forms cancel.
-  static constexpr double kNarrow = 0.0751;
-
-  // Gauss' rule in the tangent p of the angle from the middle, whose own tangent is t: no trigonometry.
-  void add_narrow(double q, double t, double m, double c, double& w0, double& w1) const {
-    for (const auto& [x, weight] : kGauss6) {
-      const double p = q * x, ahead = 1 - t * p, across = t + p;
-      double w = q * weight / (1 + p * p);
-      if (weighed_) w *= (nc_ * ahead + ns_ * across) / std::sqrt(ahead * ahead + across * across);
-      w0 += w;
-      w1 += w * std::clamp(m * across / ahead + c, -1.0, 1.0);
-    }
-  }
-
-  double tangent(double angle) const {
-    const Vec2d u{std::cos(angle), std::sin(angle)};
-    return dot(u, along_) / std::max(dot(u, across_), 1e-15);
-  }
+  double tangent(Vec2d u) const { return dot(u, along_) / std::max(dot(u, across_), 1e-15); }
   Vec2d along_, across_;
-  double size_, d_, foot_, first_, last_, nc_ = 0, ns_ = 0;
-  bool weighed_;
+  double size_, distance_, foot_, begin_, end_;
+  const ElementSpan* spans_;
+  std::size_t first_, last_;
 };
 
-// Of an arc's part between two places tau; halved until it is no longer than 0.7 of its distance.
+// Of an arc's part between two places tau; halved until it is no longer than a tenth of its distance: Gauss' rule then is
+// good to 1e-14.
 inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2d* normal, double low, double high, double& w0,
                     double& w1) {
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   const Vec2d to_middle = curve.ellipse.at(middle) - from, across = curve.ellipse.y * std::cos(middle) - curve.ellipse.x * std::sin(middle);
-  if (4 * half * half * dot(across, across) > 0.5 * dot(to_middle, to_middle) && half > 1e-4) {
+  if (4 * half * half * dot(across, across) > 0.01 * dot(to_middle, to_middle) && half > 1e-4) {
     add_arc(curve, e, from, normal, low, middle, w0, w1);
     add_arc(curve, e, from, normal, middle, high, w0, w1);
     return;
@@ -121,15 +122,17 @@ void weigh(const World& world, const Elements& elements, const Visible& piece, V
   const auto [first, last] = elements.of(piece, world);
   if (first == last) return;
   if (curve.kind == Curve::Kind::segment) {
-    const SegmentWeights weights(piece, from, normal);
-    const auto [low, high] = weights.shares();
-    const auto of_curve = elements.all().begin();
-    const auto at = std::partition_point(of_curve + static_cast<std::ptrdiff_t>(first), of_curve + static_cast<std::ptrdiff_t>(last),
-                                         [low = low](const Element& e) { return e.to <= low; });
-    for (auto k = static_cast<std::size_t>(at - of_curve); k < last && elements.all()[k].from < high; ++k) {
-      const Element& e = elements.all()[k];
-      weights.add(e.from, e.to, [&](double w0, double w1) { f(k, w0, w1); });
-    }
+    const SeenPiece seen(curve, from, {std::cos(piece.begin), std::sin(piece.begin)}, {std::cos(piece.end), std::sin(piece.end)}, elements,
+                         {first, last});
+    thread_local std::vector<double> ends;
+    ends.clear();
+    seen.for_each_end([&](double t) { ends.push_back(t); });
+    const auto primitive = [&](std::size_t k) -> std::array<double, 2> {
+      const double t = ends[k], s = std::sqrt(1 + t * t);
+      if (normal != nullptr) return seen.with_cosine({t / s, 1 / s, std::asinh(t)}, *normal);
+      return {std::atan(t), std::log(s)};
+    };
+    seen.for_each_weight(0, primitive, f);
     return;
   }
   // Where on the arc the piece's ends are; what is seen of it is less than half of the ellipse.
