@@ -1,6 +1,6 @@
 #include "core/budget.h"
 
-#include <cstdio>
+#include <charconv>
 #include <iterator>
 
 namespace steradian {
@@ -11,9 +11,8 @@ std::string readable(std::uint64_t number, const char* const (&units)[5]) {
   double x = static_cast<double>(number);
   std::size_t unit = 0;
   for (; x >= 999.5 && unit + 1 < std::size(units); ++unit) x /= 1000;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3g%s", x, units[unit]);
-  return text;
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr) + units[unit];
 }
 
 std::string readable_steps(std::uint64_t steps) {

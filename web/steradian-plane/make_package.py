@@ -3,7 +3,7 @@
 file that works without a server.
 """
 import base64
-import gzip
+import lzma
 import re
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-MODULES = ("plane_wasm", "plane_glsl", "wasm", "bodies", "gl_light", "picture", "index")  # each after those that it imports
+MODULES = ("plane_wasm", "plane_glsl", "unpack", "wasm", "bodies", "gl_light", "picture", "index")  # each after those that it imports
 
 
 def build(folder):
@@ -28,8 +28,11 @@ def build(folder):
 
 
 def wasm_module(path):
-    packed = base64.b64encode(gzip.compress(path.read_bytes(), 9, mtime=0)).decode()
-    return f'// The WebAssembly module, zipped, as base64. Made by make_package.py.\nexport const PLANE_WASM = "{packed}";\n'
+    """Packed as src/unpack.js unpacks it."""
+    module = path.read_bytes()
+    packed = lzma.compress(module, format=lzma.FORMAT_RAW, filters=[{"id": lzma.FILTER_LZMA1, "preset": 9 | lzma.PRESET_EXTREME, "lc": 3, "lp": 0, "pb": 0}])
+    return ("// The WebAssembly module, packed by LZMA, as base64, and its size. Made by make_package.py.\n"
+            f'export const PLANE_SIZE = {len(module)};\nexport const PLANE_WASM = "{base64.b64encode(packed).decode()}";\n')
 
 
 def included(path, seen):

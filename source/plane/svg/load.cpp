@@ -2,12 +2,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <new>
 #include <numbers>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
@@ -411,13 +409,14 @@ class Reader {
     if (body.shape != PlaneBody::Shape::polyline)
       document_.fail(n, "data-texture of a shape that is not a plain line", "give it fill=\"none\", a stroke, and no round ends");
     std::vector<Vec3d> texels;
-    std::istringstream list(n.attribute("data-texture").value());
-    for (std::string text; std::getline(list, text, ';');) {
-      if (trimmed(text).empty()) continue;
-      const auto color = parse_color(trimmed(text));
+    for (std::string_view list = n.attribute("data-texture").value(); !list.empty();) {
+      const std::size_t end = std::min(list.find(';'), list.size());
+      const std::string_view text = trimmed(list.substr(0, end));
+      list.remove_prefix(std::min(end + 1, list.size()));
+      if (text.empty()) continue;
+      const auto color = parse_color(text);
       if (!color)
-        document_.fail(n, "'" + std::string(trimmed(text)) + "' in data-texture is not a colour",
-                       "write colours with semicolons between them");
+        document_.fail(n, "'" + std::string(text) + "' in data-texture is not a colour", "write colours with semicolons between them");
       texels.push_back(*color * (style.intensity * style.opacity * style.stroke_opacity));
     }
     if (texels.empty()) document_.fail(n, "data-texture is empty", "write colours with semicolons between them");
@@ -476,26 +475,6 @@ namespace steradian {
 
 PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name, const Limits& limits) {
   return plane::svg::Reader(svg, name, limits).read();
-}
-
-namespace plane::svg {
-
-std::string read_text(const std::string& path, const Limits& limits) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) throw Error(path, "cannot be opened", "check the path");
-  const std::streamoff size = file.tellg();
-  if (size > 0) Budget(limits).take_memory(path, "the text of the file, as a tree", static_cast<std::uint64_t>(size) * 4);
-  file.seekg(0);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file && !file.eof()) throw Error(path, "cannot be read", "check that it is a file");
-  return text.str();
-}
-
-}  // namespace plane::svg
-
-PlaneSvg load_plane_scene(const std::string& path, const Limits& limits) {
-  return load_plane_scene_from_text(plane::svg::read_text(path, limits), path, limits);
 }
 
 }  // namespace steradian

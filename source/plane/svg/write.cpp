@@ -1,7 +1,7 @@
 // Scenes as SVG text.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "plane/svg/text.h"
@@ -10,16 +10,10 @@
 namespace steradian::plane::svg {
 namespace {
 
-// The shortest text that reads back as the same double; no locale.
+// The shortest text that reads back as the same double.
 std::string number(double x) {
-  char text[32] = {};
-  for (int digits : {6, 9, 17}) {
-    std::snprintf(text, sizeof text, "%.*g", digits, x);
-    for (char& c : text)
-      if (c == ',') c = '.';
-    if (std::strtod(text, nullptr) == x) break;
-  }
-  return text;
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 std::string attribute(const char* name, double x) { return std::string(" ") + name + "=\"" + number(x) + "\""; }

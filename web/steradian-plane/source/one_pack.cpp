@@ -1,4 +1,6 @@
 // WebAssembly has one width of packs, 128 bits, as SSE2: nothing is chosen at run time.
+#include <system_error>
+
 #include "core/simd.h"
 #include "steradian/error.h"
 
@@ -11,3 +13,9 @@ std::vector<Simd> available_simd() { return {Simd::sse2}; }
 Simd active_simd() { return Simd::sse2; }
 
 }  // namespace steradian
+
+// Where the library of C++ would say why it ends the program, on a terminal that a page has not: its words bring printf along.
+extern "C" [[noreturn]] void abort_message(const char*, ...) { __builtin_trap(); }
+_LIBCPP_BEGIN_NAMESPACE_STD
+[[noreturn]] void __throw_system_error(int, const char*) { __builtin_trap(); }
+_LIBCPP_END_NAMESPACE_STD

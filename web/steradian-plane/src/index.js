@@ -144,7 +144,7 @@ export class Plane {
   constructor(machine, handle) {
     this.machine = machine;
     this.handle = handle;
-    releases?.register(this, { machine, handle });
+    releases?.register(this, { machine, handle }, this);
     this.warnings = machine.text(machine.call("plane_ignored", handle)).split("\n").filter(Boolean);
     this.bodies = Array.from({ length: machine.call("plane_count", handle) }, (_, i) => {
       const id = machine.text(machine.call("plane_body_name", handle, i));

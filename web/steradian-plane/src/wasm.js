@@ -1,6 +1,7 @@
 // The WebAssembly module, and calls of it with strings and numbers.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-import { PLANE_WASM } from "./plane_wasm.js";
+import { PLANE_SIZE, PLANE_WASM } from "./plane_wasm.js";
+import { unpack } from "./unpack.js";
 
 /** What is wrong with a scene or a call: where, what, and what to do about it. */
 export class PlaneError extends Error {
@@ -25,12 +26,16 @@ export function loadMachine() {
 
 async function start() {
   const packed = Uint8Array.from(atob(PLANE_WASM), (c) => c.charCodeAt(0));
-  const unpacked = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
   let exports = null;
   // The library writes nothing and reads no file; of what it may ask for, only the clock is there.
   const system = { clock_time_get: (clock, precision, at) => writeTime(exports.memory, at), proc_exit: quit };
-  const made = await WebAssembly.instantiate(await unpacked.arrayBuffer(), {
-    env: { emscripten_notify_memory_growth: () => {} },
+  const made = await WebAssembly.instantiate(unpack(packed, PLANE_SIZE), {
+    env: {
+      emscripten_notify_memory_growth: () => {},
+      number_of_text: (at, size) => Number(new TextDecoder().decode(new Uint8Array(exports.memory.buffer, at, size))),
+      text_of_number: (x, digits, at) =>
+        new TextEncoder().encodeInto(String(digits ? Number(x.toPrecision(digits)) : x), new Uint8Array(exports.memory.buffer, at, 32)).written,
+    },
     wasi_snapshot_preview1: new Proxy(system, { get: (known, name) => known[name] ?? (() => 0) }),
   });
   exports = made.instance.exports;

@@ -70,4 +70,15 @@ await refuse(() => behind.light(16000, 16000, { aa: 64 }));
 await refuse(() => gone.moveBy(1, 1));
 await refuse(() => (behind.lights.add({ circle: { center: [NaN, 0], radius: 1 } })));
 await refuse(() => (lamp.radiance = -1));
+
+// What has been disposed of is not given back once more when it is forgotten: others live in its memory by then.
+const another = () => Plane.load({ lights: [{ circle: { center: [0, 0], radius: 1 } }], occluders: [{ polygon: square }] });
+for (let i = 0; i < 3; ++i) (await another()).dispose();
+const others = [];
+for (let i = 0; i < 3; ++i) {
+  others.push(await another());
+  await new Promise((resume) => setTimeout(resume, 20));
+  gc();
+}
+found.afterwards = others.map((plane) => plane.query(20, 2.5).radiance[0]);
 console.log(JSON.stringify(found));

@@ -4,7 +4,6 @@
 The package is built into SCRATCH. Exit 77 (skipped) where there is no emscripten or no node; without Chromium, the page alone is skipped.
 """
 import json
-
 import re
 import shutil
 import subprocess
@@ -55,7 +54,7 @@ def display(radiance):
 
 def check_package(package):
     scenes = [ROOT / "scenes" / "plane" / f"{s}.svg" for s in SCENES]
-    done = subprocess.run(["node", HERE / "plane_test.mjs", package, *scenes], capture_output=True, text=True, timeout=300)
+    done = subprocess.run(["node", "--expose-gc", HERE / "plane_test.mjs", package, *scenes], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert all(abs(a - b) < 1e-9 for a, b in zip(found["behind"], BEHIND)), found["behind"]
@@ -86,28 +85,55 @@ def check_package(package):
     for sentence in found["refused"]:
         print("refused:", sentence)
         assert not sentence.startswith("not "), sentence
+    assert found["afterwards"] == [found["behind"][3]] * 3, found["afterwards"]
     assert found["refused"][0].startswith("a.svg:2: <rect>"), found["refused"][0]
     assert found["refused"][1].startswith("b.svg:2: "), found["refused"][1]
 
 
-def check_manual(package):
-    """The JavaScript of README.md, each piece as a module of its own; a canvas stands for the page's."""
+def check_manual(package, chromium):
+    """The JavaScript of README.md, each piece as a module of its own; what wants a canvas on a page, if there is a browser."""
     pieces = re.findall(r"```js\n(.*?)```", (PACKAGE / "README.md").read_text(), re.DOTALL)
     assert len(pieces) >= 3, "README.md has lost its JavaScript"
     svg = json.dumps((ROOT / "scenes" / "plane" / "room.svg").read_text())
     head = f"const roomSvg = {svg};\n"
     for i, piece in enumerate(pieces):
         module = package / f"manual_{i}.mjs"  # beside the package, where its name is known
-        needs_page = "canvas" in piece
         text = piece if "import" in piece else 'import { Plane } from "steradian-plane";\n' + piece
         module.write_text(head + text)
-        if needs_page:
-            continue  # check_page draws
+        if "canvas" in piece:
+            if chromium is not None:
+                check_piece_on_page(package, chromium, head + piece)
+            continue
         done = subprocess.run(["node", module], capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, f"README.md, piece {i}: {done.stderr}"
         for line, said in zip(re.findall(r"console\.log\(.*?// (.*)", piece), done.stdout.splitlines()):
             assert line.strip() == said.strip(), f"README.md says {line}, node {said}"
     print(f"README.md: {len(pieces)} pieces")
+
+
+def check_piece_on_page(package, chromium, piece):
+    """Beside a canvas, over which a pointer moves: it shows something then."""
+    library = re.search(r'<script type="module">\n(.*?)const \{[^}]*\} = from_index;', (package / "room.html").read_text(), re.DOTALL)[1]
+    names = "const { Plane, PlaneError } = from_index;"
+    page = SCRATCH / "piece.html"
+
+    def visited(address):
+        after = f"""
+addEventListener("error", (e) => post(`failed: ${{e.message}}`));
+const post = (body) => fetch("{address}", {{ method: "POST", mode: "no-cors", body }});
+const box = canvas.getBoundingClientRect();
+canvas.dispatchEvent(new PointerEvent("pointermove", {{ clientX: box.x + 100, clientY: box.y + 50 }}));
+const frame = () => new Promise(requestAnimationFrame);
+await frame();
+const seen = Object.assign(document.createElement("canvas"), {{ width: canvas.width, height: canvas.height }}).getContext("2d");
+seen.drawImage(canvas, 0, 0);
+post(String(seen.getImageData(0, 0, canvas.width, canvas.height).data.reduce((sum, c, i) => sum + (i % 4 < 3 ? c : 0), 0) / (3 * canvas.width * canvas.height)));"""
+        page.write_text(f'<!doctype html><canvas width="320" height="200"></canvas><script type="module">\n{library}{names}\n{piece}{after}</script>')
+        return page.as_uri()
+
+    said = browser.answer_of(chromium, visited)
+    print(f"README.md, on a page: mean code {said}")
+    assert 5 < float(said) < 250, said
 
 
 def check_page(package, chromium):
@@ -225,9 +251,9 @@ def main():
     zipped = len(subprocess.run(["gzip", "-9", "-c", package / "room.html"], capture_output=True, check=True).stdout)
     print(f"room.html: {zipped / 1000:.0f} KB zipped")
     check_package(package)
-    check_manual(package)
-    frame_times(package)
     chromium = browser.find()
+    check_manual(package, chromium)
+    frame_times(package)
     if chromium is None:
         print("the page was not tried: there is no Chromium here (apt-get install chromium)")
         return
