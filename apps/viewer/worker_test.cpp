@@ -135,5 +135,15 @@ TEST(ViewSession, GoesOnWithTheCpuWhereADeviceIsLost) {
   EXPECT_EQ(render(shown, cpu).pixels, s.frame().picture.pixels);
 }
 
+TEST(ViewWorker, ChoosesTheLargestPictureThatTheTimeAllows) {
+  EXPECT_EQ(divisor_within(33, {0, 20, 1}), 1);
+  EXPECT_EQ(divisor_within(33, {0, 100, 1}), 2);
+  EXPECT_EQ(divisor_within(33, {0, 30, 4}), 4);
+  EXPECT_EQ(divisor_within(33, {0, 1, 4}), 1);
+  EXPECT_EQ(divisor_within(33, {0, 1e9, 1}), 8);
+  EXPECT_EQ(divisor_within(33, {20, 20, 1}), 2) << "the scene's own time leaves less";
+  EXPECT_EQ(divisor_within(33, {1e6, 20, 1}), 2) << "but half of it";
+}
+
 }  // namespace
 }  // namespace steradian::view
