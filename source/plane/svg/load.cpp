@@ -1,19 +1,17 @@
 // SVG to bodies: the tree, what is inherited down it, and the shapes.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <new>
-#include <numbers>
 #include <optional>
 #include <set>
-#include <tuple>
-#include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "core/budget.h"
+#include "plane/svg/extras.h"
 #include "plane/svg/lettering.h"
 #include "plane/svg/light.h"
-#include "plane/svg/path.h"
+#include "plane/svg/shapes.h"
 #include "plane/svg/stroke.h"
 #include "plane/svg/style.h"
 #include "plane/svg/viewport.h"
@@ -93,6 +91,8 @@ class Reader {
     steps_ = bytes_ = 0;
   }
 
+  Vec2d size() const { return {result_.scene.width, result_.scene.height}; }
+
   double diagonal() const { return std::hypot(result_.scene.width, result_.scene.height) / std::sqrt(2.0); }
 
   double flatness() const { return kFlatness * std::max(result_.scene.width, result_.scene.height); }
@@ -142,7 +142,7 @@ class Reader {
       document_.fail(n, "a sun without a place", "write data-sun-direction=\"DIRECTION HALF-WIDTH\", in degrees; -90 stands above");
     if (result_.scene.suns.size() >= kMostSuns) document_.fail(n, "more than 1000 suns", "take fewer");
     const bool filled = style.fill != "none";
-    PlaneEmission emission = emission_of(document_, n, {}, style, filled, {result_.scene.width, result_.scene.height});
+    PlaneEmission emission = emission_of(document_, n, {}, style, filled, size());
     dim(emission, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
     if (emission.gradient) document_.fail(n, "a sun with a gradient", "give it one colour");
     result_.scene.suns.push_back({emission.radiance, style.sun->direction, style.sun->half_width, n.attribute("id").as_string("sun")});
@@ -220,11 +220,8 @@ class Reader {
     style.clips.push_back(std::move(region));
     // A mask's own room; that in shares of the shape's box, which is larger than the shape unless a file says otherwise, is left out.
     if (std::string_view(node.attribute("maskUnits").value()) != "userSpaceOnUse" || !node.attribute("width")) return;
-    const double w = result_.scene.width, h = result_.scene.height;
-    const auto x_of = [&](const char* key) { return document_.length_attribute(node, key, w); };
-    const auto y_of = [&](const char* key) { return document_.length_attribute(node, key, h, h); };
     Pen pen(style.transform, flatness(), {});
-    draw_rect(node, {x_of("x"), document_.length_attribute(node, "y", h)}, {x_of("width"), y_of("height")}, pen);
+    draw_rect(document_, node, size(), size().y, pen);
     PlaneBody room;
     room.contours = pen.finish().points;
     style.clips.push_back(std::make_shared<ClipRegion>(ClipRegion{std::move(room)}));
@@ -249,8 +246,7 @@ class Reader {
 
   void text(pugi::xml_node n, const Style& style) {
     if (!fonts_) fonts_.emplace();
-    const Vec2d whole{result_.scene.width, result_.scene.height};
-    for (const TextRun& run : lay_out_text(document_, *styles_, *fonts_, n, style, whole, [&] { spend(n, 2000, 100); })) {
+    for (const TextRun& run : lay_out_text(document_, *styles_, *fonts_, n, style, size(), [&] { spend(n, 2000, 100); })) {
       const bool filled = run.style.fill != "none" && run.style.fill_opacity > 0;
       if (run.style.opacity * run.style.fill_opacity == 0 || (!filled && run.style.role == Role::by_shape)) continue;
       PlaneBody body;
@@ -298,7 +294,7 @@ class Reader {
       return add(n, std::move(body), style, filled);
     }
     Pen pen(style.transform, flatness(), [&](std::size_t points) { spend(n, 400 * points, 40 * points); });
-    draw(n, name, pen);
+    draw_shape(document_, n, size(), pen);
     Contours contours = pen.finish();
     if (filled) {
       for (auto& c : contours.points)
@@ -324,102 +320,24 @@ class Reader {
     add(n, std::move(body), style, false);
   }
 
-  void draw(pugi::xml_node n, std::string_view name, Pen& pen) const {
-    const auto x_of = [&](const char* key) { return document_.length_attribute(n, key, result_.scene.width); };
-    const auto y_of = [&](const char* key) { return document_.length_attribute(n, key, result_.scene.height); };
-    if (name == "line") {
-      pen.move({x_of("x1"), y_of("y1")});
-      pen.line({x_of("x2"), y_of("y2")});
-      return;
-    }
-    if (name == "rect") return draw_rect(n, {x_of("x"), y_of("y")}, {x_of("width"), y_of("height")}, pen);
-    try {
-      if (name == "path") return draw_path(n.attribute("d").value(), pen);
-      draw_points(n.attribute("points").value(), pen);
-      if (name == "polygon") pen.close();
-    } catch (const std::string& problem) {
-      document_.fail(n, problem, "compare it with the SVG path grammar");
-    }
-  }
-
-  void draw_rect(pugi::xml_node n, Vec2d corner, Vec2d size, Pen& pen) const {
-    if (size.x < 0 || size.y < 0) document_.fail(n, "width and height must not be negative", "move x or y instead");
-    if (size.x == 0 || size.y == 0) return;
-    double rx = document_.length_attribute(n, "rx", result_.scene.width, -1),
-           ry = document_.length_attribute(n, "ry", result_.scene.height, -1);
-    if (rx < 0) rx = ry;
-    if (ry < 0) ry = rx;
-    rx = std::clamp(rx, 0.0, size.x / 2);
-    ry = std::clamp(ry, 0.0, size.y / 2);
-    const bool round = rx > 0 && ry > 0;
-    if (!round) rx = ry = 0;
-    const Vec2d far = corner + size;
-    const auto turn = [&](Vec2d to) {
-      if (round) pen.arc(rx, ry, 0, false, true, to);
-    };
-    pen.move({corner.x + rx, corner.y});
-    pen.line({far.x - rx, corner.y});
-    turn({far.x, corner.y + ry});
-    pen.line({far.x, far.y - ry});
-    turn({far.x - rx, far.y});
-    pen.line({corner.x + rx, far.y});
-    turn({corner.x, far.y - ry});
-    pen.line({corner.x, corner.y + ry});
-    turn({corner.x + rx, corner.y});
-    pen.close();
-  }
-
   void add(pugi::xml_node n, PlaneBody body, const Style& style, bool filled) {
     if (result_.scene.bodies.size() >= kMostBodies) document_.fail(n, "more than a million shapes", "split the scene");
     spend(n, 500, sizeof(PlaneBody) + 40);
     body.name = n.attribute("id").value();
     const bool shines = style.role == Role::light && style.purpose == Purpose::picture;
-    if (shines) body.light = emission_of(document_, n, body, style, filled, {result_.scene.width, result_.scene.height});
+    if (shines) body.light = emission_of(document_, n, body, style, filled, size());
     body.albedo = style.albedo;
     if (!body.light) body.color = color_of(document_, style, filled);
     if (style.purpose == Purpose::mask && !is_plain(style, filled)) body.color = {-1, -1, -1};
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
-    take_extras(n, body, style);
+    if (style.purpose == Purpose::picture) take_extras(document_, n, style, body);
     if (body.light && n.attribute("data-texture")) return add_textured(n, body, style);
     finish(n, std::move(body), style);
   }
 
-  void take_extras(pugi::xml_node n, PlaneBody& body, const Style& style) const {
-    if (style.purpose != Purpose::picture) return;
-    if (body.light) {
-      // What a group says is for the occluders in it.
-      for (const char* key : {"data-transmittance", "data-mirror", "data-light-depth"})
-        if (n.attribute(key)) document_.fail(n, std::string(key) + " of a light", "it is for occluders; make two shapes of it");
-      return;
-    }
-    if (n.attribute("data-texture")) document_.fail(n, "data-texture of an occluder", "make it a light, with fill=\"none\" and a stroke");
-    const bool straight = body.shape == PlaneBody::Shape::polygon || body.shape == PlaneBody::Shape::polyline;
-    const int count = (style.transmittance ? 1 : 0) + (style.mirror ? 1 : 0) + (style.light_depth > 0 ? 1 : 0);
-    if (count > 1) document_.fail(n, "more than one of data-transmittance, data-mirror and data-light-depth", "give one of them");
-    if (style.mirror && !straight) document_.fail(n, "data-mirror of a round shape", "make it a rect, a polygon or a line");
-    if (style.light_depth > 0 && body.shape == PlaneBody::Shape::polyline)
-      document_.fail(n, "data-light-depth of a line, which has no inside", "give it to a filled shape");
-    body.transmittance = style.transmittance;
-    body.mirror = style.mirror;
-    body.light_depth = style.light_depth;
-  }
-
   // A line with colours along it, semicolons between them.
   void add_textured(pugi::xml_node n, const PlaneBody& body, const Style& style) {
-    if (body.shape != PlaneBody::Shape::polyline)
-      document_.fail(n, "data-texture of a shape that is not a plain line", "give it fill=\"none\", a stroke, and no round ends");
-    std::vector<Vec3d> texels;
-    for (std::string_view list = n.attribute("data-texture").value(); !list.empty();) {
-      const std::size_t end = std::min(list.find(';'), list.size());
-      const std::string_view text = trimmed(list.substr(0, end));
-      list.remove_prefix(std::min(end + 1, list.size()));
-      if (text.empty()) continue;
-      const auto color = parse_color(text);
-      if (!color)
-        document_.fail(n, "'" + std::string(text) + "' in data-texture is not a colour", "write colours with semicolons between them");
-      texels.push_back(*color * (style.intensity * style.opacity * style.stroke_opacity));
-    }
-    if (texels.empty()) document_.fail(n, "data-texture is empty", "write colours with semicolons between them");
+    const std::vector<Vec3d> texels = texels_of(document_, n, style, body);
     for (const auto& contour : body.contours) {
       spend(n, 300 * (texels.size() + contour.size()), sizeof(PlaneStop) * texels.size() + sizeof(PlaneBody) * contour.size());
       double whole = 0;
