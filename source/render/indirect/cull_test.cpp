@@ -71,7 +71,7 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
     options.threshold = threshold;
     options.soften = false;
     const LightSet set = make_sets(map, lobes, options).front();
-    for (const Simd simd : {Simd::sse2, active_simd()})
+    for (const Simd simd : available_simd())
       for (int tile = 0; tile < 12; ++tile) {
         const Receivers receivers = random_tile(draw);
         TileLists lists;
