@@ -1,30 +1,15 @@
 // A floor that fills the picture, its materials, and quads above it: what frames are timed on.
 #pragma once
 
+#include "scene/test_meshes.h"
 #include "steradian/scene.h"
 
 namespace steradian::bench {
 
 inline constexpr double kFloorHalf = 8;  // of the floor's side [m]
 
-// A floor seen at an angle; it covers the whole picture.
-inline Scene floor_scene() {
-  Scene scene;
-  scene.materials.resize(1);
-  Mesh mesh;
-  constexpr auto kEnd = static_cast<float>(kFloorHalf);
-  mesh.positions = {{-kEnd, 0, kEnd}, {kEnd, 0, kEnd}, {kEnd, 0, -kEnd}, {-kEnd, 0, -kEnd}};
-  mesh.normals.assign(4, {0, 1, 0});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {mesh};
-  Camera camera;
-  camera.position = {0, 3, 4};
-  camera.z = normalized(Vec3d{0, 3, 4});
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.6;
-  scene.cameras = {camera};
-  return scene;
-}
+// It covers the whole picture.
+inline Scene floor_scene() { return scene::floor_scene({}, static_cast<float>(kFloorHalf), {0, 3, 4}, 0.6); }
 
 inline SurfaceMaterial diffuse() {
   SurfaceMaterial m;

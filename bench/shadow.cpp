@@ -12,6 +12,7 @@
 
 #include "benches.h"
 #include "frame.h"
+#include "scene/test_meshes.h"
 
 namespace steradian::bench {
 namespace {
@@ -113,12 +114,7 @@ Bench frame(const std::string& name, const std::vector<Mesh>& meshes, double hei
   work->scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
   work->scene.materials[0].metallic = 0;
   work->scene.materials[0].specular = 0;
-  Camera camera;
-  camera.position = {0, 2, 4};
-  camera.z = normalized(Vec3d{0, 1.5, 4});
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.7;
-  work->scene.cameras = {camera};
+  work->scene.cameras = {scene::camera_at({0, 2, 4}, {0, -1.5, -4}, 0.7)};
   AreaLight light;
   light.shape =
       Polygon{{{0.5 - half, height, -half}, {0.5 + half, height, -half}, {0.5 + half, height, half}, {0.5 - half, height, half}}, {}};

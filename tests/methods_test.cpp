@@ -177,20 +177,13 @@ TEST(Methods, AutomaticIsTheFirstThatServesAndADraftTakesTheTable) {
 // A scene whose floor has one lobe beside its diffuse one.
 namespace {
 Scene scene_with(const Material& lobe) {
-  Scene scene;
   SurfaceMaterial material;
   material.base_color = {0, 0, 0, 1};
   material.specular_override = {lobe};
-  scene.materials = {material};
-  scene.meshes = {quad_mesh({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
+  Scene scene = scene::floor_scene(material, 8, {0, 3, 4});
   AreaLight panel;
   panel.shape = Polygon{{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {}};
   scene.area_lights = {panel};
-  Camera camera;
-  camera.position = {0, 3, 4};
-  camera.z = normalized(camera.position);
-  camera.y = cross(camera.z, camera.x);
-  scene.cameras = {camera};
   return scene;
 }
 }  // namespace

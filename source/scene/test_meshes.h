@@ -1,4 +1,4 @@
-// Meshes that tests put their scenes together from.
+// Meshes, cameras and floors that tests and benches put their scenes together from.
 #pragma once
 
 #include <cmath>
@@ -50,6 +50,26 @@ inline Mesh ball_mesh(Vec3f center, float radius, int material, unsigned columns
       for (const unsigned v : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(v);
     }
   return mesh;
+}
+
+// A camera at a place that looks along +direction+, its picture's top upwards (y).
+inline Camera camera_at(Vec3d position, Vec3d direction, double yfov = Camera{}.yfov) {
+  Camera camera;
+  camera.position = position;
+  camera.z = -normalized(direction);
+  camera.x = normalized(cross(Vec3d{0, 1, 0}, camera.z));
+  camera.y = cross(camera.z, camera.x);
+  camera.yfov = yfov;
+  return camera;
+}
+
+// A square floor of one material at y = 0, looked at from a place above towards its middle. Nothing lights it.
+inline Scene floor_scene(const SurfaceMaterial& material, float half, Vec3d eye, double yfov = Camera{}.yfov) {
+  Scene scene;
+  scene.materials = {material};
+  scene.meshes = {quad_mesh({-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half}, 0)};
+  scene.cameras = {camera_at(eye, -eye, yfov)};
+  return scene;
 }
 
 }  // namespace steradian::scene

@@ -95,11 +95,7 @@ TEST(LambertUnderFresnel, PicturesShowIt) {
   m.roughness = 0.8f;
   scene.materials = {m};
   scene.meshes = {quad_mesh({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
-  Camera camera;
-  camera.position = {0, 1, 5};
-  camera.yfov = 0.5;
-  camera.z = normalized(Vec3d{0, 1, 5});
-  camera.y = cross(camera.z, camera.x);
+  const Camera camera = scene::camera_at({0, 1, 5}, {0, -1, -5}, 0.5);
   scene.cameras = {camera};
   RenderOptions options;
   options.width = 32;

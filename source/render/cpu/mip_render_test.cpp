@@ -6,6 +6,7 @@
 #include "reference/random_configurations.h"
 #include "render/cpu/camera_rays.h"
 #include "render/cpu/surface.h"
+#include "scene/test_meshes.h"
 #include "steradian/render.h"
 
 namespace steradian {
@@ -26,19 +27,9 @@ Scene checkered_floor() {
   m.base_color_texture.image = 0;
   m.base_color_texture.color_space = ColorSpace::srgb;
   scene.materials = {m};
-  Mesh mesh;
-  mesh.positions = {{-40, 0, 4}, {40, 0, 4}, {40, 0, -76}, {-40, 0, -76}};
-  mesh.normals.assign(4, {0, 1, 0});
-  mesh.texcoords[0] = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {mesh};
-  Camera camera;
-  camera.position = {0, 2, 4};
-  camera.z = {0, 0, 1};
-  camera.x = {1, 0, 0};
-  camera.y = {0, 1, 0};
-  camera.yfov = 0.8;
-  scene.cameras = {camera};
+  scene.meshes = {scene::quad_mesh({-40, 0, 4}, {40, 0, 4}, {40, 0, -76}, {-40, 0, -76}, 0)};
+  scene.meshes[0].texcoords[0] = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+  scene.cameras = {scene::camera_at({0, 2, 4}, {0, 0, -1}, 0.8)};
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "render/cpu/camera_rays.h"
+#include "scene/test_meshes.h"
 #include "steradian/radiance.h"
 #include "steradian/render.h"
 
@@ -27,26 +28,13 @@ std::shared_ptr<const LightProfile> lamp_profile() {
 
 // A floor at y = 0 seen from above and aside, a panel at y = 1.5 that looks down.
 Scene lit_floor(bool round, float roughness, float specular) {
-  Scene scene;
   SurfaceMaterial m;
   m.name = "floor";
   m.base_color = {0.6f, 0.6f, 0.6f, 1};
   m.metallic = 0;
   m.roughness = roughness;
   m.specular = specular;
-  scene.materials = {m};
-  Mesh mesh;
-  mesh.positions = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
-  mesh.normals.assign(4, {0, 1, 0});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {mesh};
-  Camera camera;
-  camera.position = {0, 3, 3};
-  camera.z = normalized(Vec3d{0, 3, 3});
-  camera.x = {1, 0, 0};
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.8;
-  scene.cameras = {camera};
+  Scene scene = scene::floor_scene(m, 4, {0, 3, 3}, 0.8);
   AreaLight light;
   light.name = "panel";
   if (round)
@@ -126,18 +114,11 @@ TEST(ProfiledRender, TheCameraSeesTheEmission) {
   black.specular = black.metallic = 0;
   black.emissive = static_cast<Vec3f>(scene.area_lights[0].radiance);
   scene.materials.push_back(black);
-  Mesh mesh;
-  mesh.material = 1;
-  mesh.positions = {{-0.5f, 1.5f, -0.4f}, {0.9f, 1.5f, -0.4f}, {0.9f, 1.5f, 0.4f}, {-0.5f, 1.5f, 0.4f}};
-  mesh.normals.assign(4, {0, -1, 0});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
+  Mesh mesh = scene::quad_mesh({-0.5f, 1.5f, -0.4f}, {0.9f, 1.5f, -0.4f}, {0.9f, 1.5f, 0.4f}, {-0.5f, 1.5f, 0.4f}, 1);
   mesh.triangle_lights = {0, 0};
   mesh.is_light_shape = true;
   scene.meshes.push_back(mesh);
-  Camera& camera = scene.cameras[0];
-  camera.position = {0.2, 0.2, 1};
-  camera.z = normalized(Vec3d{0, -1.3, 1});
-  camera.y = cross(camera.z, camera.x);
+  const Camera& camera = scene.cameras[0] = scene::camera_at({0.2, 0.2, 1}, {0, 1.3, -1}, 0.8);
   const RenderOptions options = small("auto");
   const Vec3f seen = render(scene, options).at(20, 12);
   const CameraRays rays(camera, options.width, options.height);

@@ -34,17 +34,9 @@ SurfaceMaterial diffuse(float albedo) {
 }
 
 // A floor of albedo 0.5 and a camera above it, looking down at an angle.
-Scene floor_scene() {
-  Scene scene;
-  scene.materials = {diffuse(0.5f)};
-  scene.meshes = {quad_mesh({-8, 0, 8}, {8, 0, 8}, {8, 0, -8}, {-8, 0, -8}, 0)};
-  Camera camera;
-  camera.name = "main";
-  camera.position = {0, 3, 4};
-  camera.z = normalized(Vec3d{0, 3, 4});
-  camera.x = {1, 0, 0};
-  camera.y = cross(camera.z, camera.x);
-  scene.cameras = {camera};
+Scene diffuse_floor() {
+  Scene scene = floor_scene(diffuse(0.5f), 8, {0, 3, 4});
+  scene.cameras[0].name = "main";
   return scene;
 }
 
@@ -84,7 +76,7 @@ Vec3d floor_point(const Scene& scene, const RenderOptions& options, int x, int y
 }  // namespace
 
 TEST(Render, DiffuseFloorIsThePolygonIntegralAtEveryPixel) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {ceiling_light(), wall_light()};
   const RenderOptions options = small();
   const Picture picture = render(scene, options);
@@ -114,7 +106,7 @@ TEST(Render, SmallLightsKeepTheirPower) {
   };
   for (std::size_t shape = 0; shape < lights(1).size(); ++shape)
     for (const std::string method : {"closed-form", "ltc", "ltc-compact"}) {
-      Scene scene = floor_scene();
+      Scene scene = diffuse_floor();
       scene.materials[0].specular = 1;
       scene.materials[0].roughness = 0.5f;
       RenderOptions options = small();
@@ -148,7 +140,7 @@ TEST(Render, LargeLightsAreTheSumOfTheirParts) {
     for (const Vec3d& far : {Vec3d{size, size, -7}, Vec3d{-size, size, -7}}) corners.push_back(far);
     const AreaLight parts = polygon(corners, {1, 1, 1});
     for (const std::string method : {"closed-form", "ltc", "ltc-compact", "half-vector"}) {
-      Scene scene = floor_scene();
+      Scene scene = diffuse_floor();
       scene.materials[0].specular = 1;
       scene.materials[0].roughness = 0.4f;
       RenderOptions options = small();
@@ -168,7 +160,7 @@ TEST(Render, LargeLightsAreTheSumOfTheirParts) {
       const bool table = method.starts_with("ltc");
       EXPECT_LT(worst, (table ? 1e-4f : 1.5e-3f) * largest) << method << " " << size;
     }
-    Scene scene = floor_scene();
+    Scene scene = diffuse_floor();
     scene.area_lights = {whole};
     const RenderOptions options = small();
     const Picture picture = render(scene, options);
@@ -186,7 +178,7 @@ TEST(Render, LargeLightsAreTheSumOfTheirParts) {
 }
 
 TEST(Render, SphereLightIsItsClosedForm) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   const Ellipsoid sphere = {{0, 2, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}};
   scene.area_lights = {AreaLight{sphere, {2, 2, 2}}};
   const RenderOptions options = small();
@@ -207,7 +199,7 @@ TEST(Render, SphereLightIsItsClosedForm) {
 
 // A slanted ellipse that the floor cuts, two-sided, against the form factor in double.
 TEST(Render, DiskLightIsItsFormFactor) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   const Ellipse disk = {{-2, 0.5, 0}, {0.3, 1, 0}, {0, 0, 1.5}};
   scene.area_lights = {AreaLight{disk, {2, 2, 2}, true}};
   const RenderOptions options = small();
@@ -231,7 +223,7 @@ TEST(Render, DiskLightIsItsFormFactor) {
 // A glossy floor under disk and sphere: the polygons about the lobe against polygon lights of 256 vertices.
 TEST(Render, RoundLightsOnGlossAgreeWithFinePolygons) {
   for (float roughness : {0.1f, 0.5f}) {
-    Scene scene = floor_scene();
+    Scene scene = diffuse_floor();
     scene.materials[0].specular = 1;
     scene.materials[0].roughness = roughness;
     const AreaLight disk = {Ellipse{{0, 2, -3}, {-1.2, 0, 0}, {0, 0.8, -0.2}}, {1, 1, 1}, true};
@@ -257,7 +249,7 @@ TEST(Render, RoundLightsOnGlossAgreeWithFinePolygons) {
 
 // One tube above the floor, one that pierces it: on packs, against the closed form in double.
 TEST(Render, TubesAreTheirClosedForm) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {tube_light({0.5, 1.5, -1}, {1.5, 0.4, 0}, 0.1), tube_light({-2, 0.2, 0}, {0.3, 0.8, -0.2}, 0.25)};
   const RenderOptions options = small();
   const Picture picture = render(scene, options);
@@ -281,7 +273,7 @@ TEST(Render, TubesAreTheirClosedForm) {
 // A glossy floor, by every method that runs on packs or point by point, against high quality and the double library.
 TEST(Render, TubesOnGlossAgreeWithFinePolygons) {
   for (float roughness : {0.2f, 0.5f}) {
-    Scene scene = floor_scene();
+    Scene scene = diffuse_floor();
     scene.materials[0].base_color = {1, 1, 1, 1};
     scene.materials[0].metallic = 1;
     scene.materials[0].roughness = roughness;
@@ -313,7 +305,7 @@ TEST(Render, TubesOnGlossAgreeWithFinePolygons) {
 }
 
 TEST(Render, PunctualLightsFollowTheInverseSquare) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   PunctualLight light;
   light.position = {0.5, 2, 0.25};
   light.intensity = {10, 20, 30};
@@ -326,7 +318,7 @@ TEST(Render, PunctualLightsFollowTheInverseSquare) {
 }
 
 TEST(Render, GivesTheSameBytesAtAnyNumberOfThreads) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {ceiling_light(), wall_light()};
   RenderOptions options = small();
   options.aa = 3;
@@ -337,7 +329,7 @@ TEST(Render, GivesTheSameBytesAtAnyNumberOfThreads) {
 }
 
 TEST(Render, InstructionSetsAgree) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {ceiling_light(), wall_light()};
   Picture first;
   for (Simd simd : available_simd()) {
@@ -351,7 +343,7 @@ TEST(Render, InstructionSetsAgree) {
 }
 
 TEST(Render, LightsBehindTheFloorChangeNothing) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {ceiling_light()};
   const Picture alone = render(scene, small());
   scene.area_lights.push_back(polygon({{-1, -2, -1}, {-1, -2, 1}, {1, -2, 1}, {1, -2, -1}}, {9, 9, 9}));
@@ -359,7 +351,7 @@ TEST(Render, LightsBehindTheFloorChangeNothing) {
 }
 
 TEST(Render, ExactDiffuseLightAgreesWithTheReferenceAtEveryPixel) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {ceiling_light(), wall_light()};
   RenderOptions options;
   options.width = 40;
@@ -387,7 +379,7 @@ TEST(Render, ExactDiffuseLightAgreesWithTheReferenceAtEveryPixel) {
 }
 
 TEST(Render, ShadowsDarkenOnlyWhatTheLightDoesNotSee) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.area_lights = {ceiling_light()};
   // A plate halfway to the light, above the middle of the floor.
   scene.meshes.push_back(quad_mesh({-0.6f, 1, 0.6f}, {0.6f, 1, 0.6f}, {0.6f, 1, -0.6f}, {-0.6f, 1, -0.6f}, 0));
@@ -419,7 +411,7 @@ TEST(Render, ShadowsDarkenOnlyWhatTheLightDoesNotSee) {
 }
 
 TEST(Render, MethodsThatDoNotServeALobeAreWrongUse) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.materials[0].specular = 1;
   scene.materials[0].name = "tiles";
   RenderOptions options = small();
@@ -437,7 +429,7 @@ TEST(Render, AnUnknownCameraIsNamedWithThoseThereAre) {
   RenderOptions options = small();
   options.camera = "nobody";
   try {
-    render(floor_scene(), options);
+    render(diffuse_floor(), options);
     FAIL();
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("main"), std::string::npos);
@@ -446,7 +438,7 @@ TEST(Render, AnUnknownCameraIsNamedWithThoseThereAre) {
 
 // The layers of one cloth: base under sheen, each pixel by the library's own calls; sampling agrees within its variance.
 TEST(Render, SheenIsItsCubatureOverADimmedBase) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.materials[0].sheen_color = {0.8f, 0.5f, 0.2f};
   scene.materials[0].sheen_roughness = 0.5f;
   scene.area_lights = {ceiling_light()};
@@ -480,7 +472,7 @@ TEST(Render, SheenIsItsCubatureOverADimmedBase) {
 }
 
 TEST(Render, MultipleScatteringBrightensARoughMetal) {
-  Scene scene = floor_scene();
+  Scene scene = diffuse_floor();
   scene.materials[0].base_color = {0.9f, 0.6f, 0.3f, 1};
   scene.materials[0].metallic = 1;
   scene.materials[0].specular = 1;

@@ -107,13 +107,7 @@ Scene scene_of(const std::vector<Strip>& strips) {
     const float x = 0.4f * static_cast<float>(i);
     add({x, 1.05f, -0.5f}, {x + 0.15f, 1.1f, -0.5f}, {x + 0.1f, 1.3f, 0.5f}, {x - 0.05f, 1.2f, 0.5f});
   }
-  Camera camera;
-  camera.position = {0.2, 0.95, 2.6};
-  camera.z = normalized(Vec3d{0.05, 0.42, 1});
-  camera.x = normalized(cross(Vec3d{0, 1, 0}, camera.z));
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.5;
-  scene.cameras = {camera};
+  scene.cameras = {scene::camera_at({0.2, 0.95, 2.6}, {-0.05, -0.42, -1}, 0.5)};
   return scene;
 }
 

@@ -41,17 +41,12 @@ Scene still_life() {
   Scene scene;
   scene.materials = {diffuse(0.6f), diffuse(0.4f)};
   scene.meshes = {quad_mesh({-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}, 0)};
+  scene.cameras = {camera_at({0, 2, 3}, {0, -1.8, -3})};
+  scene.cameras[0].name = "main";
   add_box(scene, {-0.9f, 0, -0.5f}, {-0.3f, 0.7f, 0.1f}, 1);
   scene.meshes.push_back(ball_mesh({0.4f, 0.35f, 0.1f}, 0.35f, 1, 16, 8));
   scene.meshes.push_back(quad_mesh({0.6f, 1, 0.3f}, {1.2f, 1, 0.2f}, {1.2f, 1.1f, -0.4f}, {0.6f, 1.1f, -0.5f}, 1));
   scene.meshes.push_back(quad_mesh({-0.3f, 0, 0.3f}, {0.1f, 0, 0.3f}, {-0.1f, 0.6f, -0.2f}, {-0.5f, 0.6f, -0.2f}, 1));
-  Camera camera;
-  camera.name = "main";
-  camera.position = {0, 2, 3};
-  camera.z = normalized(Vec3d{0, 1.8, 3});
-  camera.x = {1, 0, 0};
-  camera.y = cross(camera.z, camera.x);
-  scene.cameras = {camera};
   return scene;
 }
 

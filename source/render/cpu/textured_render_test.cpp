@@ -5,6 +5,7 @@
 
 #include "image/z_test.h"
 #include "render/cpu/camera_rays.h"
+#include "scene/test_meshes.h"
 #include "steradian/compare.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
@@ -17,26 +18,12 @@ using namespace image;
 
 // A floor at y = 0 before a standing square light of side 2 with a texture of 4 x 4 texels.
 Scene textured_scene(const std::vector<std::uint8_t>& rgb) {
-  Scene scene;
   SurfaceMaterial m;
   m.name = "floor";
   m.base_color = {0.6f, 0.6f, 0.6f, 1};
   m.metallic = 0;
   m.roughness = 0.4f;
-  scene.materials = {m};
-  Mesh mesh;
-  mesh.positions = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
-  mesh.normals.assign(4, {0, 1, 0});
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes = {mesh};
-  Camera camera;
-  camera.position = {0, 2, 4};
-  camera.z = normalized(Vec3d{0, 2, 4});
-  camera.x = {1, 0, 0};
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.5;
-  scene.cameras = {camera};
-
+  Scene scene = scene::floor_scene(m, 4, {0, 2, 4}, 0.5);
   Image image{"texture", 4, 4, {}};
   for (std::size_t i = 0; i < 16; ++i) image.rgba.insert(image.rgba.end(), {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], 255});
   scene.images = {image};

@@ -40,13 +40,7 @@ inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
   light.cos_inner = std::cos(0.2);
   light.cos_outer = std::cos(0.35);
   scene.punctual_lights = {light};
-  Camera camera;
-  camera.position = {0.6, 1.6, 4.5};
-  camera.z = normalized(camera.position - Vec3d{0, 0.6, 0.8});
-  camera.x = normalized(cross({0, 1, 0}, camera.z));
-  camera.y = cross(camera.z, camera.x);
-  camera.yfov = 0.8;
-  scene.cameras = {camera};
+  scene.cameras = {scene::camera_at({0.6, 1.6, 4.5}, {-0.6, -1, -3.7}, 0.8)};
   return scene;
 }
 
