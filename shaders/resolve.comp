@@ -106,11 +106,12 @@ Surface surface_of(uint triangle, vec3 direction) {
     at.weight = vec3(1.0 - uv.x - uv.y, uv);
 
     s.found = true;
-    s.position = blended(at, kVertexPosition).xyz;
     s.view = -direction;
     vec3 geometric = unit(n);
     float towards = dot(geometric, s.view);
     float side = towards < 0.0 ? -1.0 : 1.0;
+    vec4 position = blended(at, kVertexPosition);
+    s.position = position.xyz + geometric * (side * position.w);  // gbuffer.cpp's lift_off_lights
     vec3 up = unit(blended(at, kVertexNormal).xyz);
     if (!(dot(up, up) > 0.5)) up = geometric;
 

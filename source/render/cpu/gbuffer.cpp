@@ -219,6 +219,21 @@ void smooth_positions(const Scene& scene, const TileHits& hits, SurfaceTile& til
           smooth_position(scene.meshes[hits.geometry[i]], hits.triangle[i], hits.u[i], hits.v[i], get(tile.geometric_normal, i)));
 }
 
+// Off the flat lights that they are the faces of, to the side that is seen: there the light lies below the horizon and shines away, if it
+// has one side. Between roundings of its own plane it would be all of the sky at one pixel and nothing at the next.
+void lift_off_lights(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
+  std::int32_t last = -1;
+  float lift = 0;
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (tile.material[i] == nullptr || !scene.meshes[hits.geometry[i]].is_emitter()) continue;
+    const std::int32_t light = scene.meshes[hits.geometry[i]].triangle_lights[hits.triangle[i]];
+    if (light < 0) continue;
+    if (light != last) lift = roundings_of_plane(scene.area_lights[static_cast<std::size_t>(light)]);
+    last = light;
+    put(tile.position, i, get(tile.position, i) + get(tile.geometric_normal, i) * lift);
+  }
+}
+
 }  // namespace
 
 void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits, SurfaceTile& tile) {
@@ -266,6 +281,7 @@ void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits
     }
   }
   if (shading.terminator == Terminator::smooth) smooth_positions(scene, hits, tile);
+  lift_off_lights(scene, hits, tile);
 }
 
 }  // namespace steradian

@@ -207,6 +207,14 @@ Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec
   return hit + lift;
 }
 
+float roundings_of_plane(const AreaLight& light) {
+  const auto* polygon = std::get_if<Polygon>(&light.shape);
+  if (polygon == nullptr) return 0;
+  double largest = 0;
+  for (const Vec3d& v : polygon->vertices) largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  return 0x1p-18f * static_cast<float>(largest);
+}
+
 SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned triangle, Vec3f direction, float distance,
                               const PixelSteps& steps) {
   const Corner at(mesh, triangle, 0, 0);

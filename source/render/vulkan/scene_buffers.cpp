@@ -83,13 +83,25 @@ void add_factors(const SurfaceMaterial& m, std::vector<Vec4Floats>& to) {
   to.push_back({m.metallic, m.roughness, r * r, 0});
 }
 
-void add_vertices(const Mesh& mesh, std::vector<Vec4Floats>& to) {
+// For each vertex, how far its triangles are lifted off the lights that they are the faces of.
+std::vector<float> lifts_of(const Scene& scene, const Mesh& mesh) {
+  std::vector<float> lifts(mesh.positions.size(), 0.0f);
+  for (std::size_t t = 0; t < mesh.triangle_lights.size(); ++t) {
+    if (mesh.triangle_lights[t] < 0) continue;
+    const float lift = roundings_of_plane(scene.area_lights[static_cast<std::size_t>(mesh.triangle_lights[t])]);
+    for (std::size_t c = 3 * t; c < 3 * t + 3; ++c) lifts[mesh.indices[c]] = std::max(lifts[mesh.indices[c]], lift);
+  }
+  return lifts;
+}
+
+void add_vertices(const Scene& scene, const Mesh& mesh, std::vector<Vec4Floats>& to) {
+  const std::vector<float> lifts = lifts_of(scene, mesh);
   const auto two = [](const std::vector<Vec2f>& set, std::size_t i) { return set.empty() ? Vec2f{} : set[i]; };
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3f &p = mesh.positions[i], &n = mesh.normals[i];
     const Vec4f t = mesh.tangents.empty() ? Vec4f{} : mesh.tangents[i], c = mesh.colors.empty() ? Vec4f{} : mesh.colors[i];
     const Vec2f a = two(mesh.texcoords[0], i), b = two(mesh.texcoords[1], i);
-    to.insert(to.end(), {Vec4Floats{p.x, p.y, p.z, 0}, Vec4Floats{n.x, n.y, n.z, 0}, Vec4Floats{t.x, t.y, t.z, t.w},
+    to.insert(to.end(), {Vec4Floats{p.x, p.y, p.z, lifts[i]}, Vec4Floats{n.x, n.y, n.z, 0}, Vec4Floats{t.x, t.y, t.z, t.w},
                          Vec4Floats{a.x, a.y, b.x, b.y}, Vec4Floats{c.x, c.y, c.z, c.w}});
   }
 }
@@ -118,7 +130,7 @@ struct Contents {
       materials.push_back({static_cast<float>(first_material + static_cast<std::size_t>(mesh.material) * kMaterial),
                            mesh.tangents.empty() ? 0.0f : 1.0f, mesh.colors.empty() ? 0.0f : 1.0f,
                            (mesh.texcoords[0].empty() ? 0.0f : 1.0f) + (mesh.texcoords[1].empty() ? 0.0f : 2.0f)});
-      add_vertices(mesh, vertices);
+      add_vertices(scene, mesh, vertices);
       for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         triangles.push_back({first + static_cast<float>(mesh.indices[i]), first + static_cast<float>(mesh.indices[i + 1]),
                              first + static_cast<float>(mesh.indices[i + 2]), number});
