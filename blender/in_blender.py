@@ -1,4 +1,5 @@
-"""Runs a test's script in Blender, with the add-on in a folder of its own; ends with 77 (skipped) where a program is missing."""
+"""What the add-on's tests share. Outside of Blender: runs a test's script in it, with the add-on in a folder of its own; ends with 77 (skipped)
+where a program is missing. Inside: an empty scene, and its pictures by either engine."""
 
 import os
 import shutil
@@ -34,3 +35,68 @@ def run(script, program, window, seconds, keep=()):
                 shutil.copy(Path(folder) / name, path)
         if done.returncode != 0 or not told or told[-1] != "TEST done":
             sys.exit(done.stdout[-2000:] + done.stderr[-4000:])
+
+
+def main(script, inside, window, seconds, keep=lambda arguments: ()):
+    """The whole of a test's script: `script PROGRAM ...` runs inside(folder) in Blender. keep(the arguments after the program): as run()'s."""
+    if "--" in sys.argv:
+        inside(sys.argv[sys.argv.index("--") + 1])
+    else:
+        run(script, sys.argv[1], window, seconds, keep(sys.argv[2:]))
+
+
+def enable():
+    """The add-on, and the exporter that it hooks into."""
+    import bpy
+
+    for name in ("io_scene_gltf2", "steradian_render"):
+        bpy.ops.preferences.addon_enable(module=name)
+    assert hasattr(bpy.context.scene, "steradian"), "the add-on is not enabled"
+
+
+class Pictures:
+    """An empty, dark scene, and what both engines make of it: direct light, in floats."""
+
+    def __init__(self, folder, samples):
+        import bpy
+
+        enable()
+        self.bpy, self.folder, self.scene = bpy, folder, bpy.context.scene
+        scene = self.scene
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+        scene.world.use_nodes = True
+        self.background = scene.world.node_tree.nodes["Background"]
+        self.background.inputs["Strength"].default_value = 0
+        scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+        scene.render.resolution_percentage = 100
+        scene.view_settings.view_transform = "Raw"
+        scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces, scene.cycles.seed = samples, False, 0, 1
+        scene.world.cycles.max_bounces = 0
+        self.lambertian = []  # materials whose diffuse lobe is Lambert's for Cycles, too, which is glTF's; Principled's is Disney's
+
+    def render(self, engine, width, height):
+        """Its pixels, four numbers each, from below."""
+        bpy, scene = self.bpy, self.scene
+        scene.render.resolution_x, scene.render.resolution_y = width, height
+        for light in bpy.data.lights:
+            light.cycles.max_bounces = 0
+        for name in self.lambertian:
+            self.shade_by(bpy.data.materials[name], "Diffuse BSDF" if engine == "CYCLES" else "Principled BSDF")
+        scene.render.engine = engine
+        scene.render.filepath = os.path.join(self.folder, engine + ".exr")
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(scene.render.filepath)
+        image.colorspace_settings.name = "Non-Color"
+        pixels, size = list(image.pixels), tuple(image.size)
+        bpy.data.images.remove(image)
+        assert size == (width, height), size
+        return pixels
+
+    @staticmethod
+    def shade_by(material, name):
+        """Has the material send what this node sends; the diffuse one is of the other's colour."""
+        nodes = material.node_tree.nodes
+        if name not in nodes:
+            nodes.new("ShaderNodeBsdfDiffuse").inputs["Color"].default_value = nodes["Principled BSDF"].inputs["Base Color"].default_value
+        material.node_tree.links.new(nodes[name].outputs["BSDF"], nodes["Material Output"].inputs["Surface"])

@@ -8,6 +8,9 @@ import os
 import struct
 import sys
 
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import in_blender  # noqa: E402
+
 WIDTH, HEIGHT = 64, 36
 
 
@@ -23,18 +26,8 @@ def inside(folder):
         shader.inputs["Roughness"].default_value = 1
         bpy.context.object.data.materials.append(m)
 
-    def pixels(path):
-        image = bpy.data.images.load(path)
-        image.colorspace_settings.name = "Non-Color"
-        values = list(image.pixels)
-        assert tuple(image.size) == (WIDTH, HEIGHT), tuple(image.size)
-        return [sum(values[4 * i:4 * i + 3]) for i in range(WIDTH * HEIGHT)]
-
-    bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
-    bpy.ops.preferences.addon_enable(module="steradian_render")
-    assert hasattr(bpy.context.scene, "steradian"), "the add-on is not enabled"
-    bpy.ops.object.select_all(action="SELECT")
-    bpy.ops.object.delete()
+    pictures = in_blender.Pictures(folder, 1024)
+    pictures.lambertian = ["floor", "cube"]
     bpy.ops.mesh.primitive_plane_add(size=20)
     material("floor", (0.5, 0.5, 0.5))
     bpy.ops.mesh.primitive_cube_add(size=1, location=(0.5, 0.3, 0.5), rotation=(0, 0, 0.4))
@@ -45,20 +38,15 @@ def inside(folder):
     bpy.ops.object.light_add(type="AREA", location=(2, 1, 2), rotation=(0.3, 0.6, 0))
     lamp = bpy.context.object
     lamp.data.shape, lamp.data.size, lamp.data.energy, lamp.scale = "DISK", 0.8, 60, (1.5, 1.5, 1.5)
+    bpy.ops.object.light_add(type="SUN", rotation=(0.3, 0.5, 0))
+    bpy.context.object.data.angle, bpy.context.object.data.energy = 0.2, 0.7
     bpy.ops.object.camera_add(location=(0, -5, 4), rotation=(0.9, 0, 0))
-    scene = bpy.context.scene
+    scene = pictures.scene
     scene.camera = bpy.context.object
-    scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = WIDTH, HEIGHT, 100
-    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
-    scene.view_settings.view_transform = "Raw"
 
     def render(engine):
-        scene.render.engine = engine
-        scene.render.filepath = os.path.join(folder, engine + ".exr")
-        bpy.ops.render.render(write_still=True)
-        return pixels(scene.render.filepath)
+        values = pictures.render(engine, WIDTH, HEIGHT)
+        return [sum(values[4 * i:4 * i + 3]) for i in range(WIDTH * HEIGHT)]
 
     scene.steradian.aa = 16
     ours = render("STERADIAN")
@@ -73,15 +61,6 @@ def inside(folder):
     assert [(light["type"], round(light["intensity"], 4)) for light in lights] == [
         ("rect", round(100 / (4 * 1.2 * 0.6), 4)), ("disk", round(60 / (3.14159265 * (0.8 * 1.5) ** 2), 4))], lights
 
-    # glTF's diffuse lobe is Lambert's, Principled's is Disney's: Cycles gets Lambert's, too.
-    for m in bpy.data.materials:
-        if m.use_nodes and "Principled BSDF" in m.node_tree.nodes:
-            diffuse = m.node_tree.nodes.new("ShaderNodeBsdfDiffuse")
-            diffuse.inputs["Color"].default_value = m.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value
-            m.node_tree.links.new(diffuse.outputs["BSDF"], m.node_tree.nodes["Material Output"].inputs["Surface"])
-    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces, scene.cycles.seed = 1024, False, 0, 1
-    for light in bpy.data.lights:
-        light.cycles.max_bounces = 0
     cycles = render("CYCLES")
 
     patches = 0
@@ -99,9 +78,4 @@ def inside(folder):
 
 
 if __name__ == "__main__":
-    if "--" in sys.argv:
-        inside(sys.argv[sys.argv.index("--") + 1])
-    else:
-        import in_blender
-
-        in_blender.run(__file__, sys.argv[1], False, 600)
+    in_blender.main(__file__, inside, False, 600)

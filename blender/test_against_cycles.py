@@ -7,6 +7,9 @@ import math
 import os
 import sys
 
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import in_blender  # noqa: E402
+
 TILE = 16  # pixels a side
 COLUMNS, ROWS = 4, 3
 MOST = 0.01  # that a patch may be off
@@ -28,48 +31,18 @@ MATERIALS = {
 }
 
 
-class Comparison:
-    """The two engines and their pictures."""
+class Comparison(in_blender.Pictures):
+    """The two engines, patch by patch."""
 
     def __init__(self, folder):
-        import bpy
-
-        self.bpy, self.folder = bpy, folder
-        bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
-        bpy.ops.preferences.addon_enable(module="steradian_render")
-        self.scene = scene = bpy.context.scene
-        bpy.ops.object.select_all(action="SELECT")
-        bpy.ops.object.delete()
-        scene.world.use_nodes = True
-        scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0
-        scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
-        scene.render.resolution_percentage = 100
-        scene.view_settings.view_transform = "Raw"
-        scene.steradian.aa = 1  # the middles of pixels, here and there
-        scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 0.01
-        scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces, scene.cycles.seed = 512, False, 0, 1
-
-    def render(self, engine):
-        """Its pixels, from below."""
-        bpy, scene = self.bpy, self.scene
-        for light in bpy.data.lights:
-            light.cycles.max_bounces = 0
-        scene.render.engine = engine
-        scene.render.filepath = os.path.join(self.folder, engine + ".exr")
-        bpy.ops.render.render(write_still=True)
-        image = bpy.data.images.load(scene.render.filepath)
-        image.colorspace_settings.name = "Non-Color"
-        pixels = list(image.pixels)
-        size = tuple(image.size)
-        bpy.data.images.remove(image)
-        assert size == (scene.render.resolution_x, scene.render.resolution_y), size
-        return pixels
+        super().__init__(folder, 512)
+        self.scene.steradian.aa = 1  # the middles of pixels, here and there
+        self.scene.cycles.pixel_filter_type, self.scene.cycles.filter_width = "BOX", 0.01
 
     def compare(self, columns, rows, name_of, least_is_mean=False):
         """Ratio of both in each tile, without its rim."""
         width = columns * TILE
-        self.scene.render.resolution_x, self.scene.render.resolution_y = width, rows * TILE
-        ours, cycles = self.render("STERADIAN"), self.render("CYCLES")
+        ours, cycles = (self.render(engine, width, rows * TILE) for engine in ("STERADIAN", "CYCLES"))
         patches = {}
         for row in range(rows):
             for column in range(columns):
@@ -153,19 +126,26 @@ def lights(c):
     """Each alone over a floor that is Lambert's."""
     c.bpy.ops.mesh.primitive_plane_add(size=8, location=(0, 0, 0))
     c.add_material("floor", {"Specular": 0})
+    c.lambertian = ["floor"]
     c.camera_above(6, COLUMNS)
     ellipse = c.area_light("ELLIPSE", (0.4, 0.2, 1.5), (0.3, 0.2, 0.5), 1.4, 0.5, 50)
     kinds = [("ellipse", ellipse)]
     square = c.area_light("SQUARE", (0.4, 0.2, 1.5), (0.3, 0.2, 0.5), 0.6, 1, 50)
     square.scale = (2, 0.5, 1)
     kinds.append(("square, scaled unevenly", square))
-    for kind, values in (("POINT", {"shadow_soft_size": 0.1}), ("SPOT", {"spot_size": 1.6, "spot_blend": 0.4, "shadow_soft_size": 0}), ("SUN", {"angle": 0})):
+    for kind, shape in (("narrow rectangle", "RECTANGLE"), ("narrow disk", "DISK")):
+        lamp = c.area_light(shape, (0.4, 0.2, 1.5), (0.3, 0.2, 0.5), 0.6, 0.3, 50)
+        lamp.data.spread = math.radians(70 if shape == "DISK" else 130)
+        kinds.append((kind, lamp))
+    for name, kind, values in (("point", "POINT", {"shadow_soft_size": 0.1}), ("spot", "SPOT", {"spot_size": 1.6, "spot_blend": 0.4, "shadow_soft_size": 0}),
+                               ("wide spot", "SPOT", {"spot_size": 1.6, "spot_blend": 0.4, "shadow_soft_size": 0.15}), ("sun", "SUN", {"angle": 0}),
+                               ("hazy sun", "SUN", {"angle": math.radians(20)})):
         c.bpy.ops.object.light_add(type=kind, location=(0.4, 0.2, 1.5), rotation=(0.3, 0.2, 0))
         lamp = c.bpy.context.object
         lamp.data.energy = 1 if kind == "SUN" else 50
         for key, value in values.items():
             setattr(lamp.data, key, value)
-        kinds.append((kind.lower(), lamp))
+        kinds.append((name, lamp))
     c.bpy.ops.mesh.primitive_plane_add(size=0.8, location=(0.4, 0.2, 1.5), rotation=(math.pi + 0.3, 0.2, 0))
     glow = c.bpy.data.materials.new("glow")
     glow.use_nodes, glow.use_backface_culling = True, False
@@ -185,19 +165,43 @@ def lights(c):
     return worst
 
 
+def worlds(c):
+    """A pyramid's four sides below a world of one colour, and below pictures of different directions: nothing hides the world there, which would
+    cast no shadow here."""
+    bpy, tree = c.bpy, c.scene.world.node_tree
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    bpy.ops.mesh.primitive_cone_add(vertices=4, radius1=4, depth=4)
+    c.add_material("pyramid", {"Specular": 0})
+    c.lambertian = ["pyramid"]
+    c.camera_above(20, 4)
+    color, strength = c.background.inputs["Color"], c.background.inputs["Strength"]
+    color.default_value, strength.default_value = (0.2, 0.5, 0.9, 1), 0.7
+    worst = c.compare(2, 2, lambda column, row: f"world of one colour, {column} {row}")
+    turn = tree.nodes.new("ShaderNodeMapping")
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], turn.inputs["Vector"])
+    for name, is_float, rotation in (("a picture's", True, (0, 0, 0)), ("a picture's of 8 bits", False, (0, 0, 0)), ("a turned picture's", True, (0.4, -0.3, 1.1))):
+        image = bpy.data.images.new(name, 64, 32, float_buffer=is_float)
+        at = lambda x, y: (0.5 + 0.4 * math.sin(6.2832 * x / 64), 0.3 + 0.2 * math.cos(6.2832 * x / 64) * math.sin(3.1416 * y / 32), y / 31)
+        image.pixels[:] = [value for y in range(32) for x in range(64) for value in (*at(x + 0.5, y), 1)]
+        image.pack()
+        node = tree.nodes.new("ShaderNodeTexEnvironment")
+        node.image = image
+        turn.inputs["Rotation"].default_value = rotation
+        tree.links.new(turn.outputs[0], node.inputs["Vector"])
+        tree.links.new(node.outputs["Color"], color)
+        worst = max(worst, c.compare(2, 2, lambda column, row: f"world of {name}, {column} {row}"))
+    return worst
+
+
 def inside(folder):
     """All of it."""
     c = Comparison(folder)
-    of_materials, of_lights = materials(c), lights(c)
-    print(f"TEST farthest: materials {of_materials:.4f}, lights {of_lights:.4f}")
-    assert of_materials < MOST and of_lights < MOST
+    of_materials, of_lights, of_worlds = materials(c), lights(c), worlds(c)
+    print(f"TEST farthest: materials {of_materials:.4f}, lights {of_lights:.4f}, worlds {of_worlds:.4f}")
+    assert max(of_materials, of_lights, of_worlds) < MOST
     print("TEST done")
 
 
 if __name__ == "__main__":
-    if "--" in sys.argv:
-        inside(sys.argv[sys.argv.index("--") + 1])
-    else:
-        import in_blender
-
-        in_blender.run(__file__, sys.argv[1], False, 900)
+    in_blender.main(__file__, inside, False, 1200)

@@ -7,6 +7,9 @@ import os
 import sys
 import time
 
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import in_blender  # noqa: E402
+
 SECONDS = 240  # on software OpenGL, beside other work
 
 
@@ -18,8 +21,7 @@ class Steps:
 
         self.bpy, self.folder, self.begin, self.found = bpy, folder, time.monotonic(), []
         bpy.context.preferences.view.show_splash = False
-        bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
-        bpy.ops.preferences.addon_enable(module="steradian_render")
+        in_blender.enable()
         from steradian_render import engine
 
         viewport, found = engine.Viewport, self.found
@@ -101,13 +103,12 @@ class Steps:
         return 0.3
 
 
+def inside(folder):
+    """Its steps, one after the other, by Blender's timer."""
+    import bpy
+
+    bpy.app.timers.register(Steps(folder).step, first_interval=1)
+
+
 if __name__ == "__main__":
-    if "--" in sys.argv:
-        import bpy
-
-        steps = Steps(sys.argv[sys.argv.index("--") + 1])
-        bpy.app.timers.register(steps.step, first_interval=1)
-    else:
-        import in_blender
-
-        in_blender.run(__file__, sys.argv[1], True, SECONDS + 60, [("second.png", path) for path in sys.argv[2:3]])
+    in_blender.main(__file__, inside, True, SECONDS + 60, lambda arguments: [("second.png", path) for path in arguments[:1]])

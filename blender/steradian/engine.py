@@ -7,7 +7,7 @@ import time
 
 import bpy
 
-from . import program
+from . import program, world
 from .export import export
 from .viewport import Viewport
 
@@ -79,11 +79,13 @@ class SteradianEngine(bpy.types.RenderEngine):
         percentage = scene.render.resolution_percentage / 100
         width, height = int(scene.render.resolution_x * percentage), int(scene.render.resolution_y * percentage)
         with tempfile.TemporaryDirectory() as folder:
-            glb, picture = (os.path.join(folder, name) for name in ("scene.glb", "picture.exr"))
+            glb, picture, around = (os.path.join(folder, name) for name in ("scene.glb", "picture.exr", "world.exr"))
             self.update_stats("", "exporting")
             in_main_thread(lambda: export(glb))
+            if not world.write(scene.world, around):
+                around = None
             settings = scene.steradian
-            if not self.run(program.render_command(glb, picture, width, height, settings, settings.aa)):
+            if not self.run(program.render_command(glb, picture, width, height, settings, settings.aa, around)):
                 return
             result = self.begin_result(0, 0, width, height)
             result.layers[0].load_from_file(picture)

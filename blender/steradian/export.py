@@ -3,11 +3,33 @@
 import contextlib
 
 import bpy
+import mathutils
 
-from .lights import NodeLights
+from .glb import edit
+from .lights import NodeLights, finish
 from .materials import Completion
 
-_for_engine = False  # while the engine exports
+# Blender's world (z up) to glTF's (y up).
+TO_GLTF = mathutils.Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+
+
+class EngineExport:
+    """What an export of the engine gathers besides its nodes."""
+
+    def __init__(self):
+        self.added = []  # lights with a place in Blender's world
+
+    def extent(self):
+        """The middle of what is rendered, and how far it reaches from there."""
+        corners = [o.matrix_world @ mathutils.Vector(c) for o in bpy.context.scene.objects if not o.hide_render and o.type != "LIGHT" for c in o.bound_box]
+        if not corners:
+            return mathutils.Vector((0, 0, 0)), 1.0
+        low, high = ([f(c[k] for c in corners) for k in range(3)] for f in (min, max))
+        low, high = mathutils.Vector(low), mathutils.Vector(high)
+        return (low + high) / 2, (high - low).length / 2
+
+
+_engine = None  # while the engine exports
 
 
 class Exporter:
@@ -16,8 +38,8 @@ class Exporter:
     def __init__(self):
         from io_scene_gltf2.io.com.gltf2_io_extensions import ChildOfRootExtension, Extension
 
-        self.lights = NodeLights(Extension, ChildOfRootExtension, _for_engine)
-        self.materials = Completion(Extension, _for_engine)
+        self.lights = NodeLights(Extension, ChildOfRootExtension, _engine)
+        self.materials = Completion(Extension, _engine is not None)
 
     def gather_node_hook(self, gltf2_node, blender_object, export_settings):
         """Puts the light on its node."""
@@ -31,13 +53,17 @@ class Exporter:
 
 def export(path):
     """Writes what is rendered to a .glb. The exporter asks for an active object, which a render from a shell has only in a window."""
-    global _for_engine
+    global _engine
     windows = bpy.context.window_manager.windows
-    _for_engine = True
+    _engine = gathered = EngineExport()
     try:
         with bpy.context.temp_override(window=windows[0]) if windows else contextlib.nullcontext():
             bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", export_lights=True, export_cameras=True, use_renderable=True,
                                       export_animations=False, export_apply=True, export_tangents=True,
                                       convert_lighting_mode="COMPAT")
     finally:
-        _for_engine = False
+        _engine = None
+    with open(path, "rb") as file:
+        data = edit(file.read(), lambda gltf: finish(gltf, gathered.added, TO_GLTF))
+    with open(path, "wb") as file:
+        file.write(data)

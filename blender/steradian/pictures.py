@@ -1,4 +1,4 @@
-"""Pictures of the program: OpenEXR as it writes it, in float, by lines and packed by zip, without what Blender would keep of an image."""
+"""Pictures of the program: OpenEXR in float, without what Blender would keep of an image. Read as it writes it, by lines and packed by zip."""
 
 import struct
 import zlib
@@ -51,3 +51,25 @@ def unpacked(packed, size):
     values = numpy.empty(size, numpy.uint8)
     values[0::2], values[1::2] = halves[:(size + 1) // 2], halves[(size + 1) // 2:]
     return values
+
+
+def write_exr(path, picture):
+    """An array of (height, width, 3) from the top, not packed."""
+    height, width, _ = picture.shape
+
+    def attribute(name, kind, value):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+
+    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    channels = b"".join(name + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    header = struct.pack("<ii", 20000630, 2) + b"".join([
+        attribute("channels", "chlist", channels), attribute("compression", "compression", b"\0"), attribute("dataWindow", "box2i", box),
+        attribute("displayWindow", "box2i", box), attribute("lineOrder", "lineOrder", b"\0"),
+        attribute("pixelAspectRatio", "float", struct.pack("<f", 1)), attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0)),
+        attribute("screenWindowWidth", "float", struct.pack("<f", 1))]) + b"\0"
+    size = 12 * width
+    first = len(header) + 8 * height
+    with open(path, "wb") as file:
+        file.write(header + struct.pack(f"<{height}Q", *(first + (8 + size) * y for y in range(height))))
+        for y in range(height):
+            file.write(struct.pack("<ii", y, size) + picture[y, :, ::-1].T.astype("<f4").tobytes())

@@ -15,10 +15,12 @@ def path():
     return bpy.path.abspath(given) if given else shutil.which("steradian") or ""
 
 
-def render_command(glb, picture, width, height, settings, aa):
-    """What renders a file of the add-on's export. Its lights are in watts, whatever the exporter's name is in it."""
+def render_command(glb, picture, width, height, settings, aa, world):
+    """What renders a file of the add-on's export. Its lights are in watts, whatever the exporter's name is in it. world: a map, or None."""
+    background = "off" if bpy.context.scene.render.film_transparent else "on"
+    around = ["--environment", world, "--background", background] if world else []
     return [path(), "render", glb, "-o", picture, "--size", f"{width}x{height}", "--method", settings.method, "--shadows", settings.shadows,
-            "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela"]
+            "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
 
 
 class Run:

@@ -4,25 +4,21 @@ Coarse at first, and once more at the size of the settings while nothing moves. 
 program runs beside it.
 """
 
-import json
 import math
 import os
-import struct
 import tempfile
 import time
 
 import bpy
 import mathutils
 
-from . import pictures, program
-from .export import export
+from . import pictures, program, world
+from .export import TO_GLTF, export
+from .glb import edit
 
 INTERVAL = 0.05  # of the timer [s]
 QUIET = 0.15     # how long nothing has to change before the program starts [s]
 COARSER = 3      # than the settings say, while the view moves
-
-# Blender's world (z up) to glTF's (y up).
-TO_GLTF = mathutils.Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 
 
 def camera_of(view, window):
@@ -41,17 +37,14 @@ def camera_of(view, window):
 
 def with_camera(data, matrix, angle):
     """A .glb with this camera and no other."""
-    length, = struct.unpack_from("<I", data, 12)
-    gltf = json.loads(data[20:20 + length])
-    for node in gltf.setdefault("nodes", []):
-        node.pop("camera", None)
-    gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": angle, "znear": 0.01}}]
-    gltf["nodes"].append({"name": "viewport", "camera": 0, "matrix": matrix})
-    gltf["scenes"][gltf.get("scene", 0)].setdefault("nodes", []).append(len(gltf["nodes"]) - 1)
-    text = json.dumps(gltf).encode()
-    text += b" " * (-len(text) % 4)
-    rest = data[20 + length:]
-    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+    def change(gltf):
+        for node in gltf.setdefault("nodes", []):
+            node.pop("camera", None)
+        gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": angle, "znear": 0.01}}]
+        gltf["nodes"].append({"name": "viewport", "camera": 0, "matrix": matrix})
+        gltf["scenes"][gltf.get("scene", 0)].setdefault("nodes", []).append(len(gltf["nodes"]) - 1)
+
+    return edit(data, change)
 
 
 class Viewport:
@@ -61,6 +54,7 @@ class Viewport:
         self.engine = engine
         self.folder = tempfile.TemporaryDirectory(prefix="steradian_viewport_")
         self.scene_data = None       # the exported scene
+        self.around = None           # the world's map
         self.exporting = False
         self.changed_at = 0.0        # when the scene or the view last changed
         self.scene_changed = True
@@ -125,6 +119,8 @@ class Viewport:
             export(path)
             with open(path, "rb") as file:
                 self.scene_data = file.read()
+            around = os.path.join(self.folder.name, "world.exr")
+            self.around = around if world.write(bpy.context.scene.world, around) else None
             self.scene_number += 1
             self.message = ""
         except RuntimeError as error:  # the exporter's
@@ -140,7 +136,7 @@ class Viewport:
         glb = os.path.join(self.folder.name, "view.glb")
         with open(glb, "wb") as file:
             file.write(with_camera(self.scene_data, *camera_of(view, window)))
-        command = program.render_command(glb, os.path.join(self.folder.name, "view.exr"), width, height, bpy.context.scene.steradian, 1)
+        command = program.render_command(glb, os.path.join(self.folder.name, "view.exr"), width, height, bpy.context.scene.steradian, 1, self.around)
         if not command[0]:
             self.shown = (looks, self.scene_number, 0)
             return self.say("the program steradian is not found: name it in the add-on's preferences")
