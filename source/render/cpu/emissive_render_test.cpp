@@ -9,7 +9,8 @@ namespace {
 
 using namespace scene;
 
-// A tilted square that shines, its corners neither whole numbers nor near the origin, and nothing else.
+// A tilted square that shines, its corners neither whole numbers nor near the origin, and nothing else. One corner is off its plane by as
+// much as the reader takes for a plane.
 Scene panel(bool two_sided, Vec3f at, float half) {
   Scene scene;
   SurfaceMaterial m;
@@ -21,7 +22,7 @@ Scene panel(bool two_sided, Vec3f at, float half) {
   m.double_sided = two_sided;
   scene.materials = {m};
   const Vec3f x = normalized(Vec3f{1, 0.3f, 0.2f}) * half, y = normalized(cross(Vec3f{0.1f, 0.7f, 1}, x)) * half;
-  scene.meshes = {quad_mesh(at - x - y, at + x - y, at + x + y, at - x + y, 0)};
+  scene.meshes = {quad_mesh(at - x - y, at + x - y, at + x + y + normalized(cross(x, y)) * (1e-5f * half), at - x + y, 0)};
   scene.meshes[0].triangle_lights = {0, 0};
   AreaLight light;
   light.name = "panel";
