@@ -1,6 +1,8 @@
 // plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
 // 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
 // marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
+// plane/extras/WHAT: 640x360 of eight lamps and sixty boxes, some of which are glass, mirrors or stones, or under suns, or in fog;
+// plane/extras-move/WHAT: one of the boxes moves by 3.6 pixels, and a stage follows;
 // plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them; plane/bounce-lattice/N:
 // the same by a lattice, to 3e-3;
 // vulkan/plane/frame/LxB: plane/frame/LxB on a Vulkan device, all threads of the host;
@@ -134,7 +136,7 @@ PlaneScene room_of(int boxes) {
 Bench bounces(int boxes) {
   auto world = std::make_shared<PlaneWorld>(room_of(boxes));
   const std::size_t elements = PlaneBounces(*world).stats().elements;
-  return {"plane/bounce/" + std::to_string(boxes), elements, "scalar", [world] { keep(PlaneBounces(*world).stats().error); }};
+  return {"plane/bounce/" + std::to_string(boxes), elements, name_of(active_simd()), [world] { keep(PlaneBounces(*world).stats().error); }};
 }
 
 Bench bounce_frame(int boxes, double lattice, const BenchOptions& options) {
@@ -165,6 +167,46 @@ Bench moves(const LightField& field, const char* name, std::size_t first, std::s
           }};
 }
 
+constexpr const char* kExtras[] = {"none", "sun", "hard-sun", "glass", "mirror", "stone", "fog"};
+
+PlaneScene with_extras(const std::string& what) {
+  PlaneScene scene = make_light_field({8, 60, 200, 8, 12, 640, 360}, kSeed);
+  if (what == "sun") scene.suns = {{{5, 4, 3}, -0.5, 0.02}, {{0.2, 0.3, 0.5}, -1.5707963267948966, 1.5707963267948966}};
+  if (what == "hard-sun") scene.suns = {{{5, 4, 3}, -0.5, 0}};
+  if (what == "fog") scene.fog_density = 0.005;
+  int boxes = 0;
+  for (PlaneBody& body : scene.bodies) {
+    if (body.light || ++boxes % 10 != 0) continue;
+    if (what == "glass") body.transmittance = Vec3d{0.9, 0.6, 0.3};
+    if (what == "mirror") body.mirror = Vec3d{0.9, 0.9, 0.9};
+    if (what == "stone") body.light_depth = 10;
+  }
+  return scene;
+}
+
+Bench extras(const std::string& what, const BenchOptions& options) {
+  auto world = std::make_shared<PlaneWorld>(with_extras(what));
+  auto picture = std::make_shared<Picture>();
+  return {"plane/extras/" + what, std::size_t{640} * 360, name_of(options.simd), [world, picture] {
+            render_plane_into(*picture, *world, one_thread());
+            keep(picture->pixels.front());
+          }};
+}
+
+Bench extras_move(const std::string& what, const BenchOptions& options) {
+  struct Moving {
+    PlaneStage stage;
+    std::size_t next = 0;
+  };
+  auto moving = std::make_shared<Moving>(Moving{PlaneStage(with_extras(what), one_thread())});
+  moving->stage.draw();
+  return {"plane/extras-move/" + what, 1, name_of(options.simd), [moving] {
+            moving->stage.move(moving->next % 60, {moving->next % 2 == 0 ? 3.6 : -3.6, 0});
+            ++moving->next;
+            keep(moving->stage.draw().pixels.front());
+          }};
+}
+
 std::string suffix(const plane::Drawing& drawing) { return drawing.shape + "-" + drawing.emission; }
 
 Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
@@ -184,6 +226,10 @@ Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
 void add_plane(BenchList& list) {
   for (const plane::Drawing& drawing : plane::all_drawings())
     list.add("plane/drawing/" + suffix(drawing), [drawing](const BenchOptions& o) { return drawn(drawing, o); });
+  for (const std::string what : kExtras) {
+    list.add("plane/extras/" + what, [what](const BenchOptions& o) { return extras(what, o); });
+    list.add("plane/extras-move/" + what, [what](const BenchOptions& o) { return extras_move(what, o); });
+  }
   for (int boxes : {10, 50}) {
     list.add("plane/bounce/" + std::to_string(boxes), [boxes](const BenchOptions&) { return bounces(boxes); });
     list.add("plane/bounce-frame/" + std::to_string(boxes), [boxes](const BenchOptions& o) { return bounce_frame(boxes, 0, o); });

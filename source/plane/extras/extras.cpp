@@ -60,6 +60,7 @@ std::unique_ptr<const Extras> extras_of(const PlaneScene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const PlaneBody& body = scene.bodies[i];
     check(body, i);
+    if (body.light) extras.lights.push_back(i);
     const Matter matter = matter_of(body);
     extras.matter.push_back(matter);
     if (matter == Matter::mirror) {

@@ -21,6 +21,7 @@ Matter matter_of(const PlaneBody& body);
 struct Extras {
   std::vector<Matter> matter;        // by body
   std::vector<std::size_t> mirrors;  // bodies
+  std::vector<std::size_t> lights;   // bodies
   bool clear = false, deep = false;  // is there such a body?
   std::size_t hard_suns = 0;         // without width
   std::string names;                 // "a sun, fog, 'pane', which lets light through": for messages

@@ -9,9 +9,9 @@
 
 namespace steradian::plane {
 
-// Adds the integral of radiance(angle), and of radiance times direction, by Gauss-Kronrod's 15 nodes, halved until the two rules agree to
-// the tolerance, in shares of the brightest that was met. The angle is begin + (end - begin) (3 s^2 - 2 s^3), s from 0 to 1: a curve that
-// is touched at an end has a distance like the root of the angle, which is smooth in s.
+// Adds the integral of radiance(direction), and of radiance times direction, by Gauss-Kronrod's 15 nodes, halved until the two rules agree
+// to the tolerance, in shares of the brightest that was met. The angle is begin + (end - begin) (3 s^2 - 2 s^3), s from 0 to 1: a curve
+// that is touched at an end has a distance like the root of the angle, which is smooth in s.
 template <class Radiance>
 void add_integral(const Radiance& radiance, double begin, double end, double tolerance, PlaneLight& sum) {
   struct Piece {
@@ -31,12 +31,13 @@ void add_integral(const Radiance& radiance, double begin, double end, double tol
     for (const auto& node : reference::kKronrodNodes) {
       const double s = piece.from + half * (1 + node.x), angle = begin + (end - begin) * s * s * (3 - 2 * s);
       const double width = half * (end - begin) * 6 * s * (1 - s);
-      const Vec3d value = radiance(angle);
+      const Vec2d u{std::cos(angle), std::sin(angle)};
+      const Vec3d value = radiance(u);
       brightest = std::max({brightest, value.x, value.y, value.z});
       const Vec3d weighted = value * (node.kronrod * width);
       kronrod.radiance += weighted;
-      kronrod.moment_x += weighted * std::cos(angle);
-      kronrod.moment_y += weighted * std::sin(angle);
+      kronrod.moment_x += weighted * u.x;
+      kronrod.moment_y += weighted * u.y;
       gauss += value * (node.gauss * width);
     }
     const Vec3d off = kronrod.radiance - gauss;

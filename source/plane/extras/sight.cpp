@@ -34,9 +34,21 @@ class Seen {
   PlaneLight light() {
     if (start_.dark) return {};
     const bool lights = rules_.all || !start_.deep.empty();
+    if (start_.light < 0)
+      for (const SunView& sun : view_.suns) add_open_sun(sun, from_, sum_);
+    // Where only mirrors are looked at, what stands before those that may show something.
+    const bool mirrors_only = !lights && view_.suns.size() == world_.scene.suns.size();
+    std::vector<Fan> fans;
+    if (mirrors_only)
+      for (const MirrorView& mirror : view_.mirrors)
+        if (may_show(mirror)) fans.emplace_back(from_, *mirror.edge);
+    if (mirrors_only && fans.empty()) return mean();
+    Curves blocking;
+    for (std::size_t i = 0; i < view_.blocking.size(); ++i)
+      if (!passes(world_, start_, view_.blocking[i]->body) &&
+          (!mirrors_only || std::any_of(fans.begin(), fans.end(), [&](const Fan& fan) { return fan.may_hold(view_.disks[i]); })))
+        blocking.push_back(view_.blocking[i]);
     const Path direct{from_, nullptr, with_deep(view_.clear), {}};
-    Curves blocking = view_.blocking;
-    std::erase_if(blocking, [&](const Curve* c) { return passes(world_, start_, c->body); });
     const std::vector<Visible> envelope = lower_envelope(blocking, from_, world_.scene.bodies, {start_.light});
     double open = 2 * pi;
     for (const Visible& v : envelope) {
@@ -51,11 +63,23 @@ class Seen {
     if (lights && start_.light >= 0 && open > 0)
       sum_.radiance += radiance_at(*world_.scene.bodies[static_cast<std::size_t>(start_.light)].light, from_) * open;
     add_hard_suns(std::move(blocking));
+    return mean();
+  }
+
+ private:
+  bool may_show(const MirrorView& mirror) const {
+    if (dot(mirror.normal, from_ - mirror.edge->a) <= 0) return false;
+    return !world_.scene.suns.empty() || shows(mirror, Fan(mirror.reflected(from_), *mirror.edge));
+  }
+  static bool shows(const MirrorView& mirror, const Fan& window) {
+    return std::any_of(mirror.lights.begin(), mirror.lights.end(), [&](const Disk& light) { return window.may_hold(light); });
+  }
+
+  PlaneLight mean() const {
     const double scale = 1 / (2 * pi);
     return {sum_.radiance * scale, sum_.moment_x * scale, sum_.moment_y * scale};
   }
 
- private:
   // How things are seen: at once, or by a mirror, as if from behind it.
   struct Path {
     Vec2d eye;
@@ -79,11 +103,14 @@ class Seen {
       };
       const Path path{mirror.reflected(from_), &mirror, with_deep(view_.clear), with_deep(mirror.clear)};
       // A mirror turns directions around.
-      const double begin = angle_of(on_edge(v.end) - path.eye);
-      double end = angle_of(on_edge(v.begin) - path.eye);
+      const Vec2d first = on_edge(v.end) - path.eye, last = on_edge(v.begin) - path.eye;
+      const double begin = angle_of(first);
+      double end = angle_of(last);
+      const Fan window(path.eye, first / length(first), last / length(last));
+      if (world_.scene.suns.empty() && !shows(mirror, window)) continue;
       Curves curves;
-      for (const Curve& c : mirror.beyond)
-        if (!passes(world_, start_, c.body)) curves.push_back(&c);
+      for (std::size_t i = 0; i < mirror.beyond.size(); ++i)
+        if (window.may_hold(mirror.disks[i]) && !passes(world_, start_, mirror.beyond[i].body)) curves.push_back(&mirror.beyond[i]);
       const std::vector<Visible> envelope = lower_envelope(curves, path.eye, world_.scene.bodies, {start_.light});
       if (end < begin) {
         add_window(envelope, -pi, end, path);
@@ -130,7 +157,7 @@ class Seen {
   void add_suns(const std::vector<Visible>& envelope, double begin, double end, const Path& path) {
     if (start_.light >= 0) return;
     for (const PlaneSun& sun : world_.scene.suns)
-      for (int turn = -1; turn <= 1 && sun.half_width > 0; ++turn) {
+      for (int turn = -1; turn <= 1 && sun.half_width > 0 && (path.mirror != nullptr || !is_open(view_, sun)); ++turn) {
         const double middle = std::remainder(sun.direction, 2 * pi) + 2 * pi * turn;
         double at = std::max(begin, middle - sun.half_width);
         const double last = std::min(end, middle + sun.half_width);
@@ -159,7 +186,8 @@ class Seen {
 
   // blocking: all that ends light in the view.
   void add_hard_suns(Curves blocking) {
-    if (world_.extras->hard_suns == 0) return;
+    const auto& all = world_.scene.suns;
+    if (std::all_of(all.begin(), all.end(), [&](const PlaneSun& sun) { return sun.half_width > 0 || is_open(view_, sun); })) return;
     Curves curves = view_.all;
     if (curves.empty()) {
       curves = std::move(blocking);
@@ -175,7 +203,7 @@ class Seen {
   // A path with what may be met between two directions alone.
   Path between(const Path& path, double begin, double end) const {
     if (end - begin >= 0.5 * pi || (path.before.empty() && path.beyond.empty())) return path;
-    const Vec2d low = direction(begin), high = direction(end);
+    const Fan fan(path.eye, direction(begin), direction(end));
     const auto met = [&](const Curves& curves, auto&& seen_at) {
       Curves near;
       int body = -1;
@@ -184,9 +212,7 @@ class Seen {
         if (c->body != body) {
           body = c->body;
           const Box& box = world_.boxes[static_cast<std::size_t>(body)];
-          const Vec2d to = seen_at((box.low + box.high) * 0.5) - path.eye;
-          const double reach = 0.5 * length(box.high - box.low) * (1 + 1e-9) + 1e-6;
-          is_met = cross(low, to) >= -reach && cross(high, to) <= reach && dot(low + high, to) >= -2 * reach;
+          is_met = fan.may_hold({seen_at((box.low + box.high) * 0.5), 0.5 * length(box.high - box.low)});
         }
         if (is_met) near.push_back(c);
       }
@@ -261,8 +287,7 @@ class Seen {
       const double begin = cuts[i], end = cuts[i + 1];
       if (!(end > begin)) continue;
       if (fades) {
-        const auto at = [&](double angle) {
-          const Vec2d u = direction(angle);
+        const auto at = [&](Vec2d u) {
           const double r = way(u);
           return share(path, u, r) * radiance(u, r);
         };

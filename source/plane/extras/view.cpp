@@ -16,11 +16,6 @@ Disk disk_of(const Box& box) {
   return {(box.low + box.high) * 0.5, 0.5 * length(box.high - box.low)};
 }
 
-Disk disk_of(const Curve& c) {
-  if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
-  return {c.ellipse.center, std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y))};
-}
-
 // What an eye looks at. Larger than needed by little: a hull is taken as a capsule, and rounding is left room.
 class Targets {
  public:
@@ -60,10 +55,9 @@ class Targets {
 class Viewer {
  public:
   Viewer(const World& world, Disk eye) : world_(world), eye_(eye) {
-    const auto& bodies = world.scene.bodies;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (!bodies[i].light || world.first_curve[i] == world.first_curve[i + 1]) continue;
-      const Light light{disk_of(world.boxes[i]), bodies[i].light->range};
+    for (std::size_t i : world.extras->lights) {
+      if (world.first_curve[i] == world.first_curve[i + 1]) continue;
+      const Light light{disk_of(world.boxes[i]), world.scene.bodies[i].light->range, i};
       if (reaches(light, eye)) lights_.push_back(light);
     }
   }
@@ -72,24 +66,83 @@ class Viewer {
     Targets direct(eye_);
     for (const Light& light : lights_)
       if (lights) direct.add(light.disk);
-    for (const PlaneSun& sun : world_.scene.suns) direct.add(sun);
-    for (std::size_t i : world_.extras->mirrors)
-      for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c)
-        if (add_mirror(world_.curves[c])) direct.add(disk_of(world_.curves[c]));
+    const bool within = is_within_deep(), hard = !within && !world_.extras->clear && world_.extras->mirrors.empty();
+    for (const PlaneSun& sun : world_.scene.suns)
+      if (within || !is_plain(sun) || (sun.half_width == 0 && !hard) || !add_open(sun)) direct.add(sun);
+    for_each_mirror([&](const Curve& edge, Vec2d normal) {
+      if (add_mirror(edge, normal)) direct.add(disk_of(edge));
+    });
     for_each_touching(direct, [&](const Curve& c) { (is_clear(c) ? view_.clear : view_.blocking).push_back(&c); });
+    for (const Curve* c : view_.blocking) view_.disks.push_back(disk_of(*c));
     if (world_.extras->hard_suns > 0 && !world_.extras->mirrors.empty())
       for (const Curve& c : world_.curves) view_.all.push_back(&c);
     return std::move(view_);
+  }
+
+  // By the tests of `view`, or wider ones.
+  bool depends_on(const std::vector<std::size_t>& bodies, bool lights) const {
+    if (bodies.empty()) return false;
+    if (world_.extras->hard_suns > 0 && !world_.extras->mirrors.empty()) return true;
+    const auto is_one = [&](std::size_t body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
+    const auto any_disk = [&](auto&& test) {
+      return std::any_of(bodies.begin(), bodies.end(), [&](std::size_t i) { return test(disk_of(world_.boxes[i])); });
+    };
+    // What holds points of the eye.
+    if (any_disk([&](Disk d) { return length(d.center - eye_.center) <= (d.radius + eye_.radius) * (1 + 1e-9) + 1e-6; })) return true;
+    Targets direct(eye_);
+    for (const Light& light : lights_) {
+      if (!lights && !is_within_deep()) break;
+      if (is_one(light.body)) return true;
+      direct.add(light.disk);
+    }
+    for (const PlaneSun& sun : world_.scene.suns) direct.add(sun);
+    bool found = false;
+    for_each_mirror([&](const Curve& edge, Vec2d normal) {
+      if (found) return;
+      const MirrorTargets shown = targets_of(edge, normal);
+      if (shown.targets.empty()) return;
+      direct.add(disk_of(edge));
+      found = is_one(static_cast<std::size_t>(edge.body)) ||
+              std::any_of(shown.lights.begin(), shown.lights.end(), [&](const Light* light) { return is_one(light->body); }) ||
+              any_disk([&](Disk d) { return shown.targets.touched_by(d); });
+    });
+    return found || any_disk([&](Disk d) { return direct.touched_by(d); });
   }
 
  private:
   struct Light {
     Disk disk;
     double range;
+    std::size_t body;
   };
 
   static bool reaches(const Light& light, Disk eye) {
     return length(light.disk.center - eye.center) - light.disk.radius - eye.radius < light.range;
+  }
+
+  // May a point of the eye be in a body that takes light in?
+  bool is_within_deep() const {
+    if (!world_.extras->deep) return false;
+    for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
+      if (world_.extras->matter[i] != Matter::deep) continue;
+      const Disk body = disk_of(world_.boxes[i]);
+      if (length(body.center - eye_.center) <= body.radius + eye_.radius) return true;
+    }
+    return false;
+  }
+
+  // False: something clear may stand before it.
+  bool add_open(const PlaneSun& sun) {
+    Targets targets(eye_);
+    targets.add(sun);
+    SunView view{&sun, {}};
+    bool open = true;
+    for_each_touching(targets, [&](const Curve& c) {
+      if (is_clear(c)) open = false;
+      view.blocking.push_back(&c);
+    });
+    if (open) view_.suns.push_back(std::move(view));
+    return open;
   }
 
   bool is_clear(const Curve& c) const { return world_.extras->matter[static_cast<std::size_t>(c.body)] == Matter::clear; }
@@ -105,35 +158,53 @@ class Viewer {
     }
   }
 
-  // Both sides, where the eye may be on both and the edge has two. False: nothing is seen by it.
-  bool add_mirror(const Curve& edge) {
-    const Vec2d along = edge.b - edge.a, right = Vec2d{along.y, -along.x} / length(along);
-    bool any = false;
-    for (double side : {1.0, -1.0}) {
-      if (side < 0 && !edge.two_sided) continue;
-      const Vec2d normal = right * side;
-      if (dot(normal, eye_.center - edge.a) + eye_.radius > 0) any |= add_mirror(edge, normal);
-    }
-    return any;
+  // Calls f(edge, normal): both sides, where the eye may be on both and the edge has two.
+  template <class F>
+  void for_each_mirror(F f) const {
+    for (std::size_t i : world_.extras->mirrors)
+      for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c) {
+        const Curve& edge = world_.curves[c];
+        const Vec2d along = edge.b - edge.a, right = Vec2d{along.y, -along.x} / length(along);
+        for (double side : {1.0, -1.0}) {
+          const Vec2d normal = right * side;
+          if ((side > 0 || edge.two_sided) && dot(normal, eye_.center - edge.a) + eye_.radius > 0) f(edge, normal);
+        }
+      }
   }
 
-  bool add_mirror(const Curve& edge, Vec2d normal) {
-    MirrorView mirror{&edge, normal, {}, {}};
-    const Disk eye{mirror.reflected(eye_.center), eye_.radius}, glass = disk_of(edge);
-    Targets targets(eye);
-    const auto in_front = [&](Disk d) { return dot(normal, d.center - edge.a) + d.radius > 0; };
+  // What may be seen by a mirror, from behind it.
+  struct MirrorTargets {
+    Targets targets;
+    std::vector<const Light*> lights;
+  };
+  static bool in_front(Disk d, const Curve& edge, Vec2d normal) { return dot(normal, d.center - edge.a) + d.radius > 0; }
+  MirrorTargets targets_of(const Curve& edge, Vec2d normal) const {
+    const Disk eye{eye_.center - normal * (2 * dot(normal, eye_.center - edge.a)), eye_.radius}, glass = disk_of(edge);
+    MirrorTargets result{Targets(eye), {}};
     for (const Light& light : lights_)
-      if (reaches(light, eye) && in_front(light.disk) && targets.between(light.disk, glass)) targets.add(light.disk);
+      if (reaches(light, eye) && in_front(light.disk, edge, normal) && result.targets.between(light.disk, glass)) {
+        result.targets.add(light.disk);
+        result.lights.push_back(&light);
+      }
     for (const PlaneSun& sun : world_.scene.suns)
-      if (targets.towards(sun, glass)) targets.add(sun);
-    if (targets.empty()) return false;
-    for_each_touching(targets, [&](const Curve& c) {
-      if (&c == &edge || !in_front(disk_of(c))) return;
+      if (result.targets.towards(sun, glass)) result.targets.add(sun);
+    return result;
+  }
+
+  // False: nothing is seen by it.
+  bool add_mirror(const Curve& edge, Vec2d normal) {
+    const MirrorTargets shown = targets_of(edge, normal);
+    if (shown.targets.empty()) return false;
+    MirrorView mirror{&edge, normal, {}, {}, {}, {}};
+    for (const Light* light : shown.lights) mirror.lights.push_back(light->disk);
+    for_each_touching(shown.targets, [&](const Curve& c) {
+      if (&c == &edge || !in_front(disk_of(c), edge, normal)) return;
       if (is_clear(c))
         mirror.clear.push_back(&c);
       else
         cut_at_line(c, edge.a, normal, mirror.beyond);
     });
+    for (const Curve& c : mirror.beyond) mirror.disks.push_back(disk_of(c));
     view_.mirrors.push_back(std::move(mirror));
     return true;
   }
@@ -146,7 +217,16 @@ class Viewer {
 
 }  // namespace
 
+Disk disk_of(const Curve& c) {
+  if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
+  return {c.ellipse.center, std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y))};
+}
+
 View view_of(const World& world, Disk eye, bool lights) { return Viewer(world, eye).view(lights); }
+
+bool may_matter(const World& world, Disk eye, bool lights, const std::vector<std::size_t>& bodies) {
+  return Viewer(world, eye).depends_on(bodies, lights);
+}
 
 void cut_at_line(const Curve& c, Vec2d at, Vec2d normal, std::vector<Curve>& out) {
   // On the line counts as behind it.

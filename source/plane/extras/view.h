@@ -1,9 +1,12 @@
 // What may matter to the points of a disk: curves between it and lights, at once or by a mirror, and towards suns.
 #pragma once
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "plane/exact/world.h"
+#include "plane/extras/sun.h"
 
 namespace steradian::plane {
 
@@ -11,26 +14,58 @@ struct Disk {
   Vec2d center;
   double radius = 0;
 };
+Disk disk_of(const Curve& curve);
+
+// Directions between two, less than half a turn apart, and what may be seen in them: rounding is left room.
+class Fan {
+ public:
+  Fan(Vec2d from, Vec2d low, Vec2d high) : from_(from), low_(low), high_(high) {}
+  // Of an edge.
+  Fan(Vec2d from, const Curve& edge) : from_(from), low_(edge.a - from), high_(edge.b - from) {
+    if (cross(low_, high_) < 0) std::swap(low_, high_);
+    low_ = low_ / length(low_);
+    high_ = high_ / length(high_);
+  }
+  bool may_hold(const Disk& disk) const {
+    const Vec2d to = disk.center - from_;
+    const double reach = disk.radius * (1 + 1e-9) + 1e-6;
+    return cross(low_, to) >= -reach && cross(high_, to) <= reach && dot(low_ + high_, to) >= -2 * reach;
+  }
+
+ private:
+  Vec2d from_, low_, high_;  // units
+};
 
 // One edge of a mirror, seen from one side. Seen by it, things are where they are, and the eye is behind it.
 struct MirrorView {
   const Curve* edge;
   Vec2d normal;                     // unit, to the eye's side
   std::vector<Curve> beyond;        // what ends light, of it the parts on the eye's side
+  std::vector<Disk> disks;          // around each of these
+  std::vector<Disk> lights;         // around what it may show
   std::vector<const Curve*> clear;  // what light passes
   Vec2d reflected(Vec2d p) const { return p - normal * (2 * dot(normal, p - edge->a)); }
   Vec2d reflected_direction(Vec2d u) const { return u - normal * (2 * dot(normal, u)); }
 };
 
 struct View {
+  std::vector<SunView> suns;           // plain ones that nothing clear stands before; all else is for what is seen otherwise
   std::vector<const Curve*> blocking;  // what ends light: lights, occluders, mirrors, bodies that take light in
+  std::vector<Disk> disks;             // around each of these
   std::vector<const Curve*> clear;     // what light passes
   std::vector<MirrorView> mirrors;
   std::vector<const Curve*> all;  // of the world, where mirrors may show suns without width
 };
 
+inline bool is_open(const View& view, const PlaneSun& sun) {
+  return std::any_of(view.suns.begin(), view.suns.end(), [&](const SunView& s) { return s.sun == &sun; });
+}
+
 // lights: are they looked at, too, or only suns and mirrors?
 View view_of(const World& world, Disk eye, bool lights);
+
+// May one of these bodies matter to what the eye sees? If not, its view is that of a world without them.
+bool may_matter(const World& world, Disk eye, bool lights, const std::vector<std::size_t>& bodies);
 
 // The parts of a curve in front of a line, appended.
 void cut_at_line(const Curve& curve, Vec2d at, Vec2d normal, std::vector<Curve>& out);

@@ -9,6 +9,7 @@
 
 #include "core/budget.h"
 #include "plane/extras/extras.h"
+#include "plane/extras/frame.h"
 #include "plane/frame/event_walk.h"
 #include "plane/frame/hull.h"
 #include "plane/frame/preparation.h"
@@ -170,14 +171,21 @@ struct PlaneStage::Impl {
   PlaneScene scene;
   PlaneFrameOptions options;
   std::unique_ptr<plane::Ready> ready;  // what is drawn
-  bool drawn_whole = false;             // the picture is that of a scene with extras
-  // Of the bodies: where each is in what is drawn, -1 for a new one; and what has become of it since.
+  // Of the bodies: where each is in what is drawn, -1 for a new one; its number in the scene that was seen last; and what has become of it
+  // since.
   struct State {
-    int place = -1;
+    int place = -1, seen = -1;
     bool changed = true, recoloured = false;
   };
   std::vector<State> states;
   std::vector<std::size_t> gone;  // places
+  // Suns, mirrors and what takes light in add to what packs draw; clear bodies and fog change all of it.
+  enum class Extras { none, added, all };
+  Extras extras = Extras::none;
+  std::unique_ptr<PlaneWorld> seen;    // the world as it was drawn last, if it has extras
+  std::vector<std::size_t> gone_seen;  // its bodies
+  bool other_sky = false;              // the scene's suns and fog are not those of what is drawn
+  Picture packs, added;                // the picture is their sum, where extras are added
   std::unique_ptr<plane::ShareStore> store;
   Picture picture;
   PlaneStageStats stats;
@@ -190,58 +198,114 @@ struct PlaneStage::Impl {
     states[body].changed = true;
   }
   bool is_same() const {
-    return gone.empty() && std::none_of(states.begin(), states.end(), [](const State& s) { return s.changed || s.recoloured; });
+    return !other_sky && gone.empty() && gone_seen.empty() &&
+           std::none_of(states.begin(), states.end(), [](const State& s) { return s.changed || s.recoloured; });
   }
   void draw();
-  void draw_whole();
-  void redraw(const plane::PixelGrid& grid, plane::TileSet& tiles);
+  void forget();
+  void draw_by_packs(Picture& target, plane::TileSet& tiles);
+  void draw_with_extras(plane::TileSet& tiles);
+  plane::TileSet tiles_to_see(const PlaneWorld& now, const plane::PixelGrid& grid) const;
+  void redraw(const plane::PixelGrid& grid, Picture& target, plane::TileSet& tiles);
   bool follow();
 };
 
 void PlaneStage::Impl::draw() {
-  if ((ready || drawn_whole) && is_same()) {
+  if ((ready || seen) && is_same()) {
     stats.drawn = 0;
     stats.anew = false;
     return;
   }
-  drawn_whole = false;
-  if (plane::extras_of(scene)) return draw_whole();
+  const auto known = plane::extras_of(scene);
+  const Extras kind = !known ? Extras::none : known->changes_frames(scene) ? Extras::all : Extras::added;
+  if (kind != extras) forget();
+  extras = kind;
+  plane::TileSet tiles(plane::grid_of(scene, picture.width, picture.height));
   // Of a scene that is refused half way, nothing is kept.
   try {
-    const plane::PixelGrid unscaled = plane::grid_of(scene, picture.width, picture.height);
-    plane::TileSet tiles(unscaled);
-    if (!store) store = std::make_unique<plane::ShareStore>(tiles.columns, tiles.rows);
-    stats.anew = !ready;
-    if (!ready) {
-      ready = std::make_unique<plane::Ready>(scene, options);
-      std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
-      store->forget();
-    }
-    redraw(plane::grid_of(ready->world.scene, picture.width, picture.height), tiles);
-    stats.tiles = tiles.marked.size();
-    stats.drawn = static_cast<std::size_t>(std::count(tiles.marked.begin(), tiles.marked.end(), 1));
+    if (kind == Extras::none)
+      draw_by_packs(picture, tiles);
+    else
+      draw_with_extras(tiles);
   } catch (...) {
-    ready.reset();
+    forget();
     throw;
   }
   gone.clear();
+  gone_seen.clear();
+  other_sky = false;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].changed = states[i].recoloured = false;
+    states[i].seen = seen ? static_cast<int>(i) : -1;
+  }
+  stats.tiles = tiles.marked.size();
+  stats.drawn = static_cast<std::size_t>(std::count(tiles.marked.begin(), tiles.marked.end(), 1));
 }
 
-// A scene with extras: what they change is not known to the lists of what a stage keeps.
-void PlaneStage::Impl::draw_whole() {
+void PlaneStage::Impl::forget() {
   ready.reset();
-  gone.clear();
-  PlaneFrameOptions sized = options;
-  sized.width = picture.width;
-  sized.height = picture.height;
-  render_plane_into(picture, PlaneWorld(scene, options.limits), sized);
-  for (State& s : states) s.changed = s.recoloured = false;
-  drawn_whole = stats.anew = true;
-  const auto tiles = [](int pixels) { return static_cast<std::size_t>((pixels + plane::kTileSide - 1) / plane::kTileSide); };
-  stats.tiles = stats.drawn = tiles(picture.width) * tiles(picture.height);
+  seen.reset();
 }
 
-void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, plane::TileSet& tiles) {
+void PlaneStage::Impl::draw_by_packs(Picture& target, plane::TileSet& tiles) {
+  if (!store) store = std::make_unique<plane::ShareStore>(tiles.columns, tiles.rows);
+  stats.anew = !ready;
+  if (!ready) {
+    ready = std::make_unique<plane::Ready>(scene, options);
+    std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
+    store->forget();
+  }
+  redraw(plane::grid_of(ready->world.scene, target.width, target.height), target, tiles);
+}
+
+// Tiles to which something that has changed matters, as it was or as it is.
+plane::TileSet PlaneStage::Impl::tiles_to_see(const PlaneWorld& now, const plane::PixelGrid& grid) const {
+  plane::TileSet tiles(grid);
+  const auto of = [](const PlaneWorld& world) -> const plane::Extras& { return *world.impl().extras; };
+  if (!seen || other_sky || of(*seen).clear != of(now).clear || of(*seen).deep != of(now).deep ||
+      of(*seen).mirrors.empty() != of(now).mirrors.empty()) {
+    std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
+    return tiles;
+  }
+  std::vector<std::size_t> before = gone_seen, after;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!states[i].changed && !states[i].recoloured) continue;
+    if (states[i].seen >= 0) before.push_back(static_cast<std::size_t>(states[i].seen));
+    after.push_back(i);
+  }
+  mark_with_extras(seen->impl(), before, grid, tiles);
+  mark_with_extras(now.impl(), after, grid, tiles);
+  return tiles;
+}
+
+void PlaneStage::Impl::draw_with_extras(plane::TileSet& tiles) {
+  auto now = std::make_unique<PlaneWorld>(scene, options.limits);
+  const plane::PixelGrid grid = plane::grid_of(now->impl().scene, picture.width, picture.height);
+  plane::TileSet changed = tiles_to_see(*now, grid);
+  Budget budget(options.limits);
+  if (extras == Extras::all) {
+    stats.anew = !seen;
+    plane::draw_with_extras(now->impl(), options, grid, budget, picture, &changed);
+    tiles = changed;
+  } else {
+    for (Picture* part : {&packs, &added})
+      if (part->pixels.empty()) {
+        budget.take_memory(scene.name, "the parts of a stage's picture", picture.pixels.size() * sizeof(Vec3f));
+        *part = Picture(picture.width, picture.height);
+      }
+    draw_by_packs(packs, tiles);
+    clear_tiles(changed, added);
+    add_extras(now->impl(), grid, budget, added, &changed);
+    for (std::size_t i = 0; i < tiles.marked.size(); ++i) tiles.marked[i] |= changed.marked[i];
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+        if (tiles.any(x / plane::kTileSide * plane::kTileSide, y / plane::kTileSide * plane::kTileSide, plane::kTileSide))
+          picture.at(x, y) = packs.at(x, y) + added.at(x, y);
+  }
+  seen = std::move(now);
+}
+
+void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, Picture& target, plane::TileSet& tiles) {
   const bool everything = tiles.any(0, 0, 1 << 30);
   if (!everything) {
     const double slack = ready->prepared.frame().slack;
@@ -270,9 +334,8 @@ void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, plane::TileSet& tile
     for (std::size_t i = 0; i < states.size(); ++i) states[i].place = static_cast<int>(i);
   }
   PlaneFrameStats unused;
-  render_tiles(ready->prepared.frame(), options, grid, picture, unused, &tiles, store.get());
+  render_tiles(ready->prepared.frame(), options, grid, target, unused, &tiles, store.get());
   store->keep_below(std::min(plane::kMostShares, options.limits.memory / plane::kShareOfMemory));
-  for (State& s : states) s.changed = s.recoloured = false;
 }
 
 // Changes what is prepared as the scene has changed. False: it has to be prepared anew.
@@ -333,6 +396,7 @@ std::size_t PlaneStage::add(PlaneBody body) {
 void PlaneStage::remove(std::size_t body) {
   impl_->check(body);
   if (impl_->states[body].place >= 0) impl_->gone.push_back(static_cast<std::size_t>(impl_->states[body].place));
+  if (impl_->states[body].seen >= 0) impl_->gone_seen.push_back(static_cast<std::size_t>(impl_->states[body].seen));
   impl_->scene.bodies.erase(impl_->scene.bodies.begin() + static_cast<std::ptrdiff_t>(body));
   impl_->states.erase(impl_->states.begin() + static_cast<std::ptrdiff_t>(body));
 }
@@ -366,6 +430,10 @@ bool alike(const PlaneGradient& a, const PlaneGradient& b) {
   return a.from == b.from && a.to == b.to && std::equal(a.stops.begin(), a.stops.end(), b.stops.begin(), b.stops.end(), stops_alike);
 }
 
+bool alike(const PlaneSun& a, const PlaneSun& b) {
+  return a.radiance == b.radiance && a.direction == b.direction && a.half_width == b.half_width;
+}
+
 bool alike(const PlaneEmission& a, const PlaneEmission& b) {
   return a.radiance == b.radiance && a.gradient.has_value() == b.gradient.has_value() && (!a.gradient || alike(*a.gradient, *b.gradient)) &&
          a.profile == b.profile && a.range == b.range && a.spot_axis == b.spot_axis && a.spot_half_angle == b.spot_half_angle;
@@ -381,6 +449,13 @@ bool looks_alike(const PlaneBody& a, const PlaneBody& b) {
 }
 
 void PlaneStage::follow(const PlaneScene& next) {
+  PlaneScene& now = impl_->scene;
+  if (now.fog_density != next.fog_density || !std::equal(now.suns.begin(), now.suns.end(), next.suns.begin(), next.suns.end(),
+                                                         [](const auto& a, const auto& b) { return alike(a, b); })) {
+    now.fog_density = next.fog_density;
+    now.suns = next.suns;
+    impl_->other_sky = true;
+  }
   const std::size_t kept = std::min(next.bodies.size(), scene().bodies.size());
   for (std::size_t i = 0; i < kept; ++i)
     if (!looks_alike(scene().bodies[i], next.bodies[i])) replace(i, next.bodies[i]);
