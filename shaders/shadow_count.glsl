@@ -74,8 +74,8 @@ void take_piece(vec4 ends, int segment, int left) {
 }
 
 // Software devices end a thread's loops after 65,535 turns in all, silently; eight threads turn together, and a loop that ends at once takes a
-// turn as well. With a space of 128 segments the pairs take half of them. These bounds on a thread's pairs that are looked at closely, and on
-// the sorting of crossings, keep all of it below 60,000.
+// turn as well. With a space of 128 segments the pairs take half of them, and 3,072 edges (tile_shadows.cpp) a tenth. These bounds on a
+// thread's pairs that are looked at closely, and on the sorting of crossings, keep all of it below 62,000.
 const int kMostCloseTurns = 600;
 const int kMostShiftTurns = 400;
 int close_turns;

@@ -40,6 +40,7 @@ const uint kCutName = 0x10000000u;     // of an edge by the light's plane
 const uint kCornerName = 0x20000000u;  // of the outline
 const uint kClipName = 0x30000000u;    // of an edge by the box: twice its number, 1 more at its end
 const uint kHorizonName = 0x40000000u; // by the box: 0, 1; of the triangle's: 2, 3
+const uint kSectionName = 0x50000000u; // of a triangle's section by the light's plane, by the box: as of an edge
 const uint kLeftName = 0x80000000u;    // beside it: by the box's left side
 
 uvec2 long_times(uvec2 a, uvec2 b) {
@@ -64,6 +65,7 @@ int odd_of(uint bits) {
 ivec2 displacement(uint name) {
     uint kind = name & 0x70000000u;
     uvec2 id = uvec2(name & kNameNumber, kind);
+    if (kind == kSectionName) id.y = 0x31000000u;
     if (kind == kHorizonName) id = uvec2(id.x & 1u, 0x33000000u + ((id.x & 2u) << 23));
     uvec2 x = long_plus(id, uvec2(0x7f4a7c15u, 0x9e3779b9u));
     x = long_times(x ^ long_shifted(x, 30), uvec2(0x1ce4e5b9u, 0xbf58476du));

@@ -4,12 +4,13 @@
 // Groups of points, vectors of four uints each, the headers of all of them first. Where a vector holds floats, it holds their bits.
 //   0  where the vertices, planes and edges begin; number of edges
 //   1  where the incidences, corners and points begin; number of corners, kOwnCorners more where each point has its own
-//   2  number of points, of their first answer; half sides of the box
+//   2  number of points, kTriangles times that of triangles that cross the light's plane; number of the first answer; half sides of the box
 //   3  axis x of the light's frame; half side of the light along it
 //   4  axis y; half side
 //   5  axis z; height below which edges block
 const int kShadowHeader = 6;
 const int kOwnCorners = 65536;
+const int kTriangles = 65536;
 // Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. Those of
 // more than two triangles: where in the incidences theirs begin, and how many. Incidences: plane, walk, four a vector. Corners: cells of
 // the outline's edge that begins there; numbers of its ends.
@@ -19,7 +20,9 @@ const int kWalks1 = 4;      // and a second one
 const int kAgainst1 = 8;
 const int kManyWalks = 16;
 const int kAgainst = 65536;  // of an incidence
+// Behind the corners the triangles: corners and plane (16 bits each), number; numbers of the edges from each corner to the next.
 const int kShadowCorner = 2;
+const int kShadowTriangle = 2;
 
 // Points: place in the frame, flags; shading normal; cells of the horizons by it and by the triangle. Of a light that each sees in a
 // plane of its own, then that plane: 3, 4 and 5 of the header; the frame's origin, half side of the box; place in the coordinates

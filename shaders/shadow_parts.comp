@@ -136,7 +136,7 @@ void main() {
     uint header = (first_group + gl_WorkGroupID.x) * uint(kShadowHeader);
     uvec4 h2 = groups[header + 2u];
     uint number = gl_LocalInvocationID.x;
-    if (number >= h2.x) return;
+    if (number >= h2.x % uint(kTriangles)) return;
     uvec4 begins = groups[header];
     uvec4 h1 = groups[header + 1u];
     uint vectors = uint(kShadowPoint + (TURNED ? kShadowPlane : 0));
@@ -152,6 +152,7 @@ void main() {
     piece_count = 0;
     too_much = false;
     see_edges(eye, begins, h1.x);
+    see_sections(eye, begins.x, begins.y, corners.first + uint(kShadowCorner) * corners.count, h2.x / uint(kTriangles));
     bool occluded = segment_count > 0;
     uvec4 answer = uvec4(0u, 0u, uint(kSeesWhole), 0u);
     if (!too_much && (occluded || (flags & kArranged) != 0)) {

@@ -58,7 +58,8 @@ End look_at(Eye eye, vec3 v) {
 // A distance from a side with the sign that `outside` has: all edges of a vertex agree.
 float side_distance(float d, int outside, int bit) { return (outside & bit) != 0 ? min(d, 0.0) : max(d, 1.0e-30); }
 
-void add_clipped(Eye eye, End a, End b, uvec2 named, uint number, int weight) {
+// clip_name: of its ends at the box.
+void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight) {
     if ((a.outside & b.outside & 15) != 0) return;
     ivec4 ends = ivec4(ivec2(a.cell), ivec2(b.cell));
     ShadowSpan span;
@@ -79,11 +80,11 @@ void add_clipped(Eye eye, End a, End b, uvec2 named, uint number, int weight) {
     vec3 d = b.h - a.h;
     if (at_a) {
         ends.xy = ivec2(shadow_cell(a.h + d * span.t0, eye.box, span.sides.x));
-        named.x = kClipName | (2u * number) | (span.sides.x < 1.5 ? kLeftName : 0u);
+        named.x = clip_name | (span.sides.x < 1.5 ? kLeftName : 0u);
     }
     if (at_b) {
         ends.zw = ivec2(shadow_cell(a.h + d * span.t1, eye.box, span.sides.y));
-        named.y = kClipName | (2u * number + 1u) | (span.sides.y < 1.5 ? kLeftName : 0u);
+        named.y = (clip_name + 1u) | (span.sides.y < 1.5 ? kLeftName : 0u);
     }
     add_segment(ends, named, weight);
 }
@@ -131,8 +132,50 @@ void see_edges(Eye eye, uvec4 begins, uint incidences) {
                 if (above_a) named.x = kCutName | edge.z;
                 if (above_b) named.y = kCutName | edge.z;
             }
-            add_clipped(eye, a, b, named, edge.z, weight);
+            add_clipped(eye, a, b, named, kClipName | (2u * edge.z), weight);
         }
+    }
+}
+
+// Where the light's plane cuts the side of a triangle from one corner to the next.
+End cut_of(Eye eye, uvec4 from, uvec4 to) {
+    vec3 a = place_of(eye, uintBitsToFloat(from.xyz));
+    vec3 b = place_of(eye, uintBitsToFloat(to.xyz));
+    return look_at(eye, from.w < to.w ? shadow_cut(a, b, eye.height) : shadow_cut(b, a, eye.height));
+}
+
+// The sections of triangles by the light's plane, each from where the triangle's walk leaves the space below to where it comes back. That
+// of a coincident triangle only adds its weight: two segments with the same ends could not tell who lies left of whom.
+const int kMostSections = 48;
+void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint count) {
+    int first = segment_count;
+    for (uint t = 0u; t < count && !too_much; t++) {
+        uvec4 triangle = groups[triangles + uint(kShadowTriangle) * t];
+        uvec4 edges = groups[triangles + uint(kShadowTriangle) * t + 1u];
+        uvec4 corners[3];
+        corners[0] = groups[vertices + (triangle.x & 0xffffu)];
+        corners[1] = groups[vertices + (triangle.x >> 16)];
+        corners[2] = groups[vertices + (triangle.y & 0xffffu)];
+        bvec3 below;
+        for (int c = 0; c < 3; c++) below[c] = place_of(eye, uintBitsToFloat(corners[c].xyz)).z < eye.height;
+        if (all(below) || !any(below)) continue;
+        int leaving = below.x && !below.y ? 0 : below.y && !below.z ? 1 : 2;
+        int returning = below.y && !below.x ? 0 : below.z && !below.y ? 1 : 2;
+        End a = cut_of(eye, corners[leaving], corners[(leaving + 1) % 3]);
+        End b = cut_of(eye, corners[returning], corners[(returning + 1) % 3]);
+        uvec2 named = kCutName | uvec2(edges[leaving], edges[returning]);
+        int added = segment_count;
+        add_clipped(eye, a, b, named, kSectionName | (2u * triangle.z), -facing_of(eye, planes + (triangle.y >> 16)));
+        if (segment_count == added) continue;
+        for (int i = first; i < added; i++) {
+            bool same = all(equal(names[i] & ~kLeftName, names[added] & ~kLeftName));
+            bool opposite = all(equal(names[i] & ~kLeftName, names[added].yx & ~kLeftName));
+            if (!same && !opposite) continue;
+            weights[i] += same ? weights[added] : -weights[added];
+            segment_count = added;
+            break;
+        }
+        too_much = too_much || segment_count - first > kMostSections;
     }
 }
 
@@ -142,12 +185,12 @@ struct Corners {
     uint own;    // of the point's, or 0
     uint count;
 };
-ivec4 corner_cells(Corners c, uint i) { return ivec4(groups[c.own > 0u ? c.own + i : c.first + 2u * i]); }
+ivec4 corner_cells(Corners c, uint i) { return ivec4(groups[c.own > 0u ? c.own + i : c.first + uint(kShadowCorner) * i]); }
 
 // The outline, and the horizons that the host found.
 void see_surroundings(Corners c, uint at, int flags) {
     for (uint i = 0u; i < c.count; i++) {
-        uvec4 named = groups[c.first + 2u * i + 1u];
+        uvec4 named = groups[c.first + uint(kShadowCorner) * i + 1u];
         add_segment(corner_cells(c, i), kCornerName | named.xy, -kHidden);
     }
     for (int h = 0; h < 2; h++) {

@@ -25,7 +25,11 @@ class EdgeArrays {
   std::size_t edge_count() const { return edge_.size(); }
   std::size_t vertex_count() const { return vertex_count_; }
   std::size_t plane_count() const { return plane_count_; }
-  bool has_crossing() const { return !crossing_.empty(); }
+  // Triangles that cross the light's plane: places of plane and corners here, numbers of the edges that begin at those in the mesh.
+  struct Triangle {
+    std::uint32_t number, plane, corners[3], edges[3];
+  };
+  const std::vector<Triangle>& crossing() const { return crossing_; }
 
   // For lanes: the edges, and what the ends of one of them are where its point sees them in some cell.
   LaneEdges lane_edges() const;
@@ -54,9 +58,6 @@ class EdgeArrays {
     VectorView view() const { return {x.data(), y.data(), z.data()}; }
     VectorSpan span() { return {x.data(), y.data(), z.data()}; }
     Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
-  };
-  struct Triangle {
-    std::uint32_t number, plane, corners[3], edges[3];
   };
   Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return cell_of(vertex_[v], x, y); }
   void clear();

@@ -149,13 +149,13 @@ void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, co
 void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const {
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
-  const bool even = !by_rays && !empty && !work.cut_outs && !work.group.has_crossing();
+  const bool even = !by_rays && !empty && !work.cut_outs;
   if (even && work.taker != nullptr &&
       work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {
     for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
     return;
   }
-  if (even && work.in_lanes) {
+  if (even && work.in_lanes && work.group.crossing().empty()) {
     const LightSide* sides[shadow::kPoints];
     std::uint32_t of[shadow::kPoints];
     std::size_t count = 0;

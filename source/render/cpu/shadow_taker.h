@@ -19,7 +19,7 @@ class ShadowTaker {
 
   // The side of a light that a slot sees, or null. It may be the same for all and stay, or be valid for sixteen calls.
   using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
-  // Points before an area light, and the edges between; no triangle among these crosses the light's plane.
+  // Points before an area light, and what stands between.
   struct Group {
     const shadow::EdgeArrays& edges;
     const shadow::LightFrame* base;  // in whose coordinates they are, where each point sees a side of its own; else null

@@ -167,7 +167,7 @@ void Shadows::ask_host(Batch& batch, const Each& each) {
     points.points.resize(kTilePixels);
     std::vector<std::uint32_t> slots;
     for (std::size_t g = 0; g < tile.groups.size(); ++g) {
-      const std::size_t first = tile.groups[g].header[9], count = tile.groups[g].header[8];
+      const std::size_t first = tile.groups[g].header[9], count = tile.groups[g].points;
       const std::uint32_t light = tile.points[first].light;
       points.groups.groups.emplace_back();
       for (std::size_t k = first; k < first + count; ++k) {

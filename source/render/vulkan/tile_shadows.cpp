@@ -12,7 +12,8 @@ namespace {
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdges = 1024, kMostIncidences = 1024;  // of a group: software devices end loops after 65,535 turns
+constexpr std::size_t kMostEdges = 3072, kMostIncidences = 1024;  // of a group: see shaders/shadow_count.glsl
+constexpr std::size_t kMostValues = std::size_t{1} << 23;         // of a tile: a quarter of a buffer
 constexpr std::uint32_t kMostNumber = 1 << 27;                    // of a vertex or edge: names have 28 bits
 constexpr std::size_t kMostPlaces = 1 << 16;                      // of vertices and planes in a group
 
@@ -138,7 +139,12 @@ bool TileShadows::lights(const PackLight& light) const { return shaders_have(lig
 bool TileShadows::find(const Group& asked) {
   const shadow::EdgeArrays& edges = asked.edges;
   const shadow::LaneEdges all = edges.lane_edges();
-  if (all.edge_count > kMostEdges || all.vertex_count >= kMostPlaces || all.plane_count >= kMostPlaces) return false;
+  const std::vector<shadow::EdgeArrays::Triangle>& crossing = edges.crossing();
+  if (values.size() > kMostValues || all.edge_count + crossing.size() > kMostEdges) return false;
+  for (const auto& triangle : crossing)
+    if (triangle.number >= kMostNumber || *std::max_element(std::begin(triangle.edges), std::end(triangle.edges)) >= kMostNumber)
+      return false;
+  if (all.vertex_count >= kMostPlaces || all.plane_count >= kMostPlaces) return false;
   for (std::size_t i = 0; i < all.edge_count; ++i)
     if (edges.edge_number(i) >= kMostNumber) return false;
   for (std::size_t i = 0; i < all.vertex_count; ++i)
@@ -169,8 +175,9 @@ bool TileShadows::find(const Group& asked) {
   }
 
   Search group{};
-  const std::size_t segments = all.edge_count + corners + 2;
+  const std::size_t segments = all.edge_count + crossing.size() + corners + 2;
   group.space = *std::find_if(kSpaces.begin(), kSpaces.end() - 1, [&](int space) { return static_cast<std::size_t>(space) >= segments; });
+  group.points = found.size();
   group.turned = asked.base != nullptr;
   add_edges(edges, values, group.header);
   Rows rows(values);
@@ -179,9 +186,13 @@ bool TileShadows::find(const Group& asked) {
     rows.add(s);
     rows.add(static_cast<std::uint32_t>(s.a.id & ~shadow::kCornerId), static_cast<std::uint32_t>(s.b.id & ~shadow::kCornerId), 0, 0);
   }
+  for (const auto& t : crossing) {
+    rows.add(t.corners[0] | t.corners[1] << 16, t.corners[2] | t.plane << 16, t.number, 0);
+    rows.add(t.edges[0], t.edges[1], t.edges[2], 0);
+  }
   group.header[6] = rows.size();
   group.header[7] = whole(corners) + (own_corners ? flag(kOwnCorners) : 0u);
-  group.header[8] = whole(found.size());
+  group.header[8] = whole(found.size()) + flag(kTriangles) * whole(crossing.size());
   group.header[9] = whole(points.size());
   if (!group.turned) {
     const shadow::LightFrame& f = found.front().side->frame;
