@@ -48,6 +48,9 @@ def _jsonable(value: Any) -> Any:
 
 
 def _query(light: Lights, material: Materials, has_view: bool, keys: Dict[str, Any]) -> str:
+    occluders = keys.get("occluders")
+    if isinstance(occluders, np.ndarray) and (occluders.ndim != 3 or occluders.shape[1:] != (3, 3)):
+        raise Error("occluders", f"has the shape {occluders.shape}", "triangles: (T, 3, 3), the corners of each and their x, y, z")
     query: Dict[str, Any] = {"light" if isinstance(light, dict) else "lights": light, "material": material,
                              "position": [0, 0, 0], "normal": [0, 0, 1]}
     if has_view:
