@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <vector>
 
 #include "scene/photometry/readers.h"
@@ -17,7 +18,15 @@ struct Planes {
 
 }  // namespace
 
-bool complete_circle(LightProfile& profile) {
+bool goes_round(const std::vector<double>& planes) {
+  const double first = planes.front(), last = planes.back();
+  if (planes.size() == 1) return true;
+  if (first == 0) return last == 90 || last >= 180;
+  // Mirrored by the plane of 90 and 270 degrees: without the plane of 180 there is none of 0.
+  return first == 90 && last == 270 && std::find(planes.begin(), planes.end(), 180.0) != planes.end();
+}
+
+void complete_circle(LightProfile& profile) {
   const std::vector<double> given = std::move(profile.horizontal);
   Planes planes;
   const std::size_t n = given.size();
@@ -31,18 +40,15 @@ bool complete_circle(LightProfile& profile) {
     const std::size_t half = planes.angles.size();
     for (std::size_t i = half - 1; i-- > 0;) planes.add(360 - planes.angles[i], planes.like[i]);
   } else if (first == 90 && last == 270) {
-    // Mirrored by the plane of 90 and 270 degrees: 180 is like 0.
+    // 180 is like 0.
     for (std::size_t i = n; i-- > 0;)
       if (given[i] <= 180) planes.add(180 - given[i], i);
-    if (planes.angles.front() != 0) return false;  // without the plane of 180 there is none of 0
     for (std::size_t i = 1; i < n; ++i) planes.add(given[i], i);
     for (std::size_t i = n - 1; i-- > 0;)
       if (given[i] >= 180) planes.add(540 - given[i], i);
-  } else if (first == 0 && last > 180) {
+  } else {
     for (std::size_t i = 0; i < n; ++i) planes.add(given[i], i);
     if (last < 360) planes.add(360, 0);
-  } else {
-    return false;
   }
   const std::size_t angles = profile.vertical.size();
   std::vector<double> candela;
@@ -50,7 +56,6 @@ bool complete_circle(LightProfile& profile) {
     for (std::size_t v = 0; v < angles; ++v) candela.push_back(profile.candela[plane * angles + v]);
   profile.horizontal = std::move(planes.angles);
   profile.candela = std::move(candela);
-  return true;
 }
 
 }  // namespace steradian::scene

@@ -17,14 +17,11 @@ class Lines {
   void skip(std::size_t lines) {
     for (std::size_t i = 0; i < lines; ++i) next("an entry");
   }
-  // A decimal comma is as good as a point.
   double number(const char* what, double low, double high) {
-    std::string line(next(what));
-    for (char& c : line)
-      if (c == ',') c = '.';
+    const std::string_view line = next(what);
     double value = 0;
-    if (!read_whole_number(line, value)) text_.fail(std::string("expected ") + what);
-    if (!(value >= low && value <= high)) text_.fail(std::string(what) + " is out of its range");
+    if (!read_number(line, value)) text_.fail(std::string("expected ") + what + ", found " + quoted(line));
+    text_.check_range(what, value, low, high);
     return value;
   }
   std::size_t count(const char* what, std::size_t low, std::size_t high) {
@@ -41,7 +38,22 @@ class Lines {
     return result;
   }
 
+  // Remarks of companies may.
+  bool a_number_follows() {
+    double value = 0;
+    while (!text_.at_end())
+      if (read_number(text_.line(), value)) return true;
+    return false;
+  }
+
  private:
+  // A decimal comma is as good as a point.
+  static bool read_number(std::string_view text, double& value) {
+    std::string line(text);
+    for (char& c : line)
+      if (c == ',') c = '.';
+    return read_whole_number(line, value);
+  }
   std::string_view next(const char* what) {
     if (text_.at_end()) text_.fail(std::string("the file ends where ") + what + " is expected");
     return text_.line();
@@ -114,7 +126,12 @@ LightProfile read_eulumdat(PhotometryText text) {
   }
   if (held.count == 1) profile.horizontal = {0};
   if (symmetry == Symmetry::by_90_270) turn_from_270_to_90(profile);
-  if (!complete_circle(profile)) text.fail("the C planes do not go around the circle as their symmetry asks");
+  if (!goes_round(profile.horizontal)) text.fail("the C planes do not go around the circle as their symmetry asks");
+  if (lines.a_number_follows())
+    text.fail("more intensities follow than the symmetry, " + std::to_string(planes) + " planes and " + std::to_string(angles) +
+                  " angles announce",
+              "check lines 3, 4 and 6");
+  complete_circle(profile);
   return profile;
 }
 

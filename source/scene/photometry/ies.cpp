@@ -10,16 +10,19 @@ namespace {
 constexpr double kMost = 1e12;  // of lumens, candelas and factors
 constexpr double kAnyNumber = 1e300;
 
-bool starts_with_tilt(std::string_view line) {
-  while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
-  return line.starts_with("TILT=") || line.starts_with("TILT =");
-}
-
 std::string upper_without_blanks(std::string_view text) {
   std::string result;
   for (const char c : text)
     if (c != ' ' && c != '\t') result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return result;
+}
+
+// In small letters only as a whole: the lines before it may hold any words.
+bool is_tilt(std::string_view line) {
+  while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+  if (line.starts_with("TILT=") || line.starts_with("TILT =")) return true;
+  const std::string upper = upper_without_blanks(line);
+  return upper == "TILT=NONE" || upper == "TILT=INCLUDE";
 }
 
 // Pairs of angle and factor by which a tilted lamp dims: not for a lamp as it was measured.
@@ -61,7 +64,7 @@ LightProfile read_ies(PhotometryText text) {
     if (text.at_end()) text.fail("the file has no line TILT=", "an IES file has one before its numbers: TILT=NONE");
     line = text.line();
     if (first.empty()) first = line;
-  } while (!starts_with_tilt(line));
+  } while (!is_tilt(line));
   skip_tilt(text, line);
 
   LightProfile profile;
@@ -90,12 +93,16 @@ LightProfile read_ies(PhotometryText text) {
   profile.type = is_c ? LightProfile::Type::c : LightProfile::Type::b;
   profile.vertical = text.rising_numbers("vertical angle", vertical, is_c ? 0 : -90, is_c ? 180 : 90);
   profile.horizontal = text.rising_numbers("horizontal angle", horizontal, is_c ? 0 : -90, is_c ? 360 : 90);
+  if (is_c && !goes_round(profile.horizontal))
+    text.fail("the horizontal angles are none of 0 to 90, 180 or 360 degrees, 90 to 270, or one alone");
+  if (!is_c && horizontal < 2)
+    text.fail("photometry of type B has one horizontal angle", "it shines between the angles measured: give two or more");
   for (std::size_t i = 0; i < vertical * horizontal; ++i) profile.candela.push_back(factor * text.number("an intensity", 0, kMost));
   if (!text.nothing_follows()) text.fail("more follows than the numbers of angles announce", "check the numbers of angles after TILT=");
-  if (!is_c)
+  if (is_c)
+    complete_circle(profile);
+  else
     complete_b(profile);
-  else if (!complete_circle(profile))
-    text.fail("the horizontal angles are none of 0 to 90, 180 or 360 degrees, 90 to 270, or one alone");
   return profile;
 }
 

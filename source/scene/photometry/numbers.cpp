@@ -15,13 +15,6 @@ constexpr char kEndOfFile = 0x1a;  // of DOS
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\0' || c == kEndOfFile || c == '\f' || is_line_end(c); }
 
-// What is printed of a stranger's text.
-std::string quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongestQuoted)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > kLongestQuoted ? "...'" : "'");
-}
-
 std::string readable(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", x);
@@ -29,6 +22,12 @@ std::string readable(double x) {
 }
 
 }  // namespace
+
+std::string quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongestQuoted)) result += c >= ' ' && c <= '~' ? c : '?';
+  return result + (text.size() > kLongestQuoted ? "...'" : "'");
+}
 
 bool read_whole_number(std::string_view text, double& value) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -66,8 +65,12 @@ double PhotometryText::number(const std::string& what, double low, double high) 
   const std::string_view text = text_.substr(begin, at_ - begin);
   double value = 0;
   if (!read_whole_number(text, value)) fail("expected " + what + ", found " + quoted(text));
-  if (value < low || value > high) fail(what + " is " + readable(value) + ", which is not from " + readable(low) + " to " + readable(high));
+  check_range(what, value, low, high);
   return value;
+}
+
+void PhotometryText::check_range(const std::string& what, double value, double low, double high) const {
+  if (value < low || value > high) fail(what + " is " + readable(value) + ", which is not from " + readable(low) + " to " + readable(high));
 }
 
 std::size_t PhotometryText::count(const std::string& what, std::size_t low, std::size_t high) {

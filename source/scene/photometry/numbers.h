@@ -20,6 +20,7 @@ class PhotometryText {
   double number(const std::string& what, double low, double high);
   std::size_t count(const std::string& what, std::size_t low, std::size_t high);
   std::vector<double> rising_numbers(const std::string& what, std::size_t size, double low, double high);
+  void check_range(const std::string& what, double value, double low, double high) const;
   // Whether nothing but blanks follows, and the end mark of old systems.
   bool nothing_follows();
 
@@ -35,6 +36,9 @@ class PhotometryText {
   std::size_t at_ = 0, number_ = 1;
   std::size_t last_line_ = 1;  // of what was read last
 };
+
+// What is printed of a stranger's text.
+std::string quoted(std::string_view text);
 
 // The number that all of a text is, blanks around it aside; where it is none, false.
 bool read_whole_number(std::string_view text, double& value);

@@ -163,7 +163,7 @@ TEST(Ies, EveryVersionIsRead) {
   for (const char* head :
        {"a lamp\nof 1986, without keywords\nTILT=NONE\n", "IESNA91\n[TEST] 1\nTILT=NONE\n", "IESNA:LM-63-1995\r\n[TEST]\r\nTILT=NONE\r\n",
         "IESNA:LM-63-2002\n[TEST]\nTILT=NONE\n", "IES:LM-63-2019\n[TEST]\n  TILT=NONE\n",
-        "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8\n", "IESNA91\nTILT=lamp.tlt\n"}) {
+        "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8\n", "IESNA91\nTILT=lamp.tlt\n", "Tilt=5 in this room\n tilt = none\n"}) {
     ies.head = head;
     EXPECT_EQ(intensity(read(ies), {0, 0, 1}), middle) << head;
   }
@@ -310,7 +310,9 @@ TEST(Ies, BadFilesAreRefusedWithTheirLine) {
   refused(head + "1 1000 1 20 20 1 2 0 0 0\n1 1 30\n", 4, "more than the file holds");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n90 0\n0\n1 1\n", 5, "0 follows 90");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 190\n0\n1 1\n", 5, "is 190");
-  refused(head + "1 1000 1 2 2 1 2 0 0 0\n1 1 30\n0 90\n20 50\n1 1\n1 1\n", 9, "horizontal angles");
+  refused(head + "1 1000 1 2 2 1 2 0 0 0\n1 1 30\n0 90\n20 50\n1 1\n1 1\n", 6, "horizontal angles");
+  refused(head + "1 1000 1 2 2 1 2 0 0 0\n1 1 30\n0 90\n90 270\n1 1\n1 1\n", 6, "horizontal angles");  // without that of 180
+  refused(head + "1 1000 1 2 1 2 2 0 0 0\n1 1 30\n0 90\n0\n1 1\n", 6, "type B has one horizontal angle");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 90\n0\n1\n", 8, "the file ends where an intensity");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 90\n0\n1 -1\n", 7, "is -1");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 90\n0\n1 nan\n", 7, "expected an intensity, found 'nan'");
@@ -324,13 +326,21 @@ TEST(Eulumdat, BadFilesAreRefusedWithTheirLine) {
     expect_refused(text, "lamp.ldt", "lamp.ldt: line " + std::to_string(line), problem);
   };
   refused("", 1, "the file ends");
-  refused("a\nb\n7\n", 3, "the symmetry");
+  refused("a\nb\n7\n", 3, "the symmetry (0 to 4) is 7, which is not from 0 to 4");
+  refused("a\nb\nnone\n", 3, "expected the symmetry (0 to 4), found 'none'");
   refused("a\nb\n0\n1e9\n", 4, "C planes");
   Ldt ldt;
   ldt.symmetry = 4;
   ldt.planes = steps(0, 330, 33);
   EXPECT_THROW(read(ldt.text(), "lamp.ldt"), Error);
   const std::string whole = Ldt{}.text();
+  EXPECT_NO_THROW(read(whole + "\nmade by nobody\n", "lamp.ldt"));
+  try {
+    read(whole + "\n12,5\n", "lamp.ldt");
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_NE(e.problem().find("more intensities follow than the symmetry"), std::string::npos) << e.what();
+  }
   EXPECT_THROW(read(whole.substr(0, whole.size() - 20), "lamp.ldt"), Error);
 }
 
