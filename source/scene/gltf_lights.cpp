@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 
+#include "scene/light_face.h"
+
 namespace steradian::scene {
 namespace {
 
@@ -275,6 +277,9 @@ std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& 
     if (light.power > 0 && !(ours && !ours->flag("seen", true))) {
       Mesh mesh = mesh_of_light(light);
       for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
+      // In front of what it lies on to the last bit, a ceiling; and still behind the face that lift_off_lights leaves of it.
+      const float lift = light.two_sided ? 0 : 0.5f * roundings_of_plane(light);
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] += mesh.normals[i] * lift;
       mesh.material = static_cast<int>(scene.materials.size());
       mesh.triangle_lights.assign(mesh.triangle_count(), static_cast<std::int32_t>(scene.area_lights.size()));
       scene.materials.push_back(material_of_light(light));

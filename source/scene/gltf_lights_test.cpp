@@ -51,6 +51,21 @@ TEST(AreaLightsOfFiles, ReadsRectLightsThatShineAlongMinusZ) {
   }
 }
 
+// A light flush with a ceiling is seen, not noise: its face is before the ceiling's for every ray of a camera below it.
+TEST(AreaLightsOfFiles, LightsThatLieOnASurfaceAreSeen) {
+  for (const char* type : {"rect", "disk"})
+    for (const double height : {0.3, 2.7, 131.7}) {
+      const LoadedScene loaded =
+          load(with_area_light({{"type", type}, {"size", 1}, {"intensity", 3}},
+                               {{"translation", {0.3, height, -0.7}}, {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}}));
+      const Mesh& mesh = loaded.scene.meshes[1];
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_LT(mesh.positions[i].y, static_cast<float>(height)) << type << height;
+        EXPECT_GT(static_cast<double>(mesh.positions[i].y), height - 3e-5 * std::max(1.0, height)) << "by no more than roundings";
+      }
+    }
+}
+
 TEST(AreaLightsOfFiles, ReadsSpheresUnderUnevenScale) {
   for (const json& ball :
        {json{{"type", "sphere"}, {"size", 2}}, json{{"type", "disk"}, {"size", 2}, {"extras", {{"steradian", {{"type", "sphere"}}}}}}}) {

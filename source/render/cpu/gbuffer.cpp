@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "render/cpu/surface_pack.h"
+#include "scene/light_face.h"
 
 namespace steradian {
 namespace {
@@ -228,7 +229,7 @@ void lift_off_lights(const Scene& scene, const TileHits& hits, SurfaceTile& tile
     if (tile.material[i] == nullptr || !scene.meshes[hits.geometry[i]].is_emitter()) continue;
     const std::int32_t light = scene.meshes[hits.geometry[i]].triangle_lights[hits.triangle[i]];
     if (light < 0) continue;
-    if (light != last) lift = roundings_of_plane(scene.area_lights[static_cast<std::size_t>(light)]);
+    if (light != last) lift = scene::roundings_of_plane(scene.area_lights[static_cast<std::size_t>(light)]);
     last = light;
     put(tile.position, i, get(tile.position, i) + get(tile.geometric_normal, i) * lift);
   }

@@ -207,19 +207,6 @@ Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec
   return hit + lift;
 }
 
-float roundings_of_plane(const AreaLight& light) {
-  const auto* polygon = std::get_if<Polygon>(&light.shape);
-  if (polygon == nullptr) return 0;
-  double largest = 0;
-  Vec3d low = polygon->vertices.front(), high = low;
-  for (const Vec3d& v : polygon->vertices) {
-    largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  return static_cast<float>(0x1p-18 * largest + 1e-5 * length(high - low));
-}
-
 SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned triangle, Vec3f direction, float distance,
                               const PixelSteps& steps) {
   const Corner at(mesh, triangle, 0, 0);

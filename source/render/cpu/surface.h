@@ -46,14 +46,6 @@ Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, flo
 // Source: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
 Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside);
 
-// How far in float a point of a flat light's own face may seem to be off its plane; 0 for a round one.
-//
-// With c the largest coordinate of its corners and u = 2^-24: corners and the point are stored within u c in each of three coordinates,
-// their differences, at most 2 sqrt(3) c long, are multiplied with a normal that is off by some 4 u and added up within 3 u: 30 u c in all.
-// Taken twice, for triangles whose own normal is less exact; and corners may be off their plane by 1e-5 of the light's size
-// (prepare_polygon).
-float roundings_of_plane(const AreaLight& light);
-
 // What a pixel covers of a triangle: how the barycentric coordinates u, v change to the next pixels. Textures are means over it.
 struct SurfaceFootprint {
   const MipMaps* maps = nullptr;  // null: textures at a point

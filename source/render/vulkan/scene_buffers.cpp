@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/cpu/surface_pack.h"
+#include "scene/light_face.h"
 
 namespace steradian::vulkan {
 namespace {
@@ -88,7 +89,7 @@ std::vector<float> lifts_of(const Scene& scene, const Mesh& mesh) {
   std::vector<float> lifts(mesh.positions.size(), 0.0f);
   for (std::size_t t = 0; t < mesh.triangle_lights.size(); ++t) {
     if (mesh.triangle_lights[t] < 0) continue;
-    const float lift = roundings_of_plane(scene.area_lights[static_cast<std::size_t>(mesh.triangle_lights[t])]);
+    const float lift = scene::roundings_of_plane(scene.area_lights[static_cast<std::size_t>(mesh.triangle_lights[t])]);
     for (std::size_t c = 3 * t; c < 3 * t + 3; ++c) lifts[mesh.indices[c]] = std::max(lifts[mesh.indices[c]], lift);
   }
   return lifts;
