@@ -421,8 +421,9 @@ TEST(PlaneExtras, StagesDrawWhatAChangeReaches) {
       }
     }
     std::printf("matter %2d: %.1f %% of the tiles drawn again\n", matter, 100.0 * static_cast<double>(drawn) / static_cast<double>(all));
-    if (matter != 16 && matter != 31) {
-      EXPECT_LT(drawn, all * 9 / 10);
+    // Suns and their mirrors reach far.
+    if (matter < 16) {
+      EXPECT_LT(drawn, all * 2 / 3);
     }
   }
 }

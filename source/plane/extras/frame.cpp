@@ -71,7 +71,7 @@ constexpr double kTolerance = 1e-7;
 
 void add_extras(const World& world, const PixelGrid& grid, Budget& budget, Picture& picture, const TileSet* only) {
   take_work(world, grid, budget);
-  for_each_pixel(world, grid, {kTolerance, false}, only, nullptr,
+  for_each_pixel(world, grid, {kTolerance, false, EmissionParts::radiance}, only, nullptr,
                  [&](int x, int y, const PlaneLight& light) { picture.at(x, y) += static_cast<Vec3f>(light.radiance); });
 }
 
@@ -90,7 +90,8 @@ void draw_with_extras(const World& world, const PlaneFrameOptions& options, cons
   const auto row_done = [&](int done, int rows) {
     if (options.progress) options.progress(static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(rows));
   };
-  for_each_pixel(world, grid, {kTolerance, true}, only, row_done, [&](int x, int y, const PlaneLight& light) {
+  const EmissionParts parts = options.moments ? EmissionParts::radiance_and_moments : EmissionParts::radiance;
+  for_each_pixel(world, grid, {kTolerance, true, parts}, only, row_done, [&](int x, int y, const PlaneLight& light) {
     picture.at(x, y) = static_cast<Vec3f>(light.radiance);
     if (!options.moments) return;
     const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x);

@@ -146,7 +146,7 @@ class Seen {
           if (within)
             add_interior(part, *light, from_, sum);
           else
-            add_emission(part, *light, path.eye, EmissionParts::radiance_and_moments, sum);
+            add_emission(part, *light, path.eye, rules_.parts, sum);
         },
         [&](Vec2d u, double r) {
           return within ? radiance_at(*light, from_) : radiance_along(*v.curve, *light, path.eye, u, r) * std::exp(-density * r);

@@ -3,6 +3,7 @@
 // way.
 #pragma once
 
+#include "plane/exact/emission.h"
 #include "plane/extras/view.h"
 
 namespace steradian::plane {
@@ -10,6 +11,7 @@ namespace steradian::plane {
 struct SightRules {
   double tolerance = 1e-10;  // of the quadrature, in shares of the brightest that is seen
   bool all = true;           // else only what a frame without extras lacks; clear bodies and fog change all of it
+  EmissionParts parts = EmissionParts::radiance_and_moments;
 };
 
 // Radiance averaged over directions, and its moments. The view is one of a disk that the point is in.

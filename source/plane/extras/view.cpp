@@ -139,10 +139,16 @@ class Viewer {
     bool open = true;
     for_each_touching(targets, [&](const Curve& c) {
       if (is_clear(c)) open = false;
-      view.blocking.push_back(&c);
+      if (!turned_away(c)) view.blocking.push_back(&c);
     });
     if (open) view_.suns.push_back(std::move(view));
     return open;
+  }
+
+  // Its inner face to all of the eye, from outside of its body.
+  bool turned_away(const Curve& c) const {
+    if (c.kind != Curve::Kind::segment || c.two_sided) return false;
+    return cross(c.a - eye_.center, c.b - eye_.center) > (eye_.radius * (1 + 1e-9) + 1e-6) * length(c.b - c.a);
   }
 
   bool is_clear(const Curve& c) const { return world_.extras->matter[static_cast<std::size_t>(c.body)] == Matter::clear; }
