@@ -6,10 +6,25 @@
 namespace steradian::plane {
 namespace {
 
-bool crosses_properly(const Edge& e, const Edge& f) {
-  const double c_side = cross(e.b - e.a, f.a - e.a), d_side = cross(e.b - e.a, f.b - e.a);
-  const double a_side = cross(f.b - f.a, e.a - f.a), b_side = cross(f.b - f.a, e.b - f.a);
-  return c_side * d_side < 0 && a_side * b_side < 0;
+constexpr double kTouching = 1e-9;  // of an edge's length
+
+// What two edges share but for their ends: a crossing, or ends of one that lie on the other.
+void add_meetings(const Edge& e, const Edge& f, std::vector<Vec2d>& of_e, std::vector<Vec2d>& of_f) {
+  const Vec2d d = e.b - e.a, g = f.b - f.a;
+  const double c_side = cross(d, f.a - e.a), d_side = cross(d, f.b - e.a), a_side = cross(g, e.a - f.a), b_side = cross(g, e.b - f.a);
+  const auto touch = [](Vec2d along, Vec2d from, Vec2d p, double side, std::vector<Vec2d>& to) {
+    const double length2 = dot(along, along), at = dot(p - from, along);
+    if (std::fabs(side) <= kTouching * length2 && at > kTouching * length2 && at < (1 - kTouching) * length2) to.push_back(p);
+    return std::fabs(side) <= kTouching * length2;
+  };
+  bool touches = touch(d, e.a, f.a, c_side, of_e);
+  touches = touch(d, e.a, f.b, d_side, of_e) || touches;
+  touches = touch(g, f.a, e.a, a_side, of_f) || touches;
+  touches = touch(g, f.a, e.b, b_side, of_f) || touches;
+  if (touches || !(c_side * d_side < 0 && a_side * b_side < 0)) return;
+  const Vec2d at = e.a + d * (a_side / (a_side - b_side));
+  of_e.push_back(at);
+  of_f.push_back(at);
 }
 
 }  // namespace
@@ -59,18 +74,32 @@ bool EdgeRows::contains(Vec2d p, bool even_odd) const {
   return winding.within(even_odd);
 }
 
-bool EdgeRows::may_cross() const {
-  if (edges_.empty()) return false;
-  std::size_t pairs_left = 500 * edges_.size() + 10'000;
+std::optional<EdgeRows::Meetings> EdgeRows::meetings() const {
+  Meetings meetings(edges_.size());
+  const std::size_t most = edges_.size() + 64;
+  std::size_t count = 0, pairs_left = 500 * edges_.size() + 10'000;
   for (std::size_t r = 0; r + 1 < first_.size(); ++r)
     for (std::size_t i = first_[r]; i < first_[r + 1]; ++i) {
       const Edge& e = edges_[edge_[i]];
+      const std::size_t first_row = row(std::min(e.a.y, e.b.y));
       for (std::size_t k = i + 1; k < first_[r + 1]; ++k) {
-        if (pairs_left-- == 0) return true;
-        if (crosses_properly(e, edges_[edge_[k]])) return true;
+        if (pairs_left-- == 0) return {};
+        const Edge& f = edges_[edge_[k]];
+        // Of the rows that both are in, the first.
+        if (r != std::max(first_row, row(std::min(f.a.y, f.b.y)))) continue;
+        if (std::max(e.a.x, e.b.x) < std::min(f.a.x, f.b.x) || std::max(f.a.x, f.b.x) < std::min(e.a.x, e.b.x)) continue;
+        std::vector<Vec2d>&of_e = meetings[edge_[i]], &of_f = meetings[edge_[k]];
+        count -= of_e.size() + of_f.size();
+        add_meetings(e, f, of_e, of_f);
+        count += of_e.size() + of_f.size();
+        if (count > most) return {};
       }
     }
-  return false;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const Vec2d along = edges_[i].b - edges_[i].a;
+    std::sort(meetings[i].begin(), meetings[i].end(), [&](Vec2d p, Vec2d q) { return dot(p, along) < dot(q, along); });
+  }
+  return meetings;
 }
 
 }  // namespace steradian::plane

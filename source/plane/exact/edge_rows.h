@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "steradian/plane.h"
@@ -19,9 +20,11 @@ class EdgeRows {
 
   bool contains(Vec2d p, bool even_odd) const;
 
-  // Two edges that cross, other than at their ends. Looks at no more than a few hundred pairs an edge; where that is not
-  // enough, the answer is the safe one, that some do.
-  bool may_cross() const;
+  // By edge, without those of no length: where others cross it or touch it, other than at its ends, in the order from a to b. Two edges
+  // that cross have the same point. Looks at no more than a few hundred pairs an edge, for one meeting an edge: nothing where that is not
+  // enough.
+  using Meetings = std::vector<std::vector<Vec2d>>;
+  std::optional<Meetings> meetings() const;
 
  private:
   std::size_t row(double y) const;

@@ -19,22 +19,37 @@ double gradient_offset(const PlaneGradient& g, Vec2d p) {
   return length2 > 0 ? dot(p - g.from, axis) / length2 : 0;
 }
 
-// Turns every edge so that the body lies to its left. Edges that cross are taken as seen from both sides instead, which
-// costs time and changes no value.
+// Turns every edge so that the body lies to its left. Edges that meet others are taken apart there, and what lies within the body goes;
+// where there are too many of them, they are taken as seen from both sides instead, which costs time and changes no value.
 void orient(const PlaneBody& body, const EdgeRows& rows, std::vector<Curve>& edges) {
-  if (rows.may_cross()) {
+  const std::optional<EdgeRows::Meetings> meetings = rows.meetings();
+  if (!meetings) {
     for (Curve& e : edges) e.two_sided = true;
     return;
   }
   const Box box = bounds_of(body);
   const double step = 1e-7 * length(box.high - box.low);
-  for (Curve& e : edges) {
-    const Vec2d along = (e.b - e.a) / length(e.b - e.a);
-    const Vec2d left{-along.y * step, along.x * step}, middle = (e.a + e.b) * 0.5;
-    const bool in_left = rows.contains(middle + left, body.even_odd), in_right = rows.contains(middle - left, body.even_odd);
-    if (in_left == in_right) e.two_sided = true;
-    if (in_right && !in_left) std::swap(e.a, e.b);
+  std::vector<Curve> pieces;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    Vec2d from = edges[i].a;
+    const auto add_to = [&](Vec2d to) {
+      if (from == to) return;
+      Curve e = edges[i];
+      e.a = from;
+      e.b = to;
+      from = to;
+      const Vec2d along = (e.b - e.a) / length(e.b - e.a);
+      const Vec2d left{-along.y * step, along.x * step}, middle = (e.a + e.b) * 0.5;
+      const bool in_left = rows.contains(middle + left, body.even_odd), in_right = rows.contains(middle - left, body.even_odd);
+      if (in_left && in_right) return;
+      if (in_left == in_right) e.two_sided = true;
+      if (in_right && !in_left) std::swap(e.a, e.b);
+      pieces.push_back(e);
+    };
+    for (Vec2d p : (*meetings)[i]) add_to(p);
+    add_to(edges[i].b);
   }
+  edges = std::move(pieces);
 }
 
 void append_edges(const std::vector<Vec2d>& contour, bool closed, int index, std::vector<Curve>& out) {

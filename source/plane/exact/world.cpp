@@ -149,6 +149,19 @@ double farthest_in(const Box& box, Vec2d p) {
   return length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y)});
 }
 
+// On an edge of the light that holds it a point would not see that edge: it is taken a hair's breadth within.
+Vec2d off_outline(const World& world, Vec2d p, std::size_t light) {
+  constexpr double kOn = 1e-9;
+  for (std::size_t c = world.first_curve[light]; c < world.first_curve[light + 1]; ++c) {
+    const Curve& edge = world.curves[c];
+    if (edge.kind != Curve::Kind::segment || edge.two_sided) continue;
+    const Vec2d along = edge.b - edge.a, to = p - edge.a;
+    const double size = length(along), at = dot(to, along) / size;
+    if (std::fabs(cross(along, to)) <= kOn * size && at >= 0 && at <= size) return p + Vec2d{-along.y, along.x} * (2 * kOn / size);
+  }
+  return p;
+}
+
 // Only what is nearer than the farthest light that reaches the point can matter. From within a light it is seen at any distance.
 std::vector<const Curve*> curves_that_matter(const World& world, Vec2d p, int inside_light) {
   double reach = inside_light >= 0 ? farthest_in(world.boxes[static_cast<std::size_t>(inside_light)], p) : 0;
@@ -303,6 +316,13 @@ bool PlaneWorld::Impl::contains(std::size_t i, Vec2d p) const {
   return with < 0 ? plane::contains(scene.bodies[i], p) : rows[static_cast<std::size_t>(with)].contains(p, scene.bodies[i].even_odd);
 }
 
+PlaneLight PlaneWorld::Impl::light_at(Vec2d p) const {
+  const Inside in = inside(p);
+  if (in.dark) return {};
+  const Vec2d from = in.body < 0 ? p : plane::off_outline(*this, p, static_cast<std::size_t>(in.body));
+  return plane::envelope_light(*this, plane::curves_that_matter(*this, from, in.body), from, in.body);
+}
+
 PlaneWorld::PlaneWorld(PlaneScene scene, const Limits& limits) : impl_(std::make_unique<Impl>(std::move(scene), limits)) {}
 
 PlaneWorld::~PlaneWorld() = default;
@@ -326,12 +346,11 @@ PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSamp
                   "a light with a range, a spot, a profile or a gradient, of which the method par knows nothing", "use exact");
     return plane::par_light(*impl_, position);
   }
-  const Impl::Inside inside = impl_->inside(position);
-  if (inside.dark) return {};
+  if (method == PlaneMethod::exact) return impl_->light_at(position);
+  if (impl_->inside(position).dark) return {};
   switch (method) {
     case PlaneMethod::sampled: return plane::sampled_light(*impl_, position, sampling);
-    case PlaneMethod::marched: return plane::marched_light(*impl_, position, sampling);
-    default: return plane::envelope_light(*impl_, plane::curves_that_matter(*impl_, position, inside.body), position, inside.body);
+    default: return plane::marched_light(*impl_, position, sampling);
   }
 }
 

@@ -54,6 +54,8 @@ struct PlaneWorld::Impl {
     bool dark = false;
   };
   Inside inside(Vec2d p) const;
+  // The exact light at a place, in these units; what extras add is not in it.
+  PlaneLight light_at(Vec2d p) const;
   // The last occluder that holds the point, or -1.
   int occluder_at(Vec2d p) const;
 };

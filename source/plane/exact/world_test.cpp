@@ -6,6 +6,7 @@
 
 #include "plane/exact/emission.h"
 #include "plane/exact/families.h"
+#include "plane/exact/outline.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
 #include "steradian/error.h"
@@ -123,6 +124,20 @@ TEST(PlaneExact, InsideALightWithARangeWhatIsBeyondItBlocks) {
 TEST(PlaneExact, OnALightsEdgeAPointIsInside) {
   const PlaneWorld world = world_of({lit(plane_circle({22, 190}, 4))});
   for (Vec2d p : {Vec2d{22, 186}, {26, 190}, {18, 190}}) EXPECT_NEAR(world.query(p).radiance.x, 1, 1e-12) << p.x << ", " << p.y;
+}
+
+// Up to rounding on its edge, and by it within: a box outside of the light takes nothing.
+TEST(PlaneExact, OnALightsEdgeWhatIsOutsideDoesNotBlock) {
+  const PlaneWorld world = world_of({lit(plane_polygon({{20, 20}, {60, 28}, {58, 60}, {18, 60}})), box(30, 5, 20, 10)});
+  int within = 0;
+  for (int k = 1; k < 40; ++k) {
+    const Vec2d p{20.0 + k, 20 + 0.2 * k};
+    const double light = world.query(p).radiance.x;
+    const bool inside = std::fabs(light - 1) < 1e-12;
+    within += inside;
+    EXPECT_TRUE(inside || std::fabs(light - 0.5) < 1e-9) << k << ": " << light;
+  }
+  EXPECT_GT(within, 0);
 }
 
 TEST(PlaneExact, InsideSeveralLightsTheLastShines) {
@@ -326,6 +341,29 @@ TEST(PlanePar, RefusesLightsThatDoNotShineAlike) {
     }
     EXPECT_NO_THROW(world.query({100, 100}));
   }
+}
+
+// A bow tie is two triangles, and of two squares that overlap the outline is the union's, or what lies in one of them alone.
+TEST(PlaneOutline, IsTakenApartWhereItCrossesItself) {
+  const auto outline = [](std::vector<std::vector<Vec2d>> contours, bool even_odd) {
+    PlaneBody body = plane_polygon(contours.front());
+    body.contours = std::move(contours);
+    body.even_odd = even_odd;
+    return outline_of(body, 0);
+  };
+  const auto one_sided = [](const std::vector<Curve>& curves) {
+    return std::none_of(curves.begin(), curves.end(), [](const Curve& c) { return c.two_sided; });
+  };
+  const std::vector<Curve> tie = outline({{{0, 0}, {10, 10}, {10, 0}, {0, 10}}}, false);
+  EXPECT_EQ(tie.size(), 6u);
+  EXPECT_TRUE(one_sided(tie));
+  double area = 0;
+  for (const Curve& c : tie) area += 0.5 * cross(c.a, c.b);
+  EXPECT_NEAR(area, 50, 1e-12) << "the body to the left of every edge";
+  const std::vector<Vec2d> one{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, other{{5, 5}, {15, 5}, {15, 15}, {5, 15}};
+  EXPECT_EQ(outline({one, other}, false).size(), 8u);
+  EXPECT_EQ(outline({one, other}, true).size(), 12u);
+  EXPECT_TRUE(one_sided(outline({one, other}, true)));
 }
 
 TEST(PlaneSampled, ApproachesExact) {

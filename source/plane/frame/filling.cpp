@@ -52,6 +52,43 @@ void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileAre
       }
     }
   }
+  if (!frame_.light_at || frame_.any_general) return;
+  for (int index : bodies) find_on_outlines(static_cast<std::size_t>(index));
+}
+
+// Of a segment, what lies within a hair's breadth; of an ellipse, by its unit space.
+void Filling::find_on_outlines(std::size_t body) {
+  constexpr double kHair = 1e-4;  // of the picture, whose larger side is 1024 to 2048
+  const Vec2d first = grid_.at(x0_, y0_);
+  for (std::size_t c = world_.first_curve[body]; c < world_.first_curve[body + 1]; ++c) {
+    const Curve& curve = world_.curves[c];
+    if (curve.kind == Curve::Kind::arc) {
+      const double hair = kHair / std::sqrt(std::fabs(cross(curve.ellipse.x, curve.ellipse.y)));
+      for (int i = 0; i < columns_ * rows_; ++i) {
+        const Vec2d unit = curve.ellipse.to_unit(grid_.at(x0_ + i % columns_, y0_ + i / columns_));
+        if (std::fabs(dot(unit, unit) - 1) < hair) mark_on_outline(i % columns_, i / columns_);
+      }
+      continue;
+    }
+    const Vec2d a = curve.a - first, b = curve.b - first, along = curve.b - curve.a;
+    // Along its steeper way, in steps of pixels: the pixel next to where it crosses.
+    const bool rows = std::fabs(along.y) * grid_.step.x > std::fabs(along.x) * grid_.step.y;
+    const auto walk = [&](double from, double to, double step, int count, double across_from, double across_along, double across_step,
+                          int across_count, auto mark) {
+      if (from == to) return;
+      const double low = std::min(from, to) - kHair, high = std::max(from, to) + kHair;
+      const int begin = static_cast<int>(std::ceil(std::clamp(low / step, 0.0, 1.0 * kTileSide))),
+                end = static_cast<int>(std::floor(std::min(high / step, count - 1.0)));
+      for (int i = begin; i <= end; ++i) {
+        const double across = across_from + (i * step - from) * across_along, near = std::round(across / across_step);
+        if (near >= 0 && near < across_count && std::fabs(across - near * across_step) <= kHair) mark(i, static_cast<int>(near));
+      }
+    };
+    if (rows)
+      walk(a.y, b.y, grid_.step.y, rows_, a.x, along.x / along.y, grid_.step.x, columns_, [&](int y, int x) { mark_on_outline(x, y); });
+    else
+      walk(a.x, b.x, grid_.step.x, columns_, a.y, along.y / along.x, grid_.step.y, rows_, [&](int x, int y) { mark_on_outline(x, y); });
+  }
 }
 
 // Narrows a row of a convex polygon to a pixel beyond where its edges cross it: the exact test decides what is left.
@@ -74,7 +111,9 @@ void Filling::guess_row(const PlaneBody& body, double y, double first, int& begi
 void Filling::draw(Picture& picture) {
   for (int i : marked_) {
     const int x = x0_ + i % kTileSide, y = y0_ + i / kTileSide, inside = inside_[i];
-    picture.at(x, y) = inside == kDark ? Vec3f{} : static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x, y)));
+    picture.at(x, y) = inside == kDark        ? Vec3f{}
+                       : inside == kOnOutline ? static_cast<Vec3f>(frame_.light_at(grid_.at(x, y)))
+                                              : static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x, y)));
   }
 }
 

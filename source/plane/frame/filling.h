@@ -1,4 +1,5 @@
-// What fills the pixels of a tile: an occluder, and they are dark, or a light, and they see it from within.
+// What fills the pixels of a tile: an occluder, and they are dark, or a light, and they see it from within. And pixels on outlines, of
+// which floats would not know the side: they are answered as points are.
 #pragma once
 
 #include <bitset>
@@ -26,7 +27,12 @@ class Filling {
   std::bitset<kTilePixels> pixels() const;
 
  private:
-  static constexpr int kOutside = -1, kDark = -2;
+  static constexpr int kOutside = -1, kDark = -2, kOnOutline = -3;
+  void find_on_outlines(std::size_t body);
+  void mark_on_outline(int x, int y) {
+    int& inside = inside_[y * kTileSide + x];
+    if (inside == kOutside) inside = kOnOutline, marked_.push_back(y * kTileSide + x);
+  }
   void guess_row(const PlaneBody& body, double y, double first, int& begin, int& end) const;
   Vec3d interior(std::size_t body, Vec2d p);
   Vec3d interior_of_polygon(const LightInterior& inside, std::size_t body, Vec2d p);

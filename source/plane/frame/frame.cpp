@@ -70,7 +70,7 @@ void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const P
 // A frame of the walls' errors alone, as a layer.
 void add_bounce_error(const FillTiles& fill, const PlaneWorld::Impl& world, const PlaneFrameOptions& options, const PixelGrid& grid,
                       Budget& budget, Picture& picture) {
-  const FrameLights errors{false, wall_emitters(options.bounces->impl(), WallLight::error)};
+  const FrameLights errors{false, wall_emitters(options.bounces->impl(), WallLight::error), {}};
   Picture result(picture.width, picture.height);
   PlaneFrameStats unused;
   PlaneFrameOptions silent = options;
@@ -177,10 +177,13 @@ void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld&
     } else {
       try {
         FrameLights lights;
-        if (options.bounces != nullptr) lights.walls = wall_emitters(options.bounces->impl(), WallLight::radiance);
+        if (options.bounces != nullptr) {
+          lights.walls = wall_emitters(options.bounces->impl(), WallLight::radiance);
+          lights.walls_at = [&](Vec2d p) { return options.bounces->query(p / inner.scale).radiance; };
+        }
         const bool lattice = options.bounces != nullptr && options.bounce_lattice > 0;
         FrameScene walls;
-        if (lattice) walls = prepare_frame(inner, budget, {false, std::move(lights.walls)});
+        if (lattice) walls = prepare_frame(inner, budget, {false, std::move(lights.walls), lights.walls_at});
         const FrameScene frame = prepare_frame(inner, budget, lattice ? FrameLights{} : lights);
         own.prepare_ms = ms_since(start);
         const auto tiles = Clock::now();

@@ -1,4 +1,5 @@
 // The frame, on packs and tiles, against the query in double.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +42,9 @@ void expect_query(
   int count = 0, wrong = 0;
   for (int i = 0; i < width * height; i += stride) {
     const int x = i % width, y = i / width;
-    const Vec2d p{scene.origin.x + (x + 0.5) * scene.width / width, scene.origin.y + (y + 0.5) * scene.height / height};
+    // To the last bit where the frame has it: it may lie on an outline.
+    const Vec2d step{scene.width / width, scene.height / height};
+    const Vec2d p{scene.origin.x + step.x * (x + 0.5), scene.origin.y + step.y * (y + 0.5)};
     if (!counts(p)) continue;
     const Vec3d exact = world.query(p).radiance;
     const Vec3f pixel = picture.at(x, y);
@@ -392,6 +395,24 @@ TEST(PlaneFrame, EqualsTheQueryAboveACornerThatLooksAwayFromALight) {
   scene.bodies = {plane_polygon({{44.3, 116}, {63.5, 17.6}, {90, 110}}), plane_polygon({{16, 216}, {116, 216}, {116, 316}, {16, 316}})};
   scene.bodies[0].light.emplace();
   expect_query(scene, 320, 320, 3, "above a corner");
+}
+
+// Pixel centres on outlines, up to rounding: what is not within a light sees its edge as half of all directions.
+TEST(PlaneFrame, EqualsTheQueryOnOutlines) {
+  for (double turn : {0.0, 0.2}) {
+    PlaneScene scene;
+    scene.width = 64;
+    scene.height = 36;
+    const auto at = [&](double x, double y) { return Vec2d{x - turn * y, y + turn * x}; };
+    // Their edges go through the centres of pixels, and between them.
+    scene.bodies = {plane_polygon({at(20, 4), at(40, 4), at(40, 14), at(20, 14)}),
+                    plane_polygon({at(30, 20), at(45, 20), at(45, 25), at(30, 25)})};
+    scene.bodies[0].light.emplace().gradient = PlaneGradient{{20, 0}, {40, 10}, {{0, {1, 0.5, 0}}, {1, {0, 0.5, 1}}}};
+    for (int width : {64, 192})
+      expect_query(scene, width, width * 9 / 16, 1, fmt::format("on outlines turned by {}, {} wide", turn, width));
+  }
+  // One pixel of this drawing was dark.
+  expect_query(make_drawing({"polygon", "gradient"}), 960, 540, 1, "the drawing of polygons");
 }
 
 // Of a scene much larger than the picture: far lights, and edges seen at a grazing angle.

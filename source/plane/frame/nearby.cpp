@@ -27,9 +27,11 @@ void Preparation::make_list(std::size_t index) {
     first_pair_.push_back(0);
   }
   e.hidden = false;
-  frame_.whole_run[index] = is_run(e) && is_clear(&e);
+  // A hole is never seen as one: its entry is there to be dropped with what it stands for.
+  const bool hole = is_run(e) && e.shape == Emitter::RunShape::hole;
+  frame_.whole_run[index] = is_run(e) && (hole || is_clear(&e));
   std::vector<int> list;
-  if (frame_.whole_run[index] != 0 || !is_run(e)) find_nearby(index, list);
+  if (!hole && (frame_.whole_run[index] != 0 || !is_run(e))) find_nearby(index, list);
   write_list(index, list);
 }
 
@@ -88,7 +90,6 @@ bool Preparation::is_behind_outline(const Emitter& run, int edge) const {
 
 // Does nothing else come near a run, and none of its own outline between its edges and its chord?
 bool Preparation::is_clear(const Emitter* run) {
-  if (run->shape == Emitter::RunShape::hole) return false;
   bool clear = true;
   std::size_t first = run->curve, last = run->curve;
   for (std::size_t k = 1; k < run->group; ++k) {

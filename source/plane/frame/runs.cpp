@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace steradian::plane {
 namespace {
@@ -113,30 +114,82 @@ void for_each_edge(const Emitter* run, F f) {
     if (!is_run(run[k])) f(run[k]);
 }
 
+// Edges of light in the order in which outlines are walked, the body to the left: what follows an edge begins where it ends. Where several
+// do, as at a crossing, the way around the same part of the body is the sharpest turn to the left.
+class Walk {
+ public:
+  Walk(const World& world, const std::vector<Emitter>& emitters) : world_(world), emitters_(emitters), done_(emitters.size(), 0) {
+    for (std::size_t i = 0; i < emitters.size(); ++i)
+      if (emitters[i].kind == Emitter::Kind::edge) by_begin_.push_back(i);
+    by_end_ = by_begin_;
+    std::sort(by_begin_.begin(), by_begin_.end(), [&](std::size_t i, std::size_t k) { return key(i, true) < key(k, true); });
+    std::sort(by_end_.begin(), by_end_.end(), [&](std::size_t i, std::size_t k) { return key(i, false) < key(k, false); });
+  }
+
+  bool is_done(std::size_t i) const { return done_[i] != 0; }
+  bool is_two_sided(std::size_t i) const { return world_.curves[emitters_[i].curve].two_sided; }
+
+  // All that an edge lies on, from its beginning or, of a closed outline, from that edge on.
+  std::vector<Emitter> strand_of(std::size_t edge) {
+    std::size_t first = edge;
+    for (std::size_t before = neighbour(first, false), steps = 0; before != kNone && before != edge && steps < emitters_.size(); ++steps)
+      first = before, before = neighbour(first, false);
+    if (neighbour(first, false) == edge) first = edge;
+    std::vector<Emitter> strand;
+    for (std::size_t i = first; i != kNone; i = neighbour(i, true)) {
+      strand.push_back(emitters_[i]);
+      done_[i] = 1;
+    }
+    return strand;
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  // Of the end where others begin, or of the beginning where others end.
+  std::tuple<int, double, double> key(std::size_t i, bool begin) const {
+    const Vec2d p = begin ? emitters_[i].a : emitters_[i].b;
+    return {emitters_[i].body, p.x, p.y};
+  }
+  std::size_t neighbour(std::size_t i, bool after) const {
+    const std::vector<std::size_t>& others = after ? by_begin_ : by_end_;
+    const auto at = key(i, !after);
+    std::size_t best = kNone;
+    double best_turn = -1e300;
+    for (auto k =
+             std::lower_bound(others.begin(), others.end(), at, [&](std::size_t other, const auto&p) { return key(other, after) < p; });
+         k != others.end() && key(*k, after) == at; ++k) {
+      if (done_[*k] != 0 || is_two_sided(*k) != is_two_sided(i)) continue;
+      double turn = after ? turn_between(emitters_[i], emitters_[*k]) : turn_between(emitters_[*k], emitters_[i]);
+      // A line that shines to both sides goes straight on.
+      if (is_two_sided(i)) turn = -std::fabs(turn);
+      if (turn > best_turn) best_turn = turn, best = *k;
+    }
+    return best;
+  }
+
+  const World& world_;
+  const std::vector<Emitter>& emitters_;
+  std::vector<char> done_;
+  std::vector<std::size_t> by_begin_, by_end_;
+};
+
 }  // namespace
 
 std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& emitters) {
   std::vector<Emitter> result;
-  for (std::size_t i = 0; i < emitters.size();) {
-    std::size_t end = i + 1;
-    // Outlines that run clockwise come with their edges turned round: each then begins where the next one ends.
-    bool backwards = false;
-    const bool two_sided = emitters[i].kind == Emitter::Kind::edge && world.curves[emitters[i].curve].two_sided;
-    for (; end < emitters.size() && emitters[end].kind == Emitter::Kind::edge && emitters[i].kind == Emitter::Kind::edge; ++end) {
-      const Emitter &before = emitters[end - 1], &next = emitters[end];
-      const bool back = before.a == next.b && !(before.b == next.a);
-      if (before.body != next.body || world.curves[next.curve].two_sided != two_sided) break;
-      if (!back && !(before.b == next.a)) break;
-      if (end > i + 1 && back != backwards) break;
-      backwards = back;
+  Walk walk(world, emitters);
+  for (std::size_t i = 0; i < emitters.size(); ++i) {
+    if (walk.is_done(i)) continue;
+    if (emitters[i].kind != Emitter::Kind::edge) {
+      result.push_back(emitters[i]);
+      continue;
     }
-    std::vector<Emitter> strand(emitters.begin() + static_cast<std::ptrdiff_t>(i), emitters.begin() + static_cast<std::ptrdiff_t>(end));
-    if (backwards) std::reverse(strand.begin(), strand.end());
-    if (!two_sided && strand.size() > 2 && strand.back().b == strand.front().a)
+    const std::vector<Emitter> strand = walk.strand_of(i);
+    if (!walk.is_two_sided(i) && strand.size() > 2 && strand.back().b == strand.front().a)
       append_outline(strand, result);
     else
       append_chains(strand, result);
-    i = end;
   }
   return result;
 }

@@ -28,6 +28,12 @@ constexpr std::size_t kPairBytes = 60 + sizeof(EventPair), kPairSteps = 600;
 Preparation::Preparation(const World& world, Budget& budget, const FrameLights& lights) : world_(world), lights_(lights), budget_(budget) {
   frame_.world = &world;
   frame_.shines_within = lights_.scene;
+  if (lights_.walls.empty() || lights_.walls_at)
+    frame_.light_at = [this_world = &world, scene = lights_.scene, walls = lights_.walls_at](Vec2d p) {
+      Vec3d light = scene ? this_world->light_at(p).radiance : Vec3d{};
+      if (walls) light += walls(p);
+      return light;
+    };
   const std::size_t bodies = world_.scene.bodies.size();
   const std::string& name = world_.scene.name;
   frame_.general.assign(bodies, 0);

@@ -5,6 +5,7 @@
 // pieces that do not: the parts of its edges outside the emitter, or the lens rule for what is round.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "plane/frame/cull.h"
@@ -79,6 +80,7 @@ struct Blocker {
 
 struct FrameScene {
   const World* world = nullptr;
+  std::function<Vec3d(Vec2d)> light_at;  // its light by another way, for single pixels; none: there is no such way
   std::vector<Emitter> emitters;
   std::vector<char> general;  // by body: lights that only the general method serves
   bool any_general = false;
@@ -105,6 +107,7 @@ const PlaneEmission& emission_of(const FrameScene& frame, const Emitter& e);
 struct FrameLights {
   bool scene = true;
   std::vector<Emitter> walls;
+  std::function<Vec3d(Vec2d)> walls_at;  // their light at a place, if it is known otherwise
 };
 // Throws Error where the lights and what may block them are more than the budget allows.
 FrameScene prepare_frame(const World& world, Budget& budget, const FrameLights& lights = {});
