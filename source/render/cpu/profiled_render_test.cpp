@@ -107,6 +107,32 @@ TEST(ProfiledRender, EveryLobeAgreesWithTheSampledPicture) {
   }
 }
 
+// Past an occluder the mean is that of the whole light: what that costs where part of it is seen (docs/lights.md).
+TEST(ProfiledRender, WhatTheMeanOfAllCostsInPenumbrasIsMeasured) {
+  Scene scene = lit_floor(false, 0.5f, 0);
+  scene.meshes.push_back(scene::quad_mesh({0, 0.75f, -0.5f}, {1, 0.75f, -0.5f}, {1, 0.75f, 0.5f}, {0, 0.75f, 0.5f}, 0));
+  RenderOptions options = small("auto");
+  const Picture open = render(scene, options);
+  options.shadows = Shadows::on;
+  const Picture ours = render(scene, options);
+  options.method = "sampled";
+  options.spp = 1024;
+  const Picture judged = render(scene, options);
+  double a = 0, b = 0, squares = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+    const double whole = static_cast<double>(open.pixels[i].x), x = static_cast<double>(ours.pixels[i].x),
+                 y = static_cast<double>(judged.pixels[i].x);
+    if (!(whole > 0) || y < 0.05 * whole || y > 0.95 * whole) continue;
+    a += x, b += y, ++count;
+    squares += (x - y) * (x - y) / (whole * whole);
+  }
+  ASSERT_GT(count, 50);
+  std::printf("%d pixels: mean %.3f of the sampled, rms %.3f of the light without shadows\n", count, a / b, std::sqrt(squares / count));
+  EXPECT_NEAR(a / b, 1, 0.1);
+  EXPECT_LT(std::sqrt(squares / count), 0.1);
+}
+
 TEST(ProfiledRender, TheCameraSeesTheEmission) {
   Scene scene = lit_floor(false, 0.5f, 0);
   SurfaceMaterial black;
