@@ -3,13 +3,14 @@
 
 // Groups of points, vectors of four uints each, the headers of all of them first. Where a vector holds floats, it holds their bits.
 //   0  where the vertices, planes and edges begin; number of edges
-//   1  where the incidences, corners and points begin; number of corners, kOwnCorners more where each point has its own
+//   1  where the incidences, corners and points begin; number of corners and kTurned, kOwnCorners: what each point has
 //   2  number of points, kTriangles times that of triangles that cross the light's plane; number of the first answer; half sides of the box
 //   3  axis x of the light's frame; half side of the light along it
 //   4  axis y; half side
 //   5  axis z; height below which edges block
 const int kShadowHeader = 6;
-const int kOwnCorners = 65536;
+const int kTurned = 65536;       // a plane of its own before the light
+const int kOwnCorners = 131072;  // corners of its own
 const int kTriangles = 65536;
 // Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. Those of
 // more than two triangles: where in the incidences theirs begin, and how many. Incidences: plane, walk, four a vector. Corners: cells of

@@ -7,8 +7,6 @@
 
 layout(constant_id = 0) const int SEGMENT_SPACE = 32;
 layout(constant_id = 1) const int PIECE_SPACE = 32;
-layout(constant_id = 2) const int TURNED_LIGHTS = 0;  // 1: each point sees the light in a plane of its own
-const bool TURNED = TURNED_LIGHTS == 1;
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Groups { uvec4 groups[]; };
@@ -110,8 +108,8 @@ void write_polygon(View view, Corners corners, uint at) {
     write_record(view, m, vec2(0.0), at, corners.count + 1u, 0u);
 }
 
-Eye eye_at(uint at, uint header) {
-    uint plane = TURNED ? at + uint(kShadowPoint) : header + 3u;
+Eye eye_at(uint at, uint header, bool turned) {
+    uint plane = turned ? at + uint(kShadowPoint) : header + 3u;
     vec4 x = uintBitsToFloat(groups[plane]);
     vec4 y = uintBitsToFloat(groups[plane + 1u]);
     vec4 z = uintBitsToFloat(groups[plane + 2u]);
@@ -122,7 +120,8 @@ Eye eye_at(uint at, uint header) {
     eye.height = z.w;
     eye.axes = mat3(x.xyz, y.xyz, z.xyz);
     eye.extent = vec2(x.w, y.w);
-    if (TURNED) {
+    eye.turned = turned;
+    if (turned) {
         vec4 origin = uintBitsToFloat(groups[plane + 3u]);
         vec4 place = uintBitsToFloat(groups[plane + 4u]);
         eye.origin = origin.xyz;
@@ -139,14 +138,15 @@ void main() {
     if (number >= h2.x % uint(kTriangles)) return;
     uvec4 begins = groups[header];
     uvec4 h1 = groups[header + 1u];
-    uint vectors = uint(kShadowPoint + (TURNED ? kShadowPlane : 0));
-    Corners corners = Corners(h1.y, 0u, h1.w % uint(kOwnCorners));
-    bool own = h1.w >= uint(kOwnCorners);
+    bool turned = (h1.w & uint(kTurned)) != 0u;
+    bool own = (h1.w & uint(kOwnCorners)) != 0u;
+    uint vectors = uint(kShadowPoint + (turned ? kShadowPlane : 0));
+    Corners corners = Corners(h1.y, 0u, h1.w % uint(kTurned));
     uint at = h1.z + number * (vectors + (own ? corners.count : 0u));
     if (own) corners.own = at + vectors;
     int flags = int(groups[at].w);
     int base = kHidden * (flags / kBase);
-    Eye eye = eye_at(at, header);
+    Eye eye = eye_at(at, header, turned);
 
     segment_count = 0;
     piece_count = 0;

@@ -30,12 +30,13 @@ struct Eye {
     vec2 box;
     float height;  // only what lies below blocks
     mat3 axes;     // of the light's frame
-    vec3 origin;   // of a frame that is not the edges' own
+    bool turned;   // the frame is not the edges' own
+    vec3 origin;   // of such a frame
     vec2 extent;   // half sides of the light
 };
 
 // A vertex in the light's frame.
-vec3 place_of(Eye eye, vec3 v) { return TURNED ? (v - eye.origin) * eye.axes : v; }
+vec3 place_of(Eye eye, vec3 v) { return eye.turned ? (v - eye.origin) * eye.axes : v; }
 
 const int kAboveOut = 16;  // beside one bit for each side: left, right, bottom, top
 

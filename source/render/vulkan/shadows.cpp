@@ -33,19 +33,6 @@ static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kVector);
 
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
-// Groups of one pipeline.
-struct Kind {
-  int space;
-  bool turned;
-  bool has(const TileShadows::Search& group) const { return group.space == space && group.turned == turned; }
-};
-std::vector<Kind> kinds() {
-  std::vector<Kind> all;
-  for (const int space : kSpaces)
-    for (const bool turned : {false, true}) all.push_back({space, turned});
-  return all;
-}
-
 // What of a tile begins where among a batch's.
 struct Begin {
   std::size_t light = 0, point = 0, record = 0, row = 0, group = 0;
@@ -94,10 +81,10 @@ void Shadows::upload(const Batch& batch) {
   const std::size_t headers = batch.all().group * kHeader;
   auto* to = static_cast<std::uint32_t*>(fitting(groups_, (headers + batch.all().row) * kVector, "the edges before lights").mapped());
   std::size_t row = 0;
-  for (const Kind& kind : kinds())
+  for (const int space : kSpaces)
     for (std::size_t i = 0; i < batch.tiles.size(); ++i)
       for (const TileShadows::Search& group : batch.tiles[i].groups) {
-        if (!kind.has(group)) continue;
+        if (group.space != space) continue;
         auto header = group.header;
         for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + batch.begins[i].row);
         header[9] += number(batch.begins[i].point);
@@ -116,13 +103,12 @@ std::size_t Shadows::search(Batch& batch) {
   answers.write(&head, sizeof head);
   std::vector<ComputeProgram::Dispatch> dispatches;
   std::uint32_t first = 0;
-  for (const Kind& kind : kinds()) {
+  for (const int space : kSpaces) {
     std::uint32_t count = 0;
     for (const TileShadows& tile : batch.tiles)
       count += number(
-          static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return kind.has(g); })));
-    if (count > 0)
-      dispatches.push_back({program_.pipeline(0, {kind.space, kind.space + kMorePieces, kind.turned ? 1 : 0}), count, 1, first});
+          static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return g.space == space; })));
+    if (count > 0) dispatches.push_back({program_.pipeline(0, {space, space + kMorePieces}), count, 1, first});
     first += count;
   }
   for (const double ms : program_.run({groups_.get(), parts_.get(), &answers}, dispatches)) time_ += ms;

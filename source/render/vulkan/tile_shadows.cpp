@@ -178,7 +178,7 @@ bool TileShadows::find(const Group& asked) {
   const std::size_t segments = all.edge_count + crossing.size() + corners + 2;
   group.space = *std::find_if(kSpaces.begin(), kSpaces.end() - 1, [&](int space) { return static_cast<std::size_t>(space) >= segments; });
   group.points = found.size();
-  group.turned = asked.base != nullptr;
+  const bool turned = asked.base != nullptr;
   add_edges(edges, values, group.header);
   Rows rows(values);
   group.header[5] = rows.size();
@@ -191,10 +191,10 @@ bool TileShadows::find(const Group& asked) {
     rows.add(t.edges[0], t.edges[1], t.edges[2], 0);
   }
   group.header[6] = rows.size();
-  group.header[7] = whole(corners) + (own_corners ? flag(kOwnCorners) : 0u);
+  group.header[7] = whole(corners) + (turned ? flag(kTurned) : 0u) + (own_corners ? flag(kOwnCorners) : 0u);
   group.header[8] = whole(found.size()) + flag(kTriangles) * whole(crossing.size());
   group.header[9] = whole(points.size());
-  if (!group.turned) {
+  if (!turned) {
     const shadow::LightFrame& f = found.front().side->frame;
     group.header[10] = bits(f.box_x);
     group.header[11] = bits(f.box_y);
@@ -203,7 +203,7 @@ bool TileShadows::find(const Group& asked) {
   }
   for (const Point& point : found) {
     add_point(*point.side, point.at, asked.shares, values);
-    if (group.turned) add_plane(*point.side, *asked.base, point.at, values);
+    if (turned) add_plane(*point.side, *asked.base, point.at, values);
     if (own_corners)
       for (const shadow::Segment& s : *point.side->outline) rows.add(s);
   }

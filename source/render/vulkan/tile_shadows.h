@@ -41,8 +41,7 @@ class TileShadows : public ShadowTaker {
   struct Search {
     std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
     std::size_t points;
-    int space;    // for segments: a thread's
-    bool turned;  // each point sees the light in a plane of its own
+    int space;  // for segments: a thread's
   };
   std::vector<Light> by_light;
   std::vector<Vec4Floats> records;  // of parts
