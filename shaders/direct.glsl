@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
 // A shader is one lobe by one family of methods: diffuse.comp, sheen.comp, and of GGX ltc.comp, ltc_clipless.comp,
-// closed_form.comp, half_vector.comp and representative_point.comp define which, as LOBE.
+// closed_form.comp, half_vector.comp and representative_point.comp define which, as LOBE; texture_means.comp is what they ask before.
 // Drivers compile all that a shader holds for each of its pipelines.
 #include "layout.glsl"
 #include "shadow_layout.glsl"
@@ -12,7 +12,7 @@ layout(constant_id = 0) const int KIND = 0;
 layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // of transformed cosines: 1: one walk for both lobes
 layout(constant_id = 2) const int COMPACT_TABLE = 0;       // of transformed cosines
 layout(constant_id = 3) const int QUALITY = 1;             // 0 draft, 1 normal, 2 high
-layout(constant_id = 4) const int COAT_LOBE = 0;           // 1: the clear coat's lobe in the place of the base's
+layout(constant_id = 4) const int COAT_LOBE = 0;           // 1: the clear coat's lobe in the place of the base's; of texture_means.comp, see there
 layout(constant_id = 5) const int CAREFUL_LIGHTS = 1;      // some points may see a light as small, or be near its rim
 layout(constant_id = 6) const int CHUNKED_EDGES = 0;       // an outline may have more edges than there is space for
 layout(constant_id = 7) const int FRESNEL_LOBE = 0;        // the table has a lobe of its own for (1 - v.h)^5
@@ -25,6 +25,9 @@ layout(constant_id = 13) const int MATRIX_SIZE = 2;
 layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
 layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something hides the lights from some points, or a part of them
 layout(constant_id = 16) const int UNCUT_LIGHTS = 0;       // 1: every point sees each light whole, above its horizon, from the lit side
+layout(constant_id = 17) const int TEXTURED_LIGHTS = 0;    // 1: lights are textured, their means stand in `means`
+layout(constant_id = 18) const int TABLE_FIRST = 0;        // of texture_means.comp: where the table begins
+layout(constant_id = 19) const int PROFILED_LIGHTS = 0;    // 1: points with a profile
 const bool CAREFUL = CAREFUL_LIGHTS == 1;
 const bool CHUNKED = CHUNKED_EDGES == 1;
 const bool FRESNEL_TABLE = FRESNEL_LOBE == 1;
@@ -33,6 +36,8 @@ const bool COMPACT = COMPACT_TABLE == 1;
 const bool TOGETHER = WITH_DIFFUSE == 1;
 const bool SHADOWED = SHADOWED_LIGHTS == 1;
 const bool UNCUT = UNCUT_LIGHTS == 1;
+const bool PROFILED = PROFILED_LIGHTS == 1;
+const bool TEXTURED = TEXTURED_LIGHTS == 1;
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer surfaces;
@@ -44,12 +49,15 @@ layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 7) readonly buffer States { uint states[]; };
 layout(std430, binding = 8) buffer Parts { vec4 parts[]; };
+layout(std430, binding = 9) buffer Means { vec4 means[]; };
+layout(std430, binding = 10) readonly buffer Details { vec4 details[]; };
 layout(push_constant) uniform Push { uint first_entry; };
 
 #include "entry.glsl"
 #include "kernels.glsl"
 #include "parts.glsl"
 #include "lights.glsl"
+#include "light_profiles.glsl"
 
 PunctualIncident punctual_at(Light light, vec3 p) {
     PunctualIncident incident;
@@ -64,7 +72,13 @@ PunctualIncident punctual_at(Light light, vec3 p) {
     source.inverse_range2 = light.r[2].w;
     source.spot_scale = light.r[3].w;
     source.spot_offset = light.r[4].w;
-    return punctual_incident(source, p);
+    incident = punctual_incident(source, p);
+    if (PROFILED) {
+        vec3 from = -incident.direction;
+        incident.irradiance *= profile_intensity(int(light.r[kWhereDetails].w), vec3(dot(from, light.r[5].xyz), dot(from, light.r[6].xyz),
+                                                                                   dot(from, light.r[7].xyz)));
+    }
+    return incident;
 }
 
 #include "outline.glsl"
@@ -72,12 +86,20 @@ PunctualIncident punctual_at(Light light, vec3 p) {
 #include "diffuse.glsl"
 #elif LOBE == LOBE_SHEEN
 #include "sheen.glsl"
-#else
+#elif LOBE != LOBE_TEXTURE_MEANS
 #include "specular.glsl"
 #endif
 
+// Of a square and a light, among its means.
+uint slot_of_means() { return gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocationID.x; }
+
 vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (int(tile) * kPlanes + plane) * kSlots + int(slot)); }
 
+#if LOBE == LOBE_TEXTURE_MEANS
+#include "tables.glsl"
+#include "light_textures.glsl"
+#include "texture_means.glsl"
+#else
 // What of a pixel's surface the lobe asks for.
 struct Surface {
     vec3 p;
@@ -132,18 +154,18 @@ Surface surface_in(uint tile, uint slot) {
     return s;
 }
 
-// Radiance towards the view.
+// Radiance towards the view of a light of radiance 1.
 vec3 sent_by(Light light, Surface s) {
 #if LOBE == LOBE_DIFFUSE
-    return light.r[0].xyz * s.albedo * lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, s.loss));
+    return s.albedo * lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, s.loss));
 #elif LOBE == LOBE_SHEEN
-    return light.r[0].xyz * s.sheen.xyz * sheen_radiance(light, s.p, s.n, s.v, s.sheen.w);
+    return s.sheen.xyz * sheen_radiance(light, s.p, s.n, s.v, s.sheen.w);
 #else
     // What is seen of a light lies above the surface's horizon, and no coat's normal differs from that but by rounding.
     vec3 n = COAT_LOBE == 1 && by_pieces() ? s.up : s.n;
     Answer answer = specular_answer(light, s.p, n, s.v, s.lobe, s.loss);
-    return light.r[0].xyz * (s.f0 * (answer.specular.x - answer.specular.y) + s.f90 * answer.specular.y +
-                             s.albedo * lambert_radiance(answer.irradiance));
+    return s.f0 * (answer.specular.x - answer.specular.y) + s.f90 * answer.specular.y +
+           s.albedo * lambert_radiance(answer.irradiance);
 #endif
 }
 
@@ -154,19 +176,23 @@ void main() {
     vec3 sum = vec3(0.0);
     uint i = 0u;
     do {
-        if (!SHADOWED) {
-            sum += sent_by(light_at(lists[entry.first + i]), surface);
-        } else {
+        if (SHADOWED) {
             take_part(states[lists[entry.first + 2u * i + 1u] + entry.slot]);
             Light light = light_at(lists[entry.first + 2u * i]);
             for (int turn = first_turn(); turn <= kLastTurn; turn++) {
                 turn_to(turn);
-                vec3 sent = sent_by(light, surface) * part.weight;
+                vec3 sent = light.r[0].xyz * sent_by(light, surface) * part.weight;
                 if (part.whole > 0)
                     parts[part.whole - kPartSums + turn].xyz += sent;
                 else
                     sum += sent;
             }
+        } else if (TEXTURED) {
+            Light light = light_at(lists[entry.first + 2u * i]);
+            sum += means[lists[entry.first + 2u * i + 1u] + slot_of_means()].xyz * sent_by(light, surface);
+        } else {
+            Light light = light_at(lists[entry.first + i]);
+            sum += light.r[0].xyz * sent_by(light, surface);
         }
         ++i;
     } while (i < entry.count);
@@ -174,3 +200,4 @@ void main() {
     uint at = entry.tile * uint(kRadiance) + entry.slot;
     radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
 }
+#endif

@@ -27,6 +27,7 @@
 #include "integral/ggx_closed_form.glsl"
 #include "integral/ggx_cubature.glsl"
 #include "integral/ltc.glsl"
+#include "integral/ltc_texture.glsl"
 #include "integral/moment.glsl"
 #include "integral/moment_quadrature.glsl"
 #include "integral/moment_series.glsl"

@@ -16,6 +16,7 @@ const int kPlanes = 9;
 
 // Lights: kRecord vectors of four each, as shaders/lights.glsl reads them.
 const int kRecord = 9;
+const int kWhereDetails = 7;  // its w: where what stands behind the light begins
 
 // The kinds of lights: each is a pipeline of its own.
 const int kPolygon = 0;
@@ -42,3 +43,8 @@ const int kRadiance = 1088;  // kSlots + kGroupsOfTile * kBounds
 const int kAnySurface = 1;
 const int kAnyDiffuse = 2;
 const int kAnySpecular = 4;
+
+// Textured lights: light_textures.glsl.
+const int kTextureHead = 7;
+const int kTextureLevel = 2;
+const int kTextureCell = 5;

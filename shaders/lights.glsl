@@ -10,7 +10,8 @@
 //   r[3]  polygon: middle, deviation squared; others: axis x, end_b or direction; spot_scale
 //   r[4]  polygon: reach_a; others: axis y, half axis of a capsule; spot_offset
 //   r[5]  polygon: reach_b; others: axis z
-//   r[6]  polygon: area; ellipsoid: row x of the inverse; r[7], r[8]: its rows y and z
+//   r[6]  polygon: area; ellipsoid: row x of the inverse; r[7], r[8]: its rows y and z; punctual: x and y of
+//         the profile's frame, in r[7] where it aims; r[7].w: where the texture or profile begins
 struct Light {
     vec4 r[kRecord];
 };

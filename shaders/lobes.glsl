@@ -7,3 +7,4 @@
 #define LOBE_SHEEN 4
 #define LOBE_LTC_CLIPLESS 5
 #define LOBE_HALF_VECTOR 6
+#define LOBE_TEXTURE_MEANS 7

@@ -43,6 +43,7 @@ PIPELINES = [
     ("half_vector", "a polygon", {0: 0, 5: 0, 11: 4, 12: 4}, "a pixel and a light", 0),
     ("ltc_clipless", "a polygon", {0: 0, 5: 0, 11: 4, 13: 64, 14: 64}, "a pixel and a light", 0),
     ("representative_point", "a polygon", {0: 0, 5: 0, 11: 4}, "a pixel and a light", 0),
+    ("texture_means", "GGX", {0: 0, 4: 1, 13: 64}, "a pixel and a light", None),
     ("sheen", "a polygon", {0: 0, 5: 0}, "a pixel and a light", 0),
     ("phong", "series", {0: 4, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),
     ("phong", "series, high", {0: 5, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),
@@ -140,7 +141,7 @@ def count(words):
 
 def compiled(source, constants, folder):
     plain, done = Path(folder) / "plain.spv", Path(folder) / "done.spv"
-    subprocess.run(["glslc", "--target-env=vulkan1.2", "-O", "-fshader-stage=compute", "-I", ROOT / "shaders", "-I", ROOT / "kernels", source,
+    subprocess.run(["glslc", "--target-env=vulkan1.2", "-O", "-fshader-stage=compute", "-I", ROOT / "shaders", "-I", ROOT / "kernels", "-I", ROOT / "source", source,
                     "-o", plain], check=True)
     values = " ".join(f"{i}:{v}" for i, v in constants.items())
     subprocess.run(["spirv-opt", "--target-env=vulkan1.2"] + ([f"--set-spec-const-default-value={values}"] if values else []) +

@@ -17,9 +17,6 @@ constexpr double kReach = 3;           // standard deviations that a blur reache
 // The coarsest level's standard deviation over the light's largest extent: there, weights over the light differ from one
 // another by exp(-1/8) at most.
 constexpr double kCoarsest = 2;
-constexpr double kMostAnisotropy = 4;  // of a look-up; a longer ellipse is read as a thicker one
-constexpr double kProbeSpacing = 1.5;  // standard deviations between the probes along it: ripple below 1e-3
-constexpr float kLeastCoverage = 1e-6f;
 
 // Crossing number, over all contours: inside the outline and outside the holes.
 bool covers(const std::vector<std::array<double, 2>>& v, const std::vector<std::size_t>& contours, double x, double y) {
@@ -195,10 +192,10 @@ FilteredTexture::Sum FilteredTexture::at(double x, double y, double sigma) const
 
 FilteredTexture::Sum FilteredTexture::under(const PlaneGaussian& g) const {
   const double major = std::hypot(g.major_x, g.major_y);
-  const double sigma = std::max({g.minor, major / kMostAnisotropy, levels_.front().sigma});
+  const double sigma = std::max({g.minor, major / static_cast<double>(kTextureAnisotropy), levels_.front().sigma});
   if (major < 1.1 * sigma) return at(g.x, g.y, std::max(sigma, major));
   const double spread2 = (major * major - sigma * sigma) / (major * major);  // of the probes, of major squared
-  const double step = kProbeSpacing * sigma / major;
+  const double step = static_cast<double>(kTextureProbeSpacing) * sigma / major;
   const int side = static_cast<int>(std::ceil(2 * std::sqrt(spread2) / step));
   Sum sum;
   float total = 0;
@@ -212,7 +209,7 @@ FilteredTexture::Sum FilteredTexture::under(const PlaneGaussian& g) const {
 }
 
 Vec3f FilteredTexture::radiance(const Sum& sum) const {
-  if (!(sum.rgbw[3] > kLeastCoverage)) return mean_;
+  if (!(sum.rgbw[3] > kTextureLeastCoverage)) return mean_;
   return {sum.rgbw[0] / sum.rgbw[3], sum.rgbw[1] / sum.rgbw[3], sum.rgbw[2] / sum.rgbw[3]};
 }
 

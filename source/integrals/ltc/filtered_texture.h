@@ -43,11 +43,13 @@ class FilteredTexture {
 
   Vec3f mean() const { return mean_; }
 
-  // The texels of the finest level.
-  PlaneTexels finest() const {
-    const Level& l = levels_.front();
+  std::size_t level_count() const { return levels_.size(); }
+  double sigma(std::size_t level) const { return levels_[level].sigma; }
+  PlaneTexels level(std::size_t level) const {
+    const Level& l = levels_[level];
     return {l.left, l.bottom, l.spacing, l.width, l.height, l.texels};
   }
+  PlaneTexels finest() const { return level(0); }
 
   // Of the light's shape: centroid, and covariance about it (xx, xy, yy).
   const std::array<double, 2>& centroid() const { return centroid_; }

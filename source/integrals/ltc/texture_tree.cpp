@@ -98,7 +98,6 @@ TextureTree::TextureTree(const PlaneTexels& t) {
 
 // Of a smallest cell: one side of its long axis, as large as an even cell of its moments would be cut.
 TextureCell TextureTree::half(const TextureCell& cell, int which, const PlaneTexels& t) const {
-  if (cell.children > 0) return cells_[static_cast<std::size_t>(cell.children + which)];
   // Half a rectangle of the deviation s has its centre at s sqrt(3) / 2, and half the deviation; the axes are s sqrt(2).
   TextureCell half = cell;
   const double shift = (2 * which - 1) * std::sqrt(3.0 / 8);
@@ -107,6 +106,7 @@ TextureCell TextureTree::half(const TextureCell& cell, int which, const PlaneTex
   half.axis_b = {0.5 * cell.axis_a[0], 0.5 * cell.axis_a[1]};
   half.area = 0.5 * cell.area;
   half.radius = std::sqrt(1.5 * (length2(half.axis_a) + length2(half.axis_b)));
+  half.children = 0;
   half.depth = cell.depth + 1;
   half.along_a = half.along_b = {};
   half.deviation *= 0.7;

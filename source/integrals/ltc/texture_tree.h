@@ -8,6 +8,8 @@
 
 namespace steradian {
 
+#include "integrals/ltc/texture_rule.glsl"
+
 // Radiance times coverage, and coverage, in square texels of a plane; rows from the bottom. The centre of the first is (left, bottom).
 struct PlaneTexels {
   double left, bottom, spacing;
@@ -30,15 +32,9 @@ class TextureTree {
  public:
   explicit TextureTree(const PlaneTexels& texels);
 
-  // Of what the bounds of all cells sum to, as a share of the mean. They add up as if every cell were off by all of its bound, and the same
-  // way: measured, the mean is off by less than a tenth of it (docs/ltc.md, "Textured lights").
-  static constexpr double kTolerance = 0.15;
-  static constexpr int kMostSplits = 600;  // of one look
-  static constexpr int kDeepest = 6;       // halvings below the smallest cells: an eighth of their side
-
   // The first is the whole light.
   const std::vector<TextureCell>& cells() const { return cells_; }
-  // One of the two halves (0 and 1) of a cell, which may lie below the smallest ones.
+  // One of the two halves (0 and 1) of a smallest cell, or of what lies below.
   TextureCell half(const TextureCell& cell, int which, const PlaneTexels& texels) const;
 
   double finest() const { return finest_; }                        // deviation of the smallest cells

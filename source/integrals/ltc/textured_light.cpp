@@ -11,19 +11,16 @@ namespace {
 
 using K = Kernels<double>;
 
-// A Gaussian wider than this many rms radii of the light is a ramp over it, whatever its width.
-constexpr double kWidest = 4;
-constexpr float kLeastCoverage = 1e-6f;
-
 // Where the lobe is wider than the texture's cells, over these; else around where it looks.
 Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at,
-              const K::mat3& frame, const K::LtcMatrix& m, const std::optional<K::GgxView>& ggx = std::nullopt) {
+              const K::mat3& frame, const K::LtcMatrix& m, const K::GgxView* ggx = nullptr) {
   K k;
   const auto turned = [&](Vec3d v) { return transform_transposed(frame, integrals::to_kernel<double>(v)); };
-  TextureView<double> view{
-      m, ggx.has_value(), {}, turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y())};
-  if (ggx) view.ggx = *ggx;
-  if (const auto mean = mean_under(tree, view, texture.finest())) return *mean;
+  const auto view = TextureKernels<double>().ltc_texture_cell_view(m, ggx != nullptr ? 1 : 0, ggx != nullptr ? *ggx : K::GgxView{},
+                                                                   turned(texture.origin() - at.position), turned(texture.axis_x()),
+                                                                   turned(texture.axis_y()));
+  const auto mean = TextureCells<double>(tree, texture.finest(), view).mean(K::mask(true));
+  if (any_lane(mean.found)) return static_cast<Vec3f>(Vec3d{mean.radiance.x.v, mean.radiance.y.v, mean.radiance.z.v});
   // Any view serves: the lobe is where its matrix says.
   const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
   integrals::LtcVector<double> integral({m});
@@ -45,7 +42,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
   // Of the logarithm of the cosine: z under M^-1 is linear over the plane.
   const auto z = max(k.ltc_transform(m, f.center).z, 1.0e-30);
   const K::vec2 slope(k.ltc_transform(m, axis_x).z / z, k.ltc_transform(m, axis_y).z / z);
-  const double widest = kWidest * std::sqrt(covariance[0] + covariance[2]);
+  const double widest = static_cast<double>(kTextureWidest) * std::sqrt(covariance[0] + covariance[2]);
   FilteredTexture::Sum sum;
   for (const TextureGaussian& part : kMixture) {
     const auto g = k.ltc_texture_gaussian(ellipse, part.width, widest);
@@ -53,7 +50,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
     const auto under = [&](double px, double py) { return texture.under({px, py, g.major.x.v, g.major.y.v, g.minor.v}); };
     // Its share of the light is that of where the lobe looks; only its centroid is moved.
     const FilteredTexture::Sum here = under(x, y), there = under(centroid[0] + place.x.v, centroid[1] + place.y.v);
-    const bool off = !(there.rgbw[3] > kLeastCoverage);
+    const bool off = !(there.rgbw[3] > kTextureLeastCoverage);
     const auto weight = static_cast<float>(part.weight);
     sum.add(off ? here : there, off ? weight : weight * here.rgbw[3] / there.rgbw[3]);
   }
@@ -76,7 +73,8 @@ Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
   view.y = 0.0;
   const double width = std::max(alpha, kSmallestAlpha);
   const auto lobe = compact_lobe<double>(ggx_compact_table(), width, cosine, view);
-  return look_up(polygon_, texture_, tree_, at, frame, lobe.matrix, K().ggx_view(view, width, width));
+  const auto ggx = K().ggx_view(view, width, width);
+  return look_up(polygon_, texture_, tree_, at, frame, lobe.matrix, &ggx);
 }
 
 }  // namespace steradian

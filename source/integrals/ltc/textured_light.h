@@ -12,11 +12,8 @@ struct TextureGaussian {
   double weight, width;
 };
 
-// The cosine lobe's footprint on a plane at distance 1, 1 / (pi (1 + r^2)^2), as a mixture of two Gaussians: the
-// least squares fit of its spectrum k K_1(k) under the weight 1/k, that is, for textures whose power falls as 1/k^2 (edges,
-// photographs). What is left has a square of 7e-4; of the best single Gaussian (width 0.905), 1.5e-2.
-// TexturedLight.WidthsFitTheSpectrumOfTheCosine finds them again.
-inline constexpr TextureGaussian kMixture[] = {{0.64, 0.62}, {0.36, 1.92}};
+inline constexpr TextureGaussian kMixture[] = {{static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureNarrow)},
+                                               {1 - static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureWide)}};
 
 class TexturedLight {
  public:

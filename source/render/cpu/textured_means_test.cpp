@@ -99,7 +99,7 @@ TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
         ++found;
       }
       EXPECT_GT(found, ggx ? 400 : 800);
-      EXPECT_LT(worst, TextureTree::kTolerance) << name_of(simd) << " " << ggx;
+      EXPECT_LT(worst, static_cast<double>(kTextureTolerance)) << name_of(simd) << " " << ggx;
       EXPECT_LT(std::sqrt(square / found), 0.023 / 4) << name_of(simd) << " " << ggx;
     }
 }

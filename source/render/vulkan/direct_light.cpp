@@ -14,9 +14,10 @@ namespace {
 
 #include "shaders/layout.glsl"
 
-constexpr std::size_t kTexels = 5, kBuffers = 4;                // as bound in run
+constexpr std::size_t kTexels = 5, kBuffers = 6;                // as bound in run
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
 constexpr std::size_t kTilesOfBatch = 256;
+constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
 constexpr int kCornersNearRim = 32;
 constexpr int kMostEdges = 48;  // kept by a thread; longer outlines are walked in pieces
 constexpr float kPushed =
@@ -29,8 +30,18 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-// In the order in which they run: shares are of what all lobes have left.
-enum Shader : std::size_t { kDiffuse, kLtc, kClosedForm, kRepresentativePoint, kCharlie, kLtcClipless, kHalfVector, kShares };
+// In the order in which they run: lobes ask what textured lights' means are, shares are of what all lobes have left.
+enum Shader : std::size_t {
+  kTextureMeans,
+  kDiffuse,
+  kLtc,
+  kClosedForm,
+  kRepresentativePoint,
+  kCharlie,
+  kLtcClipless,
+  kHalfVector,
+  kShares
+};
 
 // The specular lobe's; kDiffuse: none.
 Shader shader_of(const DirectMethod& method) {
@@ -96,7 +107,7 @@ struct DirectLight::Pass {
 struct DirectLight::Work {
   struct Entry {
     std::uint32_t square, count;
-    std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states
+    std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states, of textured ones with its means
   };
   struct Key {
     std::size_t shader;
@@ -108,6 +119,7 @@ struct DirectLight::Work {
     std::vector<Entry> entries;
   };
   std::map<Key, Group> groups;
+  std::uint32_t means = 0;  // vectors that they take
 
   // A light of a square: its numbers in the list.
   void add(const Key& key, const char* name, std::uint32_t square, const std::vector<std::uint32_t>& light) {
@@ -124,13 +136,15 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
     : device_(device),
       method_(method),
       specular_shader_(shader_of(method)),
+      light_details_(lights, std::min({kLargestBuffer / sizeof(Vec4Floats), device.info().storage_buffer / sizeof(Vec4Floats),
+                                       device.info().texel_buffer})),
       tiles_(
           (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program_(device,
-               {diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(), ltc_clipless_shader(),
-                half_vector_shader(), shadow_shares_shader()},
+               {texture_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(),
+                ltc_clipless_shader(), half_vector_shader(), shadow_shares_shader()},
                kBuffers, kTexels) {
-  for (const PackLight& light : lights) records_.add(light);
+  for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
   scene_vertices_ = records_.vertices.size();
   for (const LightRecord& light : records_.lights)
@@ -140,15 +154,26 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
   std::vector<float> nodes;
   for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
     nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());
-  nodes.resize(std::max<std::size_t>(nodes.size(), 4));
+  const auto write = [&](std::unique_ptr<Buffer>& buffer, const void* data, std::size_t bytes) {
+    fitting(buffer, std::max(bytes, sizeof(Vec4Floats))).write(data, bytes);
+  };
+  if (std::any_of(lights.begin(), lights.end(), [](const PackLight& light) { return light.textured != nullptr; })) {
+    const LtcPackTables compact = ltc_compact_pack_tables();
+    compact_first_ = static_cast<int>(nodes.size() / 4);
+    compact_size_ = compact.matrix.size;
+    nodes.insert(nodes.end(), compact.matrix.nodes.begin(), compact.matrix.nodes.end());
+  }
+  write(details_, light_details_.values().data(), light_details_.values().size() * sizeof(Vec4Floats));
   matrix_size_ = std::max(tables.matrix.size, 2);
   magnitude_size_ = std::max(tables.magnitude.size, 2);
   fresnel_table_ = tables.fresnel_matrix.size > 0;
-  fitting(tables_, nodes.size() * sizeof(float)).write(nodes.data(), nodes.size() * sizeof(float));
+  write(tables_, nodes.data(), nodes.size() * sizeof(float));
   fitting(surfaces_, tiles_ * bytes_of_planes(kPlanes));
   radiance_ = std::make_unique<Buffer>(device, tiles_ * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats), BufferUse::host_reads,
                                        BufferForm::texels);
 }
+
+bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
 
 bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != kDiffuse; }
 
@@ -194,7 +219,7 @@ void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
 
 // As SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
 bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) const {
-  return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon();
+  return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
 }
 
 // Of a lobe's integral, in the light's mean square deviations: source/shapes/small_light.h.
@@ -245,7 +270,21 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           matrix_size_,
           magnitude_size_,
           shadowed != nullptr ? 1 : 0,
-          whole ? 1 : 0};
+          whole ? 1 : 0,
+          light.textured && pass.shader != kCharlie ? 1 : 0,
+          0,
+          light.profiled ? 1 : 0};
+}
+
+// What a lobe sees of a textured light: an entry of its own, since software devices bound the turns of a thread's loops.
+void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
+  std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
+  constants[4] = !pass.over_lobe() ? 0 : pass.coat ? 2 : 1;
+  constants[13] = compact_size_;
+  constants[18] = compact_first_;
+  Work::Group& group = work.groups[{kTextureMeans, constants}];
+  group.name = "textures";
+  group.entries.push_back({place, 1, {light, work.means}});
 }
 
 void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) {
@@ -282,7 +321,7 @@ void DirectLight::list_lights(Tile& tile) const {
 }
 
 std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
-  return cut ? records_.add(light) : static_cast<std::uint32_t>(light.index);
+  return cut ? records_.add(light, light_details_.first_of(light)) : static_cast<std::uint32_t>(light.index);
 }
 
 void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass) {
@@ -309,9 +348,12 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   // Tubes' and balls' irradiance is the same formula either way.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
-  std::vector<std::uint32_t> numbers = {number};
-  if (shadowed != nullptr) numbers.push_back(shadowed->states);
-  work.add({own.shader, choices(record, own, careful, whole, shadowed)}, own.name(), place, numbers);
+  const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
+  if (shadowed != nullptr) return work.add(key, own.name(), place, {number, shadowed->states});
+  if (!record.textured || own.shader == kCharlie) return work.add(key, own.name(), place, {number});
+  list_means(work, place, own, number);
+  work.add(key, own.name(), place, {number, work.means});
+  work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
 }
 
 void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
@@ -329,6 +371,13 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
     }
   }
   if (work.groups.empty()) return;
+  if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than there is room for
+    const std::size_t middle = (first_tile + end) / 2;
+    run(tiles, first_tile, middle, states, parts);
+    run(tiles, middle, end, states, parts);
+    return;
+  }
+  fitting(means_, std::max(work.means * sizeof(Vec4Floats), sizeof(Vec4Floats)));
 
   std::vector<std::uint32_t> entries, numbers;
   std::vector<ComputeProgram::Dispatch> dispatches;
@@ -358,7 +407,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   const Buffer* none = lists_.get();
   const std::vector<double> ms =
       program_.run({surfaces_.get(), tables_.get(), lights_.get(), vertices_.get(), radiance_.get(), radiance_.get(), lists_.get(),
-                    states != nullptr ? states : none, parts != nullptr ? parts : none},
+                    states != nullptr ? states : none, parts != nullptr ? parts : none, means_.get(), details_.get()},
                    dispatches);
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)

@@ -12,6 +12,7 @@
 #include "render/cpu/tile.h"
 #include "render/vulkan/compute_program.h"
 #include "render/vulkan/light_records.h"
+#include "render/vulkan/light_details.h"
 
 namespace steradian::vulkan {
 
@@ -25,6 +26,9 @@ class DirectLight {
 
   // table: as RenderOptions::table. The device and the lights must stay. Throws Error for a device that lacks something.
   DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
+
+  // Whether the shaders have this light; without shadows.
+  bool has(const PackLight& light) const;
 
   std::size_t tiles_of_batch() const { return tiles_; }
 
@@ -84,6 +88,7 @@ class DirectLight {
   float least_distance2(const LightRecord& light, const Pass& pass) const;
   void list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square);
   bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
+  void list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const;
   std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                     const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
@@ -93,14 +98,15 @@ class DirectLight {
   const Device& device_;
   const DirectMethod method_;
   std::size_t specular_shader_;
+  const LightDetails light_details_;
   LightRecords records_;
   std::size_t scene_lights_ = 0, scene_vertices_ = 0;
   int most_edges_ = 0;  // of the scene's polygons, as far as there is space for them
-  int matrix_size_ = 2, magnitude_size_ = 2;
+  int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: of textured lights' means
   bool fresnel_table_ = false;
   std::size_t tiles_;
   ComputeProgram program_;
-  std::unique_ptr<Buffer> surfaces_, radiance_, lights_, vertices_, lists_, tables_;
+  std::unique_ptr<Buffer> surfaces_, radiance_, lights_, vertices_, lists_, tables_, means_, details_;
   std::map<std::string, double> times_;
 };
 

@@ -29,7 +29,8 @@ namespace {
 bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
 
 // What the shaders do not have, and the host lights: a sentence each.
-std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method) {
+std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
+                                     const std::vector<PackLight>& lights, const DirectLight& direct) {
   std::vector<std::string> sentences;
   const auto say = [&](const std::string& what) {
     const std::string sentence = "the CPU lights " + what + ": the shaders do not have that yet";
@@ -38,12 +39,15 @@ std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& op
   if (options.indirect.mode != IndirectMode::off && bounce_on_host(options.indirect))
     say(options.indirect.mode == IndirectMode::path ? "the bounce by paths" : "the bounce behind its shadow rays");
   if (!DirectLight::has(method)) say(std::string("lobes by the method ") + name_of(method.ggx));
-  for (const AreaLight& light : scene.area_lights) {
-    if (light.texture && light.texture->use.present()) say("by the textured light '" + light.name + "'");
-    if (light.emission) say("by the measured lamp '" + light.name + "'");
+  for (const PackLight& light : lights) {
+    if (direct.has(light)) continue;
+    if (light.profiled != nullptr)
+      say("by the measured lamp '" + light.area->name + "'");
+    else
+      sentences.push_back("the CPU lights by " +
+                          (light.area != nullptr ? "the textured light '" + light.area->name + "'" : "a measured lamp") +
+                          ": the device's buffers have no room for that");
   }
-  for (const PunctualLight& light : scene.punctual_lights)
-    if (light.profile != nullptr) say("by the measured lamp '" + light.name + "'");
   for (const Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
@@ -116,7 +120,7 @@ struct Frame::Parts {
     const bool all_lobes = DirectLight::has(method) && !tile.any_override;
     reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
     const auto unknown =
-        std::stable_partition(reaching.begin(), reaching.end(), [](const PackLight* light) { return shaders_have(*light); });
+        std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) { return direct.has(*light); });
     if (unknown != reaching.end()) host.add(tile, {unknown, reaching.end()});
     reaching.erase(unknown, reaching.end());
 
@@ -208,7 +212,8 @@ struct Frame::Parts {
     if (host.has_shadows()) return "shadows, which the host adds";
     if (has_bounce()) return "the bounce, which begins at the host's surfaces";
     if (!DirectLight::has(method)) return "a method of the host's alone";
-    if (!std::all_of(lights.begin(), lights.end(), shaders_have)) return "a light that the host adds";
+    if (!std::all_of(lights.begin(), lights.end(), [&](const PackLight& light) { return direct.has(light); }))
+      return "a light that the host adds";
     if (static_cast<std::size_t>(std::max(options.width, options.height)) > device->info().picture)
       return "a picture larger than the device draws";
     return what_keeps_on_host(scene, device->info());
@@ -312,7 +317,7 @@ struct Frame::Parts {
     stats.warnings = lobes_under_means(scene, method);
     if (!raster && !device->info().software && !host.has_shadows() && !has_bounce())
       stats.warnings.push_back("the CPU finds the surfaces (" + kept_on_host + ")");
-    for (std::string& sentence : lit_by_host(scene, options, method)) stats.warnings.push_back(std::move(sentence));
+    for (std::string& sentence : lit_by_host(scene, options, method, lights, direct)) stats.warnings.push_back(std::move(sentence));
   }
 
   const Clock::time_point start = Clock::now();

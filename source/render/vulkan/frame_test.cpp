@@ -94,6 +94,8 @@ PunctualLight punctual(PunctualKind kind, Vec3d position, Vec3d direction) {
   return light;
 }
 
+constexpr int kEndsSooner = 160 * 90 / 400;
+
 // Every kind of light, and surfaces of every lobe that the device has: a floor, a wall behind it, a cloth, and a pane through which they
 // are seen. Lights touch the surfaces' horizons, stand next to them and far away.
 Scene everything() {
@@ -140,6 +142,15 @@ Scene everything() {
   return scene;
 }
 
+// Of a lamp that shines most aside.
+std::shared_ptr<const LightProfile> lamp_profile() {
+  LightProfile p;
+  p.vertical = {0, 30, 60, 90, 180};
+  p.horizontal = {0, 90, 180};
+  p.candela = {5, 8, 4, 1, 0, 5, 6, 2, 1, 0, 5, 9, 3, 0, 0};
+  return std::make_shared<const LightProfile>(p);
+}
+
 class VulkanFrame : public testing::Test {
  protected:
   void SetUp() override {
@@ -181,10 +192,17 @@ Scene under_triangles(int count, const Shape& light = kSquare) {
   return scene;
 }
 
-// A leak of two kilobytes in each of a thousand frames would show. A software device's memory is the process's own.
+std::vector<std::string> warnings_of(const Scene& scene, RenderOptions options) {
+  options.width = options.height = 32;
+  RenderStats stats;
+  Frame(scene, options).render(&stats);
+  return stats.warnings;
+}
+
+// A leak of two hundred bytes in each of ten thousand frames would show. A software device's memory is the process's own.
 void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shadows shadows = Shadows::off) {
   RenderOptions options = small("ltc-compact");
-  options.width = options.height = 32;
+  options.width = options.height = 8;
   options.shadows = shadows;
   Frame frame(scene, options, nullptr, surfaces);
   for (int i = 0; i < 100; ++i) frame.render();
@@ -220,7 +238,9 @@ TEST_F(VulkanFrame, AgreesWithTheCpuByEveryQuality) {
 TEST_F(VulkanFrame, AgreesWithTheCpuInEveryScene) {
   for (const char* name : {"plane", "ring", "tubes", "textured_floor"}) {
     const Scene scene = scene_of(name);
-    for (const char* method : {"auto", "ltc-compact"}) expect_same(name, scene, small(method));
+    // Of textured lights: a rounding may end the search for a mean, good to a percent, a pass sooner.
+    const int outliers = std::string(name) == "textured_floor" ? kEndsSooner : 0;
+    for (const char* method : {"auto", "ltc-compact"}) expect_same(name, scene, small(method), outliers);
   }
 }
 
@@ -232,6 +252,68 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderEveryKindOfLight) {
   RenderOptions options = small("auto");
   options.aa = 2;
   expect_same("everything", scene, options, kOutliers);
+}
+
+// Of every roughness under checkers in three colours: cells, halves below the smallest of them, and look-ups in mirrors; a coat, a diffuse
+// lobe, a triangle that is lit on both sides, cut by the horizon, and a light too long for a direction between its ends.
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderTexturedLights) {
+  Scene scene;
+  Image checkers{"", 32, 32, {}};
+  for (int i = 0; i < 32 * 32; ++i)
+    for (int c = 0; c < 4; ++c) checkers.rgba.push_back(c == 3 || ((i % 32) / 4 + i / 128 + c) % 3 == 0 ? 255 : 20);
+  scene.images = {checkers};
+  for (int i = 0; i < 6; ++i) {
+    SurfaceMaterial strip;
+    strip.metallic = i % 2 == 0 ? 1.0f : 0.2f;
+    strip.roughness = std::array{0.01f, 0.1f, 0.2f, 0.35f, 0.6f, 1.0f}[static_cast<std::size_t>(i)];
+    if (i == 4) strip.clearcoat = 1, strip.clearcoat_roughness = 0.2f;
+    scene.materials.push_back(strip);
+    const float x = static_cast<float>(i) - 3;
+    scene.meshes.push_back(scene::quad_mesh({x, 0, 2}, {x + 1, 0, 2}, {x + 1, 0, -2}, {x, 0, -2}, i));
+  }
+  Camera camera;
+  camera.position = {0, 2.5, 5};
+  camera.z = normalized(Vec3d{0, 0.4, 1});
+  camera.y = {0, camera.z.z, -camera.z.y};
+  scene.cameras = {camera};
+  const auto textured = [](Polygon shape, Vec3d origin, Vec3d du, Vec3d dv, bool two_sided) {
+    AreaLight light = light_of(std::move(shape), {1, 1, 1}, two_sided);
+    LightTexture t;
+    t.use.image = 0;
+    t.origin = origin;
+    t.du = du;
+    t.dv = dv;
+    t.factor = {3, 3, 3};
+    light.texture = t;
+    return light;
+  };
+  scene.area_lights = {
+      textured({{{-1, 0.2, -2}, {1, 0.2, -2}, {1, 2.2, -2}, {-1, 2.2, -2}}, {}}, {-1, 2.2, -2}, {0.5, 0, 0}, {0, -0.5, 0}, false),
+      textured({{{2, -0.5, 0}, {2, 1.5, 1}, {2, 1, -1}}, {}}, {2, 0, 0}, {0, 0.7, 0.7}, {0, -0.7, 0.7}, true),
+      textured({{{-3000, 3, -1}, {3000, 3, -1}, {3000, 3, 0}, {-3000, 3, 0}}, {}}, {0, 3, 0}, {0.1, 0, 0}, {0, 0, 1}, true)};
+  constexpr int kOutliers = 160 * 90 / 1000;
+  for (const char* method : {"auto", "ltc-compact"}) expect_same("textured lights", scene, small(method), kOutliers);
+  EXPECT_EQ(warnings_of(scene, small("auto")), std::vector<std::string>());
+}
+
+// Points that shine by a profile, of both types of angles, next to one without.
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredPoints) {
+  Scene scene = everything();
+  scene.area_lights.clear();
+  const auto type_c = lamp_profile();
+  LightProfile type_b = *type_c;
+  type_b.type = LightProfile::Type::b;
+  type_b.vertical = {-90, -40, 0, 50, 90};
+  type_b.horizontal = {-90, 0, 90};
+  PunctualLight lamp = punctual(PunctualKind::point, {1, 2, 1}, {0, -1, 0});
+  lamp.profile = type_c;
+  lamp.profile_axes = profile_axes({-0.2, -1, -0.3}, {1, 0.5, 0});
+  scene.punctual_lights.push_back(lamp);
+  lamp.profile = std::make_shared<const LightProfile>(type_b);
+  lamp.position = {-2, 2, -1};
+  scene.punctual_lights.push_back(lamp);
+  for (const char* method : {"auto", "ltc-compact"}) expect_same("measured points", scene, small(method));
+  EXPECT_EQ(warnings_of(scene, small("auto")), std::vector<std::string>());
 }
 
 TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
@@ -295,14 +377,12 @@ TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
 }
 
 TEST_F(VulkanFrame, SaysWhatTheHostLights) {
-  const Scene scene = scene_of("textured_floor");
-  RenderOptions options = small("ltc-compact");
-  options.width = options.height = 32;
-  RenderStats stats;
-  vulkan::Frame(scene, options).render(&stats);
-  ASSERT_EQ(stats.warnings.size(), 1u);
-  EXPECT_NE(stats.warnings[0].find("by the textured light 'window'"), std::string::npos) << stats.warnings[0];
-  EXPECT_EQ(stats.device, list_devices().front().name);
+  Scene scene = everything();
+  scene.area_lights[4].name = "lamp";
+  set_emission(scene.area_lights[4], lamp_profile(), {1, 0, 0});
+  const std::vector<std::string> warnings = warnings_of(scene, small("ltc-compact"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("by the measured lamp 'lamp'"), std::string::npos) << warnings[0];
 }
 
 TEST_F(VulkanFrame, RefusesWhatItDoesNotHave) {
@@ -331,14 +411,10 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
       << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
 }
 
-TEST_F(VulkanFrame, AThousandFramesLeaveMemoryWhereItWas) {
-  expect_no_growth(scene_of("glossy_floor"), SurfacesBy::host, 1000);
-  expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on);
-}
-
-// Takes minutes: --gtest_also_run_disabled_tests.
-TEST_F(VulkanFrame, DISABLED_TenThousandFramesLeaveMemoryWhereItWas) {
+TEST_F(VulkanFrame, TenThousandFramesLeaveMemoryWhereItWas) {
   for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device}) expect_no_growth(scene_of("glossy_floor"), surfaces, 10000);
 }
+
+TEST_F(VulkanFrame, FramesWithShadowsLeaveMemoryWhereItWas) { expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on); }
 
 }  // namespace steradian::vulkan

@@ -77,6 +77,9 @@ struct Writer {
     r[2] = with(static_cast<Vec3f>(p.position), static_cast<float>(p.inverse_range2));
     r[3] = with(static_cast<Vec3f>(p.direction), static_cast<float>(p.spot_scale));
     r[4][3] = static_cast<float>(p.spot_offset);
+    r[5] = with(static_cast<Vec3f>(p.axes.x));
+    r[6] = with(static_cast<Vec3f>(p.axes.y));
+    r[7] = with(static_cast<Vec3f>(p.axes.aim));
   }
   void operator()(const packed::Pieces&) const {}  // of the CPU's shadows alone
 };
@@ -88,11 +91,14 @@ bool shaders_have(const PackLight& light) {
   return light.is_even() && (punctual == nullptr || punctual->profile == nullptr);
 }
 
-std::uint32_t LightRecords::add(const PackLight& light) {
+std::uint32_t LightRecords::add(const PackLight& light, std::ptrdiff_t details) {
   Record r{};
   LightRecord record;
   r[0] = with(light.radiance);
   std::visit(Writer{r, record, vertices}, light.shape);
+  record.textured = light.textured != nullptr;
+  record.profiled = record.kind == kPunctual && details != kNoDetails;
+  if (details != kNoDetails) r[kWhereDetails][3] = static_cast<float>(details);
   lights.push_back(record);
   values.insert(values.end(), r.begin(), r.end());
   return static_cast<std::uint32_t>(lights.size() - 1);

@@ -25,6 +25,9 @@ constexpr std::uint32_t kLtcClipless[] =
 constexpr std::uint32_t kHalfVector[] =
 #include "half_vector.comp.inc"
     ;
+constexpr std::uint32_t kTextureMeans[] =
+#include "texture_means.comp.inc"
+    ;
 constexpr std::uint32_t kShadowParts[] =
 #include "shadow_parts.comp.inc"
     ;
@@ -69,6 +72,7 @@ std::span<const std::uint32_t> representative_point_shader() { return kRepresent
 std::span<const std::uint32_t> sheen_shader() { return kSheen; }
 std::span<const std::uint32_t> ltc_clipless_shader() { return kLtcClipless; }
 std::span<const std::uint32_t> half_vector_shader() { return kHalfVector; }
+std::span<const std::uint32_t> texture_means_shader() { return kTextureMeans; }
 std::span<const std::uint32_t> shadow_parts_shader() { return kShadowParts; }
 std::span<const std::uint32_t> shadow_shares_shader() { return kShadowShares; }
 std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }

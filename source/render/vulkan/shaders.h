@@ -15,6 +15,8 @@ std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
 std::span<const std::uint32_t> ltc_clipless_shader();
 std::span<const std::uint32_t> half_vector_shader();
+// What lobes see of textured lights.
+std::span<const std::uint32_t> texture_means_shader();
 // What points see of lights behind edges.
 std::span<const std::uint32_t> shadow_parts_shader();
 // What arrives of round lights that something hides in part.

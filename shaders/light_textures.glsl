@@ -1,0 +1,146 @@
+// Textured lights as the host wrote them (source/render/vulkan/light_details.cpp): a head, the levels of blurred copies, the cells of the
+// tree. As source/integrals/ltc: filtered_texture.h and texture_tree.h, which the parity of frames holds to this.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#include "integrals/ltc/texture_rule.glsl"
+#include "integrals/ltc/texture_cell.glsl"
+
+// The head, and what is known of a level and of a cell: kTextureHead, kTextureLevel and kTextureCell vectors.
+//   head   origin, deviation of the smallest cells; axis x, number of levels; axis y, where the cells begin; bounds; mean;
+//          centroid; covariance of its area
+//   level  left, bottom, spacing, sigma; width, height, where its texels begin
+//   cell   centre, axis a; axis b, area, radius; mean, deviation; along a, first child (0: none); along b, the cell after it and all below
+//          it (-1: none)
+struct LightTexture {
+    int first;
+    vec3 origin;
+    vec3 axis_x;
+    vec3 axis_y;
+    float finest;
+    int levels;
+    int cells;
+    vec4 bounds;
+    vec3 mean;
+    vec2 middle;
+    vec3 covariance;
+};
+
+LightTexture light_texture_at(int first) {
+    LightTexture t;
+    t.first = first;
+    t.origin = details[first].xyz;
+    t.finest = details[first].w;
+    t.axis_x = details[first + 1].xyz;
+    t.levels = int(details[first + 1].w);
+    t.axis_y = details[first + 2].xyz;
+    t.cells = int(details[first + 2].w);
+    t.bounds = details[first + 3];
+    t.mean = details[first + 4].xyz;
+    t.middle = details[first + 5].xy;
+    t.covariance = details[first + 6].xyz;
+    return t;
+}
+
+// Radiance times coverage, and coverage, at a place of a level: between its texels.
+vec4 at_level(LightTexture t, int k, vec2 at) {
+    vec4 place = details[t.first + kTextureHead + kTextureLevel * k];
+    vec4 size = details[t.first + kTextureHead + kTextureLevel * k + 1];
+    vec2 q = (at - place.xy) / place.z;
+    if (!(q.x > -1.0 && q.y > -1.0 && q.x < size.x && q.y < size.y)) return vec4(0.0);
+    vec2 low = floor(q);
+    vec2 share = q - low;
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; i++) {
+        vec2 side = vec2(float(i & 1), float(i >> 1));
+        vec2 texel = low + side;
+        vec2 weights = mix(1.0 - share, share, side);
+        bool inside = texel.x >= 0.0 && texel.y >= 0.0 && texel.x < size.x && texel.y < size.y;
+        if (inside) sum += weights.x * weights.y * details[int(size.z) + int(texel.y) * int(size.x) + int(texel.x)];
+    }
+    return sum;
+}
+
+float finest_sigma(LightTexture t) { return details[t.first + kTextureHead].w; }
+
+// Blurred by sigma: between two levels in proportion to the variance.
+vec4 blurred_at(LightTexture t, vec2 at, float sigma) {
+    float finest = finest_sigma(t);
+    float level = clamp(log2(max(sigma, finest) / finest), 0.0, float(t.levels - 1));
+    int k = min(int(level), t.levels - 2);
+    float ratio = exp2(level - float(k));
+    float share = (ratio * ratio - 1.0) / 3.0;
+    return mix(at_level(t, k, at), at_level(t, k + 1, at), share);
+}
+
+// Under a Gaussian, by probes along its longer axis.
+vec4 under_gaussian(LightTexture t, vec2 at, LtcTextureEllipse g) {
+    float longest = length(g.major);
+    float sigma = max(max(g.minor, longest / kTextureAnisotropy), finest_sigma(t));
+    if (longest < 1.1 * sigma) return blurred_at(t, at, max(sigma, longest));
+    float spread2 = (longest * longest - sigma * sigma) / (longest * longest);
+    float span = kTextureProbeSpacing * sigma / longest;
+    int side = int(ceil(2.0 * sqrt(spread2) / span));
+    vec4 sum = vec4(0.0);
+    float total = 0.0;
+    for (int i = -side; i <= side; i++) {
+        float u = float(i) * span;
+        float w = exp(-u * u / (2.0 * spread2));
+        sum += w * blurred_at(t, at + g.major * u, sigma);
+        total += w;
+    }
+    return sum / total;
+}
+
+// A cell, of the tree or, by a path of halves below one of its smallest (1: none), of what lies there: TextureTree::half.
+struct TreeCell {
+    LtcTextureCell cell;
+    int child;
+    int next;
+};
+
+TreeCell tree_cell_at(LightTexture t, int number) {
+    int first = t.cells + number * kTextureCell;
+    vec4 a = details[first];
+    vec4 b = details[first + 1];
+    vec4 c = details[first + 2];
+    vec4 d = details[first + 3];
+    vec4 e = details[first + 4];
+    TreeCell tree;
+    tree.cell.center = a.xy;
+    tree.cell.axis_a = a.zw;
+    tree.cell.axis_b = b.xy;
+    tree.cell.area = b.z;
+    tree.cell.radius = b.w;
+    tree.cell.deviation = c.w;
+    tree.cell.mean = c.xyz;
+    tree.cell.along_a = d.xyz;
+    tree.cell.along_b = e.xyz;
+    tree.child = int(d.w);
+    tree.next = int(e.w);
+    return tree;
+}
+
+LtcTextureCell half_of(LightTexture t, LtcTextureCell cell, int which) {
+    LtcTextureCell part = cell;
+    part.center = cell.center + cell.axis_a * (float(2 * which - 1) * 0.612372435695794525);
+    part.axis_a = cell.axis_b;
+    part.axis_b = 0.5 * cell.axis_a;
+    part.area = 0.5 * cell.area;
+    part.radius = sqrt(1.5 * (dot(part.axis_a, part.axis_a) + dot(part.axis_b, part.axis_b)));
+    part.along_a = vec3(0.0);
+    part.along_b = vec3(0.0);
+    part.deviation = 0.7 * cell.deviation;
+    vec4 place = details[t.first + kTextureHead];
+    vec4 size = details[t.first + kTextureHead + 1];
+    vec2 q = clamp((part.center - place.xy) / place.z, vec2(0.0), size.xy - 1.0);
+    vec2 low = min(floor(q), max(size.xy - 2.0, 0.0));
+    vec2 share = q - low;
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; i++) {
+        vec2 side = vec2(float(i & 1), float(i >> 1));
+        vec2 texel = min(low + side, size.xy - 1.0);
+        vec2 weights = mix(1.0 - share, share, side);
+        sum += weights.x * weights.y * details[int(size.z) + int(texel.y) * int(size.x) + int(texel.x)];
+    }
+    if (sum.w > 0.0) part.mean = sum.xyz / sum.w;
+    return part;
+}
