@@ -321,7 +321,8 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   options.shadows = Shadows::on;
   for (const char* name : {"gallery", "textured_floor", "lamp_shade", "tubes"}) {
     const Scene scene = scene_of(name);
-    const double share = expect_same(std::string(name) + ", shadows", scene, options);
+    const int outliers = std::string(name) == "textured_floor" ? kEndsSooner : 0;
+    const double share = expect_same(std::string(name) + ", shadows", scene, options, outliers);
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
     EXPECT_LE(share, 0.35) << name;
   }
