@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "player.h"
-#include "session_driver.h"
+#include "test_session.h"
 #include "steradian/error.h"
 
 namespace steradian::view {

@@ -7,7 +7,7 @@
 #include "core/test_memory.h"
 #include "player.h"
 #include "scene/gltf_test_file.h"
-#include "session_driver.h"
+#include "test_session.h"
 #include "steradian/error.h"
 
 namespace steradian::view {

@@ -1,7 +1,7 @@
 // The camera of the window.
 #include <gtest/gtest.h>
 
-#include "session_driver.h"
+#include "test_session.h"
 
 namespace steradian::view {
 namespace {

@@ -114,7 +114,7 @@ const std::vector<const Image*>& MipMaps::levels(const TextureUse& use) const {
   return levels.all;
 }
 
-int level_count(const Image& image) { return std::bit_width(static_cast<unsigned>(std::max(image.width, image.height))); }
+int level_count(const Image& image) { return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)))); }
 
 TextureTaps texture_taps(const TextureUse& use, const Image& image, const TextureFootprint& footprint) {
   constexpr float kMostTaps = 16;

@@ -64,18 +64,18 @@ class TextureCells {
     threshold_ = seen.error;
     Mask<S> open = active, over = real(1.0) < zero, closing = over;
     for (int pass = 0; pass < kTexturePasses; ++pass) {
-      const real allowed = real(kTextureTolerance) * k.ltc_texture_cell_luminance(seen.radiance);
+      const real allowed = static_cast<real>(kTextureTolerance) * k.ltc_texture_cell_luminance(seen.radiance);
       open = open && seen.error > allowed;
       if (!any_lane(open)) break;
       const real share = allowed / select(open, seen.error, real(1.0));
-      const real lower = min(max(share * share * real(kTextureMargin), real(kTextureSteepest)), real(0.5));
-      threshold_ = threshold_ * select(over, real(kTextureBack), lower);
+      const real lower = min(max(share * share * static_cast<real>(kTextureMargin), static_cast<real>(kTextureSteepest)), real(0.5));
+      threshold_ = threshold_ * select(over, static_cast<real>(kTextureBack), lower);
       expected_ = select(seen.weight > least, seen.radiance * (real(1.0) / max(seen.weight, least)), expected_);
       sums_ = {};
       splits_ = zero;
       too_deep_ = real(1.0) < zero;
       visit(whole, open);
-      over = splits_ > real(kTextureSplits);
+      over = splits_ > static_cast<real>(kTextureSplits);
       closing = closing || over;
       active = active && !too_deep_;
       const auto taken = open && !too_deep_ && !over;
@@ -122,12 +122,12 @@ class TextureCells {
     const auto seen = K().ltc_texture_cell_seen(packed(cell), view_, expected_);
     auto splits = lanes && seen.error > threshold_;
     if (cell.depth == kTextureDeepest) {
-      too_deep_ = too_deep_ || (splits && !(splits_ > real(kTextureSplits)));
+      too_deep_ = too_deep_ || (splits && !(splits_ > static_cast<real>(kTextureSplits)));
       splits = splits && !splits;
     }
     add(sums_, seen, lanes && !splits);
     splits_ = splits_ + select(splits, real(1.0), real(0.0));
-    splits = splits && !(splits_ > real(kTextureSplits));
+    splits = splits && !(splits_ > static_cast<real>(kTextureSplits));
     if (!any_lane(splits)) return;
     if (cell.children > 0) {
       const auto first = static_cast<std::size_t>(cell.children);

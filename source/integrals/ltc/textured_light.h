@@ -12,8 +12,8 @@ struct TextureGaussian {
   double weight, width;
 };
 
-inline constexpr TextureGaussian kMixture[] = {{static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureNarrow)},
-                                               {1 - static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureWide)}};
+inline const TextureGaussian kMixture[] = {{static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureNarrow)},
+                                           {1 - static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureWide)}};
 
 class TexturedLight {
  public:
