@@ -140,9 +140,10 @@ def count(words):
 
 
 def compiled(source, constants, folder):
-    plain, done = Path(folder) / "plain.spv", Path(folder) / "done.spv"
-    subprocess.run(["glslc", "--target-env=vulkan1.2", "-O", "-fshader-stage=compute", "-I", ROOT / "shaders", "-I", ROOT / "kernels", "-I", ROOT / "source", source,
-                    "-o", plain], check=True)
+    plain, done = Path(folder) / f"{Path(source).name}.spv", Path(folder) / "done.spv"
+    if not plain.exists():  # pipelines of one shader differ in constants alone
+        subprocess.run(["glslc", "--target-env=vulkan1.2", "-O", "-fshader-stage=compute", "-I", ROOT / "shaders", "-I", ROOT / "kernels", "-I", ROOT / "source", source,
+                        "-o", plain], check=True)
     values = " ".join(f"{i}:{v}" for i, v in constants.items())
     subprocess.run(["spirv-opt", "--target-env=vulkan1.2"] + ([f"--set-spec-const-default-value={values}"] if values else []) +
                    ["--freeze-spec-const", "--fold-spec-const-op-composite", "-O", plain, "-o", done], check=True)
