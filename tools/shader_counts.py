@@ -53,7 +53,7 @@ PIPELINES = [
     ("plane_lists", "", {}, "a tile and a blocker", 0),
     ("plane_listed", "round lights", {}, "a pixel and a blocker", 2),
     ("plane_disks", "round lights, the CPU's lists", {}, "a pixel and a blocker", 1),
-    ("plane_cuts", "edges", {}, "a pixel and a blocker", 25),
+    ("plane_cuts", "edges", {}, "a pixel and a blocker", 27),
     ("plane_arcs", "arcs", {}, "a pixel and a blocker", 5),
     ("plane_arcs", "arcs, quadrature", {}, "a node", 21),
     ("bounce_lobes", "", {0: 64, 1: 64}, "a virtual light", None),
