@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plane/exact/gaps.h"
 #include "plane/exact/intersect.h"
 
 namespace steradian::plane {
@@ -38,7 +39,7 @@ class Looker {
       low = std::min(low, slope);
       high = std::max(high, slope);
     }
-    const auto gap = gap_after(low);
+    const auto gap = gap_after(gaps_, low);
     return gap == gaps_.end() || gap->begin >= high;
   }
 
@@ -46,30 +47,12 @@ class Looker {
   void add(const Facet& facet) {
     Range range;
     if (facet.curve == own_ || !range_of(*facet.curve, facet.a, facet.b, range)) return;
-    auto gap = gap_after(range.begin);
-    while (gap != gaps_.end() && gap->begin < range.end) {
-      const double begin = std::max(gap->begin, range.begin), end = std::min(gap->end, range.end);
+    take_between(gaps_, range.begin, range.end, [&](const Gap& gap, double begin, double end) {
       const int index = static_cast<int>(taken_.size());
-      taken_.push_back({{begin, end, facet.curve, range.back}, next_of(gap->previous)});
-      next_of(gap->previous) = index;
-      const bool left = begin > gap->begin, right = end < gap->end;
-      if (left && right) {
-        const Gap rest{end, gap->end, index};
-        gap->end = begin;
-        gaps_.insert(gap + 1, rest);
-        return;
-      }
-      if (left) {
-        gap->end = begin;
-        ++gap;
-      } else if (right) {
-        gap->begin = end;
-        gap->previous = index;
-        return;
-      } else {
-        gap = gaps_.erase(gap);
-      }
-    }
+      taken_.push_back({{begin, end, facet.curve, range.back}, next_of(gap.previous)});
+      next_of(gap.previous) = index;
+      return Gap{end, gap.end, index};
+    });
   }
 
   // All that was added, by rising slope.
@@ -139,9 +122,6 @@ class Looker {
       insert({range.begin, range.end, &curve, false}, parts);
   }
 
-  std::vector<Gap>::iterator gap_after(double slope) const {
-    return std::partition_point(gaps_.begin(), gaps_.end(), [slope](const Gap& gap) { return gap.end <= slope; });
-  }
   int& next_of(int part) { return part < 0 ? first_ : taken_[static_cast<std::size_t>(part)].next; }
 
   static void append(const SeenPart& part, std::vector<SeenPart>& parts) {

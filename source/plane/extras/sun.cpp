@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/exact/gaps.h"
+
 namespace steradian::plane {
 namespace {
 
@@ -78,26 +80,7 @@ class Opening {
     const double ahead_a = dot(a, ahead_), ahead_b = dot(b, ahead_);
     if (ahead_a <= 0 && ahead_b <= 0) return;
     const double begin = ahead_a <= 0 ? -kSteepest : dot(a, along_) / ahead_a, end = ahead_b <= 0 ? kSteepest : dot(b, along_) / ahead_b;
-    std::vector<Gap>& all = gaps();
-    auto gap = std::partition_point(all.begin(), all.end(), [begin](const Gap& g) { return g.end <= begin; });
-    while (gap != all.end() && gap->begin < end) {
-      const bool left = gap->begin<begin, right = gap->end> end;
-      if (left && right) {
-        const Gap rest{end, gap->end};
-        gap->end = begin;
-        all.insert(gap + 1, rest);
-        return;
-      }
-      if (left) {
-        gap->end = begin;
-        ++gap;
-      } else if (right) {
-        gap->begin = end;
-        return;
-      } else {
-        gap = all.erase(gap);
-      }
-    }
+    take_between(gaps(), begin, end, [](const Gap& gap, double, double high) { return Gap{high, gap.end}; });
   }
 
   Vec2d from_, ahead_, along_;
