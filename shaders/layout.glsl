@@ -6,13 +6,14 @@ const int kSlots = 1024;
 const int kPosition = 0;    // alpha_x
 const int kNormal = 1;      // alpha_y
 const int kView = 2;        // Fresnel loss
-const int kAlbedo = 3;
-const int kF0 = 4;
-const int kF90 = 5;
+const int kAlbedo = 3;      // of what the device has found: x of the triangle's normal
+const int kF0 = 4;          // y
+const int kF90 = 5;         // z
 const int kTangent = 6;     // weight of the coat
 const int kCoatNormal = 7;  // alpha of the coat
 const int kSheen = 8;       // its alpha
 const int kPlanes = 9;
+const int kFoundPlanes = 7;  // of what the device has found: it has no coats and no sheen
 
 // Lights: kRecord vectors of four each, as shaders/lights.glsl reads them.
 const int kRecord = 9;
@@ -36,13 +37,14 @@ const int kGroupsOfTile = 16;
 const int kSquares = 4;
 const int kGroupsOfSquare = 4;  // kGroupsOfTile / kSquares
 
-// Radiance: kSlots vectors a tile, then kBounds for each of its groups: low and high corner of the box of positions, and of normals;
-// beside the first, as a sum, what is among them.
+// Radiance: kSlots vectors a tile, of what the device has found beside it the number of the mesh, from 1; then kBounds for each of its
+// groups: low and high corner of the box of positions, and of normals; beside the first, as a sum, what is among them.
 const int kBounds = 4;
 const int kRadiance = 1088;  // kSlots + kGroupsOfTile * kBounds
 const int kAnySurface = 1;
 const int kAnyDiffuse = 2;
 const int kAnySpecular = 4;
+const int kAnyForHost = 8;  // what the device does not find: the tile is the host's
 
 // Textured lights: light_textures.glsl.
 const int kTextureHead = 7;

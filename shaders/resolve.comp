@@ -14,6 +14,8 @@ layout(binding = 4) uniform samplerBuffer texels;
 layout(std430, binding = 5) readonly buffer Seen { uint seen[]; };
 layout(std430, binding = 6) writeonly buffer Surfaces { vec4 surfaces[]; };
 layout(std430, binding = 7) writeonly buffer Radiance { vec4 radiance[]; };
+layout(std430, binding = 8) writeonly buffer Taken { vec4 taken[]; };  // the same surfaces, for the host
+layout(constant_id = 0) const int kTaken = 0;                          // whether it wants them
 layout(push_constant) uniform Push { uint first_tile; };
 
 #include "prelude/prelude.glsl"
@@ -71,6 +73,7 @@ vec3 turned_to(vec3 n, vec3 to_view, float facing) {
 struct Surface {
     vec3 position;
     vec3 normal;
+    vec3 geometric;
     vec3 tangent;
     vec3 view;
     vec3 emission;
@@ -79,13 +82,25 @@ struct Surface {
     vec3 f90;
     float fresnel_loss;
     float alpha;
+    float mesh;  // its number from 1
     bool found;
+    bool for_host;
 };
+
+void put(uint tile, uint slot, int plane, vec3 v, float beside) {
+    surfaces[tile * uint(kPlanes * kSlots) + uint(plane * kSlots) + slot] = vec4(v, beside);
+    if (kTaken != 0) taken[tile * uint(kFoundPlanes * kSlots) + uint(plane * kSlots) + slot] = vec4(v, beside);
+}
 
 Surface surface_of(uint triangle, vec3 direction) {
     Surface s;
     s.found = false;
     vec4 numbers = texelFetch(triangles, int(triangle));
+    vec4 mesh = texelFetch(materials, int(numbers.w));
+    int sets = int(mesh.w);
+    s.mesh = numbers.w - float(kCodes) + 1.0;
+    s.for_host = sets >= kForHost;
+    if (s.for_host) return s;
     Corners at;
     at.number = ivec3(numbers.xyz);
     vec3 p0 = texelFetch(vertices, at.number.x * kVertex + kVertexPosition).xyz;
@@ -110,16 +125,16 @@ Surface surface_of(uint triangle, vec3 direction) {
     vec3 geometric = unit(n);
     float towards = dot(geometric, s.view);
     float side = towards < 0.0 ? -1.0 : 1.0;
+    s.geometric = geometric * side;
     vec4 position = blended(at, kVertexPosition);
     s.position = position.xyz + geometric * (side * position.w);  // gbuffer.cpp's lift_off_lights
     vec3 up = unit(blended(at, kVertexNormal).xyz);
     if (!(dot(up, up) > 0.5)) up = geometric;
 
-    vec4 mesh = texelFetch(materials, int(numbers.w));
     int material = int(mesh.x);
     int uses = material + kMaterialTextures;
     Coordinates c;
-    c.sets = int(mesh.w);
+    c.sets = sets;
     if (c.sets != 0) {  // footprint_on
         float depth = distance * dot(direction, texelFetch(view, kViewForward).xyz);
         float facing = dot(n, direction);
@@ -203,28 +218,28 @@ void main() {
 
     Surface s;
     s.found = false;
+    s.for_host = false;
     if (triangle_and_one > 0u) {
         vec2 place = vec2(pixel) + vec2(texelFetch(view, kViewStepRight).w, texelFetch(view, kViewStepDown).w);
         s = surface_of(triangle_and_one - 1u, normalize(corner.xyz + right.xyz * place.x + down.xyz * place.y));
     }
 
-    uint at = tile * uint(kPlanes * kSlots) + slot;
-    int kinds = 0;
+    int kinds = s.for_host ? kAnyForHost : 0;
     if (s.found) {
-        surfaces[at + uint(kPosition * kSlots)] = vec4(s.position, s.alpha);
-        surfaces[at + uint(kNormal * kSlots)] = vec4(s.normal, s.alpha);
-        surfaces[at + uint(kView * kSlots)] = vec4(s.view, s.fresnel_loss);
-        surfaces[at + uint(kAlbedo * kSlots)] = vec4(s.albedo, 0.0);
-        surfaces[at + uint(kF0 * kSlots)] = vec4(s.f0, 0.0);
-        surfaces[at + uint(kF90 * kSlots)] = vec4(s.f90, 0.0);
-        surfaces[at + uint(kTangent * kSlots)] = vec4(s.tangent, 0.0);
+        put(tile, slot, kPosition, s.position, s.alpha);
+        put(tile, slot, kNormal, s.normal, s.alpha);
+        put(tile, slot, kView, s.view, s.fresnel_loss);
+        put(tile, slot, kAlbedo, s.albedo, s.geometric.x);
+        put(tile, slot, kF0, s.f0, s.geometric.y);
+        put(tile, slot, kF90, s.f90, s.geometric.z);
+        put(tile, slot, kTangent, s.tangent, 0.0);
         kinds = kAnySurface;
         if (any(greaterThan(s.albedo, vec3(0.0)))) kinds |= kAnyDiffuse;
         if (any(greaterThan(max(s.f0, s.f90), vec3(0.0)))) kinds |= kAnySpecular;
     } else {
-        surfaces[at + uint(kNormal * kSlots)] = vec4(0.0);
+        put(tile, slot, kNormal, vec3(0.0), 0.0);
     }
-    radiance[tile * uint(kRadiance) + slot] = s.found ? vec4(s.emission, 0.0) : vec4(0.0);
+    radiance[tile * uint(kRadiance) + slot] = s.found ? vec4(s.emission, s.mesh) : vec4(0.0);
 
     // The bounds of the group's surfaces, by which the host finds which lights reach the tile.
     positions_of_group[gl_LocalInvocationID.x] = s.found ? s.position : vec3(0.0);
@@ -238,8 +253,8 @@ void main() {
     vec3 normal_high = high;
     int all_kinds = 0;
     for (int i = 0; i < kGroup; i++) {
-        if (kinds_of_group[i] == 0) continue;
         all_kinds |= kinds_of_group[i];
+        if ((kinds_of_group[i] & kAnySurface) == 0) continue;
         low = min(low, positions_of_group[i]);
         high = max(high, positions_of_group[i]);
         normal_low = min(normal_low, normals_of_group[i]);

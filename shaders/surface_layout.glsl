@@ -21,7 +21,9 @@ const int kViewVectors = 7;
 
 // Materials begin with what the 256 codes of sRGB are in linear light, four a vector.
 const int kCodes = 64;
-// Meshes: one vector each: number of its material's first vector, whether it has tangents, colours, sets of texture coordinates (1 + 2).
+// Meshes: one vector each: number of its material's first vector, whether it has tangents, colours, sets of texture coordinates (1 + 2);
+// and kForHost where it is the host's.
+const int kForHost = 4;
 // Materials:
 const int kMaterialBase = 0;           // rgba
 const int kMaterialEmission = 1;       // rgb, 1 where both sides emit

@@ -44,17 +44,33 @@ TilePlane FrameSurfaces::fill(int index, int sample, SurfaceTile& tile, const Ti
   rays_clock_.run([&] { trace_tile(*rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
   gbuffer_clock_.run([&] {
     shade_tile(scene_, shading_, hits, tile);
-    if (environment_ && options_.background) show_background(hits, tile, behind);
+    if (environment_ && options_.background) show_background(hits.direction, tile, behind);
   });
   TilePlane distances{};
   std::copy(hits.distance.begin(), hits.distance.end(), distances.begin());
   return distances;
 }
 
-void FrameSurfaces::show_background(const TileHits& hits, SurfaceTile& tile, const TilePlane* behind) const {
+void FrameSurfaces::add_background(int index, int sample, SurfaceTile& tile) const {
+  if (!environment_ || !options_.background) return;
+  const TileArea a = area(index);
+  const PixelPlace place = pixel_place(sample, options_.aa);
+  TileVector directions;
+  for (int y = 0; y < kTileSide; ++y)
+    for (int x = 0; x < kTileSide; ++x) {
+      const Vec3f to = camera_.direction(static_cast<float>(a.x + x) + place.x, static_cast<float>(a.y + y) + place.y);
+      const std::size_t i = tile_slot(x, y);
+      directions.x[i] = to.x;
+      directions.y[i] = to.y;
+      directions.z[i] = to.z;
+    }
+  show_background(directions, tile, nullptr);
+}
+
+void FrameSurfaces::show_background(const TileVector& directions, SurfaceTile& tile, const TilePlane* behind) const {
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (tile.material[i] != nullptr || (behind != nullptr && !((*behind)[i] > 0))) continue;
-    const Vec3f seen = environment_->background({hits.direction.x[i], hits.direction.y[i], hits.direction.z[i]});
+    const Vec3f seen = environment_->background({directions.x[i], directions.y[i], directions.z[i]});
     tile.radiance.x[i] = seen.x;
     tile.radiance.y[i] = seen.y;
     tile.radiance.z[i] = seen.z;

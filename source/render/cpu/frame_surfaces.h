@@ -33,6 +33,8 @@ class FrameSurfaces {
   // The surfaces of a tile through the places of a primary sample, and the background around them. behind: what to look past; null for
   // the nearest surfaces. Returns where those lie.
   TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr);
+  // The background where a tile holds nothing, for those who fill it otherwise.
+  void add_background(int index, int sample, SurfaceTile& tile) const;
   // Adds all of the environment's light but its spots'.
   void add_environment(SurfaceTile& tile);
 
@@ -44,7 +46,7 @@ class FrameSurfaces {
 
  private:
   std::unique_ptr<const environment::EnvironmentLight> prepare_environment();
-  void show_background(const TileHits& hits, SurfaceTile& tile, const TilePlane* behind) const;
+  void show_background(const TileVector& directions, SurfaceTile& tile, const TilePlane* behind) const;
 
   const Scene& scene_;
   const RenderOptions& options_;

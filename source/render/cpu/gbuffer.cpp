@@ -33,6 +33,19 @@ void note(SurfaceTile& tile, const Surface& s) {
   tile.any_override |= !s.material->specular_override.empty();
 }
 
+std::array<TileVector*, 12> vectors_of(SurfaceTile& t) {
+  return {&t.position, &t.normal, &t.geometric_normal, &t.view,   &t.albedo,  &t.f0, &t.f90,
+          &t.tangent,  &t.sheen,  &t.coat_normal,      &t.passes, &t.radiance};
+}
+
+Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+}  // namespace
+
+void clear_kinds(SurfaceTile& tile) {
+  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = tile.any_passing = false;
+}
+
 void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view) {
   put(tile.position, i, s.position);
   put(tile.normal, i, s.normal);
@@ -55,19 +68,6 @@ void put_surface(SurfaceTile& tile, std::size_t i, const Surface& s, Vec3f view)
   tile.material[i] = s.material;
   note(tile, s);
 }
-
-std::array<TileVector*, 12> vectors_of(SurfaceTile& t) {
-  return {&t.position, &t.normal, &t.geometric_normal, &t.view,   &t.albedo,  &t.f0, &t.f90,
-          &t.tangent,  &t.sheen,  &t.coat_normal,      &t.passes, &t.radiance};
-}
-
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
-
-void clear_kinds(SurfaceTile& tile) {
-  tile.any_surface = tile.any_diffuse = tile.any_specular = tile.any_sheen = tile.any_coat = tile.any_override = tile.any_passing = false;
-}
-
-}  // namespace
 
 void put_nothing(SurfaceTile& tile, std::size_t i) {
   for (TileVector* v : vectors_of(tile)) put(*v, i, {});

@@ -41,8 +41,12 @@ struct Shading {
 // The surfaces that were hit, plain meshes on packs, where the terminator lights them from. tile.radiance becomes the emission.
 void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits, SurfaceTile& tile);
 
+// A tile that holds nothing in any slot is what these begin with: its kinds are none.
+void clear_kinds(SurfaceTile& tile);
 // Empties a slot: what packs read there is finite and weighs nothing.
 void put_nothing(SurfaceTile& tile, std::size_t slot);
+// The surface, its emission as radiance, and what kinds the tile now holds.
+void put_surface(SurfaceTile& tile, std::size_t slot, const Surface& surface, Vec3f view);
 
 // Some slots of a tile, side by side at the beginning of another one whose first `filled` slots may hold something; all radiance 0.
 // Returns how many.

@@ -205,6 +205,10 @@ void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
   }
   if (tile.any_sheen) put_vector(planes, kSheen, tile.sheen, tile.sheen_alpha);
   if (tile.any_coat) put_vector(planes, kCoatNormal, tile.coat_normal, tile.coat_alpha);
+  put_radiance(place, tile);
+}
+
+void DirectLight::put_radiance(std::size_t place, const SurfaceTile& tile) {
   put_vector(static_cast<Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance, tile.coat);
 }
 

@@ -34,6 +34,8 @@ class DirectLight {
 
   // What the device needs of a tile, which is number `place` of the batch. Threads may put different places at the same time.
   void put(std::size_t place, const SurfaceTile& tile);
+  // ... where the device has its surfaces already.
+  void put_radiance(std::size_t place, const SurfaceTile& tile);
 
   // Where others than put may write: planes of shaders/layout.glsl.
   Buffer& surfaces() { return *surfaces_; }

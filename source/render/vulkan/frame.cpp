@@ -96,7 +96,7 @@ struct Frame::Parts {
     if (by == SurfacesBy::device && !kept_on_host.empty())
       throw UsageError("--backend vulkan", "the device cannot find the surfaces (" + kept_on_host + ")");
     if (by == SurfacesBy::device || (by == SurfacesBy::automatic && kept_on_host.empty() && !device->info().software))
-      raster = std::make_unique<RasterSurfaces>(*device, s, surfaces.camera(), o);
+      raster = std::make_unique<RasterSurfaces>(*device, s, surfaces.camera(), o, direct.tiles_of_batch(), host_adds());
     build_ms = ms_since(start);
   }
 
@@ -135,14 +135,44 @@ struct Frame::Parts {
     tile.any_coat = layers && coat;
   }
 
+  // Whether the host has a part in the light of surfaces that the device finds, and so wants them.
+  bool host_adds() const {
+    return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr || !DirectLight::has(method) ||
+           !std::all_of(lights.begin(), lights.end(), [&](const PackLight& light) { return direct.has(light); });
+  }
+
+  // The lights that may reach a tile of surfaces that the device has found, and that the host does not want.
+  void list_found(std::size_t place, DirectLight::Tile& tile) {
+    RasterSurfaces::find_squares(direct.radiance(), place, tile);
+    SurfaceBounds all;
+    for (const DirectLight::Square& square : tile.squares) add(all, square.bounds);
+    if (any_surface(all)) tile.lights = lights_reaching(light_pointers, all);
+    direct.list_lights(tile);
+  }
+
   // The surfaces of the jobs, put on the device, and the lights that may reach them.
   std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
     std::vector<DirectLight::Tile> tiles(jobs.size());
     if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size());
+    const bool drawn = raster && layer == 0;
+    if (drawn)
+      device_clock.run([&] { raster->find(jobs.front().tile, static_cast<int>(jobs.size()), direct.surfaces(), direct.radiance()); });
     each(jobs.size(), [&](std::size_t i) {
       Job& job = jobs[i];
+      const bool found = drawn && !RasterSurfaces::is_for_host(direct.radiance(), i);
+      if (found && !host_adds()) {
+        shadowed[i].clear();
+        return lists_clock.run([&] { list_found(i, tiles[i]); });
+      }
       SurfaceTile& tile = *workspaces.local();
-      const TilePlane found = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
+      TilePlane distances{};
+      if (found)
+        upload_clock.run([&] {
+          raster->take(direct.radiance(), i, tile);
+          surfaces.add_background(job.tile, sample, tile);
+        });
+      else
+        distances = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
       if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
       surfaces.add_environment(tile);
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
@@ -151,11 +181,11 @@ struct Frame::Parts {
         DirectLight::find_squares(tile, tiles[i]);
         direct.list_lights(tiles[i]);
       });
-      upload_clock.run([&] { direct.put(i, tile); });
+      upload_clock.run([&] { found ? direct.put_radiance(i, tile) : direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
       // The shares of what this layer sends are still wanted: those of the next one are kept beside them.
-      job.behind = found;
+      job.behind = distances;
       next_shares[i] = job.shares ? std::make_unique<TileVector>(*job.shares) : std::make_unique<TileVector>();
       if (!job.shares)
         for (TilePlane* plane : {&next_shares[i]->x, &next_shares[i]->y, &next_shares[i]->z}) plane->fill(1);
@@ -207,74 +237,29 @@ struct Frame::Parts {
     return next;
   }
 
-  // What wants the surfaces there, or cannot be found on the device; empty: nothing.
+  // Why the device does not find the surfaces; empty: it does.
   std::string keeps_surfaces_on_host() const {
-    if (host.has_shadows()) return "shadows, which the host adds";
-    if (has_bounce()) return "the bounce, which begins at the host's surfaces";
-    if (!DirectLight::has(method)) return "a method of the host's alone";
-    if (!std::all_of(lights.begin(), lights.end(), [&](const PackLight& light) { return direct.has(light); }))
-      return "a light that the host adds";
+    if (host.has_shadows() && options.terminator == Terminator::smooth) return "shadows on smooth surfaces";
     if (static_cast<std::size_t>(std::max(options.width, options.height)) > device->info().picture)
       return "a picture larger than the device draws";
     return what_keeps_on_host(scene, device->info());
   }
 
-  // Lights tiles whose surfaces the device finds, and adds them to the picture.
-  void light_found(int first, int end, Picture& picture) {
-    const auto count = static_cast<std::size_t>(end - first);
-    device_clock.run([&] { raster->find(first, end - first, direct.surfaces(), direct.radiance()); });
-    std::vector<DirectLight::Tile> tiles(count);
-    each(count, [&](std::size_t i) {
-      lists_clock.run([&] {
-        RasterSurfaces::find_squares(direct.radiance(), i, tiles[i]);
-        SurfaceBounds all;
-        for (const DirectLight::Square& square : tiles[i].squares) add(all, square.bounds);
-        if (any_surface(all)) tiles[i].lights = lights_reaching(light_pointers, all);
-        direct.list_lights(tiles[i]);
-      });
-    });
-    device_clock.run([&] { direct.run(tiles); });
-    const float weight = 1.0f / static_cast<float>(options.aa);
-    each(count, [&](std::size_t i) {
-      resolve_clock.run([&] {
-        TileVector& radiance = *radiances.local();
-        direct.take_radiance(i, radiance);
-        add_to_picture(radiance, surfaces.area(first + static_cast<int>(i)), nullptr, weight, picture.pixels, options.width);
-      });
-    });
-  }
-
-  Picture render_by_raster() {
-    Picture picture(options.width, options.height);
-    const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
-    std::uint64_t done = 0;
-    for (int sample = 0; sample < options.aa && !stopped(); ++sample) {
-      device_clock.run([&] { raster->look(sample); });
-      for (int first = 0; first < count && !stopped(); first += batch) {
-        const int end = std::min(first + batch, count);
-        light_found(first, end, picture);
-        done += static_cast<std::uint64_t>(end - first);
-        if (options.progress) options.progress(done, static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(options.aa));
-      }
-    }
-    return picture;
-  }
-
   Picture render() {
-    if (raster) return render_by_raster();
     Picture picture(options.width, options.height);
     if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce.get());
-    const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch());
-    for (int first = 0; first < count && !stopped(); first += batch) {
-      const int end = std::min(first + batch, count);
-      for (int sample = 0; sample < options.aa && !stopped(); ++sample) {
-        std::vector<Job> jobs;
-        for (int tile = first; tile < end; ++tile) jobs.push_back({tile, nullptr, {}, false});
-        for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
-      }
-      if (options.progress)
-        for (int tile = first; tile < end; ++tile)
-          options.progress(static_cast<std::uint64_t>(tile) + 1, static_cast<std::uint64_t>(count));
+    const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch()), batches = (count + batch - 1) / batch;
+    std::uint64_t done = 0;
+    // A device that finds the surfaces draws all of the picture for each sample; rays begin where they are asked to.
+    for (int step = 0; step < batches * options.aa && !stopped(); ++step) {
+      const int sample = raster ? step / batches : step % options.aa, first = (raster ? step % batches : step / options.aa) * batch;
+      if (raster && first == 0) device_clock.run([&] { raster->look(sample); });
+      std::vector<Job> jobs;
+      for (int tile = first; tile < std::min(first + batch, count); ++tile) jobs.push_back({tile, nullptr, {}, false});
+      const std::uint64_t now_done = done + jobs.size();
+      for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
+      while (options.progress && done < now_done)
+        options.progress(++done, static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(options.aa));
     }
     if (bounced && !stopped()) arena.execute([&] { bounced->add_to(picture); });
     return picture;
@@ -315,7 +300,9 @@ struct Frame::Parts {
     stats.method = method.name;
     stats.device = device->info().name;
     stats.warnings = lobes_under_means(scene, method);
-    if (!raster && !device->info().software && !host.has_shadows() && !has_bounce())
+    if (raster)
+      for (std::string& sentence : materials_for_host(scene)) stats.warnings.push_back(std::move(sentence));
+    else if (!device->info().software)
       stats.warnings.push_back("the CPU finds the surfaces (" + kept_on_host + ")");
     for (std::string& sentence : lit_by_host(scene, options, method, lights, direct)) stats.warnings.push_back(std::move(sentence));
   }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "render/cpu/gbuffer.h"
 #include "render/cpu/light_bounds.h"
-#include "render/cpu/tile.h"
 #include "render/vulkan/shaders.h"
 
 namespace steradian::vulkan {
@@ -15,18 +15,28 @@ namespace {
 
 using Vec4Floats = std::array<float, 4>;
 
-constexpr std::size_t kTexels = 5, kBuffers = 3;  // as bound in find
+constexpr std::size_t kTexels = 5, kBuffers = 4;  // as bound in find
 constexpr auto kBytesOfView = static_cast<std::size_t>(kViewVectors) * sizeof(Vec4Floats);
+
+const Vec4Floats* bounds_of(const Buffer& radiance, std::size_t place) {
+  return static_cast<const Vec4Floats*>(radiance.mapped()) + place * static_cast<std::size_t>(kRadiance) + kSlots;
+}
+
+Vec3f vector(const Vec4Floats& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-RasterSurfaces::RasterSurfaces(const Device& device, const Scene& scene, const CameraRays& camera, const RenderOptions& options)
-    : view_(camera, options.width, options.height),
+RasterSurfaces::RasterSurfaces(const Device& device, const Scene& scene, const CameraRays& camera, const RenderOptions& options,
+                               std::size_t tiles, bool taken)
+    : meshes_(scene),
+      view_(camera, options.width, options.height),
       steps_(camera.steps(options.aa)),
       samples_(options.aa),
       scene_(make_scene_buffers(device, scene, MipMaps(scene.images))),
       visibility_(device, scene_, view_),
       view_buffer_(device, kBytesOfView, BufferUse::host_writes, BufferForm::texels),
+      taken_(taken ? std::make_unique<Buffer>(device, tiles * static_cast<std::size_t>(kFoundPlanes * kSlots) * sizeof(Vec4Floats))
+                   : nullptr),
       program_(device, {resolve_shader()}, kBuffers, kTexels) {}
 
 void RasterSurfaces::write_view(PixelPlace place) {
@@ -49,16 +59,22 @@ void RasterSurfaces::look(int sample) {
 }
 
 void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& radiance) {
-  const std::vector<double> ms = program_.run(
-      {&scene_.vertices, &scene_.triangles, &scene_.materials, &view_buffer_, &scene_.texels, &visibility_.seen(), &surfaces, &radiance},
-      {{program_.pipeline(), static_cast<std::uint32_t>(kGroupsOfTile), static_cast<std::uint32_t>(count),
-        static_cast<std::uint32_t>(first_tile)}});
+  const std::vector<double> ms = program_.run({&scene_.vertices, &scene_.triangles, &scene_.materials, &view_buffer_, &scene_.texels,
+                                               &visibility_.seen(), &surfaces, &radiance, taken_ ? taken_.get() : &surfaces},
+                                              {{program_.pipeline(0, {taken_ ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
+                                                static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
   if (!ms.empty()) times_["surfaces"] += ms.front();
 }
 
+bool RasterSurfaces::is_for_host(const Buffer& radiance, std::size_t place) {
+  const Vec4Floats* bounds = bounds_of(radiance, place);
+  for (int group = 0; group < kGroupsOfTile; ++group, bounds += kBounds)
+    if ((static_cast<int>(bounds[0][3]) & kAnyForHost) != 0) return true;
+  return false;
+}
+
 void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile) {
-  const auto* bounds = static_cast<const Vec4Floats*>(radiance.mapped()) + place * static_cast<std::size_t>(kRadiance) + kSlots;
-  const auto vector = [](const Vec4Floats& v) { return Vec3f{v[0], v[1], v[2]}; };
+  const Vec4Floats* bounds = bounds_of(radiance, place);
   for (std::size_t group = 0; group < static_cast<std::size_t>(kGroupsOfTile); ++group, bounds += kBounds) {
     const int kinds = static_cast<int>(bounds[0][3]);
     if (kinds == 0) continue;
@@ -66,6 +82,34 @@ void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, Dir
     add(square.bounds, {vector(bounds[0]), vector(bounds[1]), vector(bounds[2]), vector(bounds[3])});
     square.any_diffuse |= (kinds & kAnyDiffuse) != 0;
     square.any_specular |= (kinds & kAnySpecular) != 0;
+  }
+}
+
+void RasterSurfaces::take(const Buffer& radiance, std::size_t place, SurfaceTile& tile) const {
+  const Vec4Floats* planes = static_cast<const Vec4Floats*>(taken_->mapped()) + place * static_cast<std::size_t>(kFoundPlanes * kSlots);
+  const Vec4Floats* shine = static_cast<const Vec4Floats*>(radiance.mapped()) + place * static_cast<std::size_t>(kRadiance);
+  clear_kinds(tile);
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (shine[i][3] == 0) {
+      put_nothing(tile, i);
+      continue;
+    }
+    const auto at = [&](int plane) -> const Vec4Floats& { return planes[static_cast<std::size_t>(plane * kSlots) + i]; };
+    Surface s;
+    s.position = vector(at(kPosition));
+    s.normal = s.coat_normal = vector(at(kNormal));
+    s.geometric_normal = {at(kAlbedo)[3], at(kF0)[3], at(kF90)[3]};
+    s.tangent = vector(at(kTangent));
+    s.emission = vector(shine[i]);
+    s.albedo = vector(at(kAlbedo));
+    s.fresnel_loss = at(kView)[3];
+    s.f0 = vector(at(kF0));
+    s.f90 = vector(at(kF90));
+    s.alpha_x = at(kPosition)[3];
+    s.alpha_y = at(kNormal)[3];
+    const Mesh& mesh = meshes_.meshes[static_cast<std::size_t>(shine[i][3]) - 1];
+    s.material = &meshes_.materials[static_cast<std::size_t>(mesh.material)];
+    put_surface(tile, i, s, vector(at(kView)));
   }
 }
 

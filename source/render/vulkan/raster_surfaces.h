@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "render/cpu/tile.h"
 #include "render/vulkan/compute_program.h"
 #include "render/vulkan/direct_light.h"
 #include "render/vulkan/visibility.h"
@@ -13,16 +14,23 @@ namespace steradian::vulkan {
 
 class RasterSurfaces {
  public:
-  // Of a scene that nothing keeps on the host (what_keeps_on_host). The device must stay.
-  RasterSurfaces(const Device& device, const Scene& scene, const CameraRays& camera, const RenderOptions& options);
+  // Of a scene that nothing keeps on the host (what_keeps_on_host). Device and scene must stay. tiles: most of a find; taken: whether the
+  // host takes some.
+  RasterSurfaces(const Device& device, const Scene& scene, const CameraRays& camera, const RenderOptions& options, std::size_t tiles,
+                 bool taken);
 
   // Looks through the places of a primary sample.
   void look(int sample);
   // Writes the surfaces of some tiles, and what they emit, as DirectLight reads them.
   void find(int first_tile, int count, Buffer& surfaces, Buffer& radiance);
 
-  // What there is in the squares of a tile that was found, by its place among them.
+  // Of the tiles that find has written last, by their places among them. Whether the host must find the tile, since it shows what the
+  // shaders do not have.
+  static bool is_for_host(const Buffer& radiance, std::size_t place);
+  // What there is in its squares.
   static void find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile);
+  // Its surfaces, as FrameSurfaces::fill has them; without the background.
+  void take(const Buffer& radiance, std::size_t place, SurfaceTile& tile) const;
 
   // Milliseconds on the device so far, by pass; empty where it does not tell.
   const std::map<std::string, double>& times() const { return times_; }
@@ -30,12 +38,14 @@ class RasterSurfaces {
  private:
   void write_view(PixelPlace place);
 
+  const Scene& meshes_;
   const CameraView view_;
   const PixelSteps steps_;
   const int samples_;
   const SceneBuffers scene_;
   Visibility visibility_;
   Buffer view_buffer_;
+  std::unique_ptr<Buffer> taken_;  // null: the host takes none
   ComputeProgram program_;
   std::map<std::string, double> times_;
 };

@@ -107,6 +107,15 @@ void add_vertices(const Scene& scene, const Mesh& mesh, std::vector<Vec4Floats>&
   }
 }
 
+// Why the shaders do not find a mesh's surfaces; empty: they do.
+std::string why_for_host(const Scene& scene, const Mesh& mesh) {
+  const SurfaceMaterial& m = material_of(scene, mesh);
+  if (kind_of(scene, mesh) == SurfaceKind::layered) return "whose layers depend on the view";
+  if (m.alpha_mode != AlphaMode::opaque) return "through which something shows";
+  if (!m.specular_override.empty()) return "which has lobes of its own";
+  return {};
+}
+
 // What buffers are made of.
 struct Contents {
   std::vector<Vec4Floats> vertices, triangles, materials;
@@ -130,7 +139,8 @@ struct Contents {
       const auto number = static_cast<float>(materials.size()), first = static_cast<float>(vertices.size() / kVertex);
       materials.push_back({static_cast<float>(first_material + static_cast<std::size_t>(mesh.material) * kMaterial),
                            mesh.tangents.empty() ? 0.0f : 1.0f, mesh.colors.empty() ? 0.0f : 1.0f,
-                           (mesh.texcoords[0].empty() ? 0.0f : 1.0f) + (mesh.texcoords[1].empty() ? 0.0f : 2.0f)});
+                           (mesh.texcoords[0].empty() ? 0.0f : 1.0f) + (mesh.texcoords[1].empty() ? 0.0f : 2.0f) +
+                               (why_for_host(scene, mesh).empty() ? 0.0f : static_cast<float>(kForHost))});
       add_vertices(scene, mesh, vertices);
       for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         triangles.push_back({first + static_cast<float>(mesh.indices[i]), first + static_cast<float>(mesh.indices[i + 1]),
@@ -154,14 +164,8 @@ Buffer filled(const Device& device, const std::vector<Vec4Floats>& values) {
 
 std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device) {
   if (!device.graphics) return "the device draws no triangles";
-  if (scene.environment) return "the environment";
   std::size_t vertices = 0, triangles = 0, texels = 0;
   for (const Mesh& mesh : scene.meshes) {
-    const SurfaceMaterial& m = material_of(scene, mesh);
-    const std::string name = "the material '" + m.name + "', ";
-    if (kind_of(scene, mesh) == SurfaceKind::layered) return name + "whose layers depend on the view";
-    if (m.alpha_mode != AlphaMode::opaque) return name + "through which something shows";
-    if (!m.specular_override.empty()) return name + "which has lobes of its own";
     vertices += mesh.positions.size();
     triangles += mesh.triangle_count();
   }
@@ -171,6 +175,17 @@ std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device) {
     return "more triangles than a buffer has room for";
   if (texels > std::min(device.texel_buffer, kLargestBuffer / 4)) return "more texels than a buffer has room for";
   return {};
+}
+
+std::vector<std::string> materials_for_host(const Scene& scene) {
+  std::vector<std::string> said;
+  for (const Mesh& mesh : scene.meshes) {
+    const std::string why = why_for_host(scene, mesh);
+    if (mesh.indices.empty() || why.empty()) continue;
+    std::string sentence = "the CPU finds the surfaces of tiles with the material '" + material_of(scene, mesh).name + "', " + why;
+    if (std::find(said.begin(), said.end(), sentence) == said.end()) said.push_back(std::move(sentence));
+  }
+  return said;
 }
 
 SceneBuffers make_scene_buffers(const Device& device, const Scene& scene, const MipMaps& maps) {

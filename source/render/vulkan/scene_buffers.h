@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/mip_maps.h"
 #include "render/vulkan/buffer.h"
@@ -9,8 +10,10 @@
 
 namespace steradian::vulkan {
 
-// Why the shaders do not find this scene's surfaces; empty: they do.
+// Why the shaders do not find this scene's surfaces; empty: they do, but those of some materials.
 std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device);
+// Those materials, a sentence each: tiles that show one are the host's.
+std::vector<std::string> materials_for_host(const Scene& scene);
 
 struct SceneBuffers {
   std::size_t triangle_count = 0;
