@@ -1,4 +1,5 @@
 // The program as a process: streams, exit codes, help.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -114,6 +115,18 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
   }
   EXPECT_TRUE(lambert);
   EXPECT_EQ(run({"bench", "--filter", "nothing"}).status, 1);
+
+  const Outcome listed = run({"bench", "--list", "--filter", "kernel/l"});
+  EXPECT_NE(listed.out.find("kernel/lambert"), std::string::npos) << listed.err;
+  EXPECT_EQ(listed.out.find(' '), std::string::npos) << listed.out;
+  // A misspelt name is answered by the nearest, one a line, not by all of them.
+  const Outcome misspelt = run({"bench", "--filter", "kernal/lamber"});
+  EXPECT_EQ(misspelt.status, 1);
+  EXPECT_NE(misspelt.err.find("the nearest are\n  kernel/lambert"), std::string::npos) << misspelt.err;
+  EXPECT_NE(misspelt.err.find("more: steradian bench --list"), std::string::npos) << misspelt.err;
+  EXPECT_EQ(std::count(misspelt.err.begin(), misspelt.err.end(), '\n'), 14) << misspelt.err;
+  std::istringstream lines(misspelt.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_LT(line.size(), 120u) << line;
   // Against itself nothing is a thousand times slower; against a thousandth of its time everything is above 100.
   const std::string base = folder / "base.json";
   std::ofstream(base) << r.out;

@@ -16,6 +16,7 @@
 #include "studies/table2.h"
 #include "steradian/error.h"
 #include "verbs.h"
+#include "wrong_use.h"
 
 namespace steradian::app {
 namespace {
@@ -25,7 +26,7 @@ using namespace fit;
 struct Options {
   std::string filter, simd, backend = "cpu", device;
   double min_time = 0.5;
-  bool json = false;
+  bool json = false, list = false;
   bool table2 = false, textured = false, plane = false;
   std::string figures, base;
   double slower = 0;
@@ -40,20 +41,34 @@ void print_table2(const Options& options) {
   for (const std::string& file : moment::write_table2_figures(options.figures, table.simd)) fmt::print(stderr, "wrote {}\n", file);
 }
 
-std::vector<BenchResult> run(const Options& options) {
-  if (!options.simd.empty()) setenv("STERADIAN_SIMD", options.simd.c_str(), 1);
-  BenchOptions bench_options;
-  bench_options.min_time = options.min_time;
-  const BenchList list = bench::all_benches({options.backend == "vulkan" ? Backend::vulkan : Backend::cpu, options.device});
+BenchList benches_of(const Options& options) {
+  return bench::all_benches({options.backend == "vulkan" ? Backend::vulkan : Backend::cpu, options.device});
+}
+
+std::vector<const BenchList::Entry*> chosen_of(const BenchList& list, const Options& options) {
   std::vector<const BenchList::Entry*> chosen;
   for (const auto& entry : list.entries())
     if (options.filter.ends_with('$') ? entry.name + "$" == options.filter : entry.name.starts_with(options.filter))
       chosen.push_back(&entry);
-  if (chosen.empty()) {
-    std::string names;
-    for (const auto& entry : list.entries()) names += " " + entry.name;
-    throw Error("--filter", "no bench begins with " + options.filter, "there are" + names);
-  }
+  if (!chosen.empty()) return chosen;
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> names;
+  for (const auto& entry : list.entries()) names.push_back(entry.name);
+  const std::size_t all = names.size();
+  const bool whole = options.filter.ends_with('$');
+  std::string hint = "the nearest are";
+  const auto nearest = nearest_beginnings(options.filter.substr(0, options.filter.size() - (whole ? 1 : 0)), std::move(names), kMost);
+  for (const std::string& name : nearest) hint += "\n  " + name;
+  hint += fmt::format("\nand {} more: steradian bench --list{}", all - nearest.size(),
+                      options.backend == "vulkan" ? " --backend vulkan" : "; those of devices: --backend vulkan");
+  throw Error("--filter", whole ? "no bench has the name " + options.filter : "no bench begins with " + options.filter, hint);
+}
+
+std::vector<BenchResult> run(const Options& options) {
+  BenchOptions bench_options;
+  bench_options.min_time = options.min_time;
+  const BenchList list = benches_of(options);
+  const std::vector<const BenchList::Entry*> chosen = chosen_of(list, options);
   std::vector<BenchResult> results;
   Progress progress("bench", chosen.size());
   for (const auto* entry : chosen) {
@@ -157,6 +172,7 @@ void add_bench(CLI::App& app, Exit& exit) {
       ->group("How")
       ->check(CLI::Range(0.0, 3600.0).description("0..3600"));
   verb->add_flag("--json", options->json, "Print JSON")->group("How");
+  verb->add_flag("--list", options->list, "Print the names of the benches that would run, one a line")->group("What");
   verb->add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)")
       ->group("What");
   verb->add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)")->group("What");
@@ -176,6 +192,11 @@ void add_bench(CLI::App& app, Exit& exit) {
     if (options->table2) return print_table2(*options);
     if (options->plane) return fmt::print("{}", plane::plane_methods_text(plane::measure_plane_methods({})));
     if (options->textured) return fmt::print("{}", textured_error_text(measure_textured_error({})));
+    if (options->list) {
+      const BenchList list = benches_of(*options);
+      for (const BenchList::Entry* entry : chosen_of(list, *options)) fmt::print("{}\n", entry->name);
+      return;
+    }
     const std::map<std::string, double> base = options->base.empty() ? std::map<std::string, double>{} : read_base(options->base);
     const std::vector<BenchResult> results = run(*options);
     if (!base.empty()) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace steradian::app {
 namespace {
 
-// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (optimal string alignment).
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+// Insertions, deletions, replacements and swaps of neighbours that turn a word into each beginning of the other (optimal string alignment),
+// from the empty one to all of it.
+std::vector<std::size_t> edit_distances(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
   std::iota(d[0].begin(), d[0].end(), std::size_t{0});
@@ -16,7 +18,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
       d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
-  return d[a.size()][b.size()];
+  return d[a.size()];
 }
 
 }  // namespace
@@ -26,11 +28,25 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = edit_distances(word, candidate).back();
     if (distance >= least) continue;
     least = distance;
     nearest = candidate;
   }
+  return nearest;
+}
+
+std::vector<std::string> nearest_beginnings(const std::string& word, std::vector<std::string> candidates, std::size_t most) {
+  const std::string start = word.substr(0, 64);
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // distance, place
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const std::vector<std::size_t> distances = edit_distances(start, candidates[i]);
+    order.emplace_back(*std::min_element(distances.begin(), distances.end()), i);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(most, order.size()));
+  std::vector<std::string> nearest;
+  for (const auto& [distance, place] : order) nearest.push_back(std::move(candidates[place]));
   return nearest;
 }
 

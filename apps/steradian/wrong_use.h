@@ -13,6 +13,9 @@ namespace steradian::app {
 // empty where none is.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
+// At most so many of the candidates, those first that begin most like the word.
+std::vector<std::string> nearest_beginnings(const std::string& word, std::vector<std::string> candidates, std::size_t most);
+
 // What to say of a first argument that is no verb of the program; empty where it is one, or an option.
 std::string unknown_verb(const CLI::App& app, int argc, const char* const* argv);
 
