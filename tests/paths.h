@@ -6,7 +6,8 @@
 
 namespace steradian::test {
 
-extern const std::string kSourceDir;  // of the repository
-extern const std::string kProgram;    // the program `steradian`
+extern const std::string kSourceDir;     // of the repository
+extern const std::string kProgram;       // the program `steradian`
+extern const std::string kFaultyDevice;  // folder of the Vulkan layer that fails when it is told to
 
 }  // namespace steradian::test

@@ -39,11 +39,11 @@ def pixels(path):
     return width, height, rows
 
 
-def play(scene, events, *options):
+def play(scene, events, *options, **variables):
     script = OUT / "script.jsonl"
     script.write_text("".join(json.dumps(e) + "\n" for e in events + [{"quit": True}]))
     done = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 800x600x24", PROGRAM, "view", scene, "--script", script, *options],
-                          cwd=OUT, capture_output=True, text=True, timeout=240)
+                          cwd=OUT, capture_output=True, text=True, timeout=240, env={**os.environ, **variables})
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -165,6 +165,20 @@ def life():
     assert {"key": "F1"} in recorded
 
 
+def lost():
+    """A device that is lost at its first batch: the window says so, and the CPU goes on to the same picture."""
+    faulty = {"VK_LAYER_PATH": str(OUT.parent / "faulty_device"), "VK_INSTANCE_LAYERS": "VK_LAYER_STERADIAN_faulty_device",
+              "STERADIAN_FAULT": "vkWaitForFences:1"}
+    size = ("--size", "320x180", "--method", "ltc-compact", "--shadows", "off")
+    play(SCENES / "glossy_floor.glb", [{"wait": "settled"}, {"wait": 0.2}, {"shot": "lost.png"}, {"picture": "lost.exr"}],
+         *size, "--exposure", "0", "--panel", "off", "--backend", "vulkan", **faulty)
+    render(SCENES / "glossy_floor.glb", "lost-cpu.exr", *size)
+    said = subprocess.run([PROGRAM, "diff", "lost.exr", "lost-cpu.exr"], cwd=OUT, capture_output=True, text=True).stdout
+    assert "max          0 " in said, said
+    render(SCENES / "glossy_floor.glb", "lost-cpu.png", *size, "--exposure", "0")
+    assert pixels(OUT / "lost.png") != pixels(OUT / "lost-cpu.png"), "the window says that the device was lost"
+
+
 def main():
     help_text = subprocess.run([PROGRAM, "view", str(SCENES / "plane.glb")], capture_output=True, text=True,
                                env={k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")})
@@ -179,6 +193,7 @@ def main():
     plane()
     moving()
     life()
+    lost()
     closed()
 
 

@@ -63,7 +63,7 @@ void add_view(CLI::App& app, Exit&) {
   verb->add_option("--tone", options->tone, "the curve from radiance to the screen, as in render")
       ->check(CLI::IsMember(tone_curve_names()));
   verb->add_option("--aa", options->render.aa, "primary samples a pixel, at rest")->check(CLI::Range(1, 4096));
-  verb->add_option("--backend", options->backend, "where to compute; vulkan is without shadows")->check(CLI::IsMember({"cpu", "vulkan"}));
+  verb->add_option("--backend", options->backend, "Where to compute: docs/vulkan.md")->check(CLI::IsMember({"cpu", "vulkan"}));
   verb->add_option("--device", options->render.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first");
   verb->add_option("--threads", options->render.threads, "0: all")->check(CLI::Range(0, 4096));
   verb->add_option("--panel", options->panel, "whether the panel is open")->check(CLI::IsMember({"on", "off"}));

@@ -69,10 +69,11 @@ bool Session::update() {
       say(frame->error);
       if (frame->request == request_) settled_ = true;
     } else {
-      if (frame->request == request_ && frame->load_ms > 0) say({});
+      if (frame->request == request_ && frame->load_ms > 0 && frame->request != lost_at_) say({});
       settled_ = frame->request == request_ && frame->last && submitted_ == wanted_ && !moving_;
       if (!frame->device_lost.empty() && options_.backend != Backend::cpu) {
         options_.backend = Backend::cpu;
+        lost_at_ = frame->request;
         if (other_) other_->backend = Backend::cpu;
         say(frame->device_lost + "; the CPU goes on");
       }

@@ -124,6 +124,7 @@ class Session : public Stage {
   std::filesystem::file_time_type file_time_{};
 
   std::uint64_t wanted_ = 1, submitted_ = 0, request_ = 0;
+  std::uint64_t lost_at_ = 0;  // the request in which the device was lost: its later frames leave the message
   // So that another document's revisions, and other moments, are other numbers.
   std::uint64_t base_revision_ = 0, source_ = 0;
   std::vector<scene::GltfAnimation> animations_;

@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "core/budget.h"
 #include "render/vulkan/buffer_handles.h"
@@ -34,9 +35,10 @@ void check_size(std::size_t bytes, std::size_t available) {
 
 Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferForm form)
     : bytes_(bytes), handles_(std::make_unique<Handles>()) {
-  checked(("make a buffer of " + readable_bytes(bytes)).c_str(), [&] {
+  checked(device, "make a buffer of " + readable_bytes(bytes), [&] {
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
+    h.device = &d;
     vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst;
     if (form != BufferForm::storage) usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
     h.buffer = d.device.createBuffer({{}, bytes, usage});
@@ -51,8 +53,14 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
 }
 
 Buffer::Buffer(Buffer&&) noexcept = default;
-Buffer& Buffer::operator=(Buffer&&) noexcept = default;
-Buffer::~Buffer() = default;
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(bytes_, other.bytes_);
+  std::swap(handles_, other.handles_);
+  return *this;
+}
+Buffer::~Buffer() {
+  if (handles_ != nullptr && handles_->device != nullptr) handles_->device->leave(handles_);
+}
 
 void Buffer::write(const void* data, std::size_t bytes) {
   check_size(bytes, bytes_);

@@ -11,6 +11,7 @@ struct Buffer::Handles {
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::BufferView texels = nullptr;
   void* mapped = nullptr;
+  const Device::Handles* device = nullptr;
 };
 
 }  // namespace steradian::vulkan

@@ -29,7 +29,7 @@ struct ComputeProgram::Handles {
 ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
                                std::size_t texels)
     : device_(device), handles_(std::make_unique<Handles>()) {
-  checked("make a compute program", [&] {
+  checked(device, "make a compute program", [&] {
     const vk::raii::Device& d = device.handles().device;
     Handles& h = *handles_;
     h.texels = static_cast<std::uint32_t>(texels);
@@ -51,12 +51,12 @@ ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span
   });
 }
 
-ComputeProgram::~ComputeProgram() = default;
+ComputeProgram::~ComputeProgram() { device_.handles().leave(handles_); }
 
 std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::int32_t>& constants) {
   Handles& h = *handles_;
   if (const auto found = h.numbers.find({shader, constants}); found != h.numbers.end()) return found->second;
-  checked("make a compute pipeline", [&] {
+  checked(device_, "make a compute pipeline", [&] {
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, i * 4u, sizeof(std::int32_t));
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
@@ -68,7 +68,7 @@ std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::
 }
 
 std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
-  return checked("run a compute shader", [&] {
+  return checked(device_, "run a compute shader", [&] {
     const Device::Handles& d = device_.handles();
     Handles& h = *handles_;
     for (std::uint32_t i = 0; i < buffers.size(); ++i) {

@@ -123,7 +123,7 @@ Device::Device(const DeviceOptions& options) {
     throw Error("Vulkan", e.what(), "install libvulkan1 and a driver, such as mesa-vulkan-drivers");
   }
   Handles& h = *handles_;
-  checked("open a device", [&] {
+  checked("Vulkan", "open a device", [&] {
     h.instance = make_instance(h.context, options.validation);
     if (options.validation) {
       using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
@@ -153,7 +153,10 @@ Device::Device(const DeviceOptions& options) {
   });
 }
 
-Device::~Device() = default;
+Device::~Device() {
+  const Handles& h = *handles_;
+  h.leave(handles_);
+}
 
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
 

@@ -68,7 +68,7 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
 
 TEST(VulkanDevice, ItsLossIsAnErrorThatSaysWhatWasBeingDone) {
   try {
-    checked("run a compute shader", []() -> int { throw vk::DeviceLostError("gone"); });
+    checked("Vulkan", "run a compute shader", []() -> int { throw vk::DeviceLostError("gone"); });
     FAIL();
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("run a compute shader: the device was lost"), std::string::npos) << e.what();

@@ -5,6 +5,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,20 +26,32 @@ struct Device::Handles {
   vk::raii::CommandPool commands = nullptr;
   float timestamp_period = 0;  // nanoseconds of a tick
   std::vector<std::string> messages;
+  mutable bool hangs = false;  // work that it was given has not ended, and still uses what was made for it
+
+  // For destructors: what a device that hangs may still use is left to it.
+  template <class Made>
+  void leave(std::unique_ptr<Made>& made) const {
+    if (hangs) static_cast<void>(made.release());
+  }
 };
 
-// Runs f; a failure of Vulkan becomes an Error that says what was being done.
+// Runs f; a failure of Vulkan becomes an Error at `place` that says what was being done.
 template <class F>
-auto checked(const char* doing, F f) {
+auto checked(const std::string& place, const std::string& doing, F f) {
   try {
     return f();
   } catch (const vk::OutOfDeviceMemoryError&) {
-    throw Error("Vulkan", std::string(doing) + ": the device has no memory left", "close what else uses it, or choose another --device");
+    throw Error(place, doing + ": the device has no memory left", "close what else uses it, choose another --device, or --backend cpu");
   } catch (const vk::DeviceLostError&) {
-    throw Error("Vulkan", std::string(doing) + ": the device was lost", "try again; a driver's log may say why");
+    throw Error(place, doing + ": the device was lost",
+                "try again, choose another --device, or --backend cpu; the driver's log may say why");
   } catch (const vk::SystemError& e) {
-    throw Error("Vulkan", std::string(doing) + ": " + e.what());
+    throw Error(place, doing + ": " + e.what());
   }
+}
+template <class F>
+auto checked(const Device& device, const std::string& doing, F f) {
+  return checked("Vulkan device '" + device.info().name + "'", doing, f);
 }
 
 inline vk::raii::ShaderModule module_of(const vk::raii::Device& device, std::span<const std::uint32_t> spirv) {
@@ -51,8 +64,11 @@ inline void submit_and_wait(const Device& device, const vk::raii::CommandBuffer&
   const Device::Handles& d = device.handles();
   d.device.resetFences(*done);
   d.queue.submit(vk::SubmitInfo({}, {}, *commands, {}), *done);
-  if (d.device.waitForFences(*done, VK_TRUE, longest) != vk::Result::eSuccess)
-    throw Error("Vulkan device '" + device.info().name + "'", std::string("did not finish ") + work + " within five minutes");
+  if (d.device.waitForFences(*done, VK_TRUE, longest) != vk::Result::eSuccess) {
+    d.hangs = true;
+    throw Error("Vulkan device '" + device.info().name + "'", std::string("did not finish ") + work + " within five minutes",
+                "ask for a smaller picture, choose another --device, or --backend cpu");
+  }
 }
 
 // Milliseconds between neighbouring timestamps of the first `count`.

@@ -137,7 +137,7 @@ Visibility::Visibility(const Device& device, const SceneBuffers& scene, const Ca
       seen_(device, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) * sizeof(std::uint32_t),
             BufferUse::host_writes),
       handles_(std::make_unique<Handles>()) {
-  checked("prepare to draw triangles", [&] {
+  checked(device, "prepare to draw triangles", [&] {
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
     using Usage = vk::ImageUsageFlagBits;
@@ -168,10 +168,10 @@ Visibility::Visibility(const Device& device, const SceneBuffers& scene, const Ca
   });
 }
 
-Visibility::~Visibility() = default;
+Visibility::~Visibility() { device_.handles().leave(handles_); }
 
 double Visibility::draw(PixelPlace place) {
-  return checked("draw triangles", [&] {
+  return checked(device_, "draw triangles", [&] {
     const Handles& h = *handles_;
     using Stage = vk::PipelineStageFlagBits;
     const bool timed = device_.info().timestamps;
