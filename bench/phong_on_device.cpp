@@ -1,6 +1,7 @@
 #include "bench/phong_on_device.h"
 
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/own_lobes.h"
 #include "steradian/error.h"
 
 namespace steradian::bench {
@@ -16,17 +17,6 @@ constexpr std::uint32_t kShader[] =
     ;
 
 constexpr std::uint32_t kGroup = 64, kAcross = 32768;
-
-int number_of(const PhongOptions& options) {
-  switch (options.method) {
-    case Method::arvo: return 0;
-    case Method::lorentzian: return 1;
-    case Method::pearson: return 2;
-    case Method::ellipsoid: return 3;
-    case Method::series: return options.quality == Quality::high ? 5 : 4;
-    default: throw Error("bench", std::string("no shader has the method ") + name_of(options.method));
-  }
-}
 
 std::vector<float> points_of(const moment::PhongPlane& plane) {
   std::vector<float> points;
@@ -67,7 +57,7 @@ struct PhongOnDevice::Parts {
     // The best form of each fit: docs/moments.md.
     const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
     const auto edges = static_cast<std::int32_t>(light.corners.size());
-    dispatch.pipeline = program.pipeline(0, {number_of(options), exponent, x ? 1 : 0, edges, 2 * edges + 2});
+    dispatch.pipeline = program.pipeline(0, {vulkan::phong_method(options), exponent, x ? 1 : 0, edges, 2 * edges + 2});
     const auto groups = static_cast<std::uint32_t>((count + kGroup - 1) / kGroup);
     dispatch.groups_x = std::min(groups, kAcross);
     dispatch.groups_y = (groups + kAcross - 1) / kAcross;

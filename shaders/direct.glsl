@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
 // A shader is one lobe by one family of methods: diffuse.comp, sheen.comp, and of GGX ltc.comp, ltc_clipless.comp,
-// closed_form.comp, half_vector.comp and representative_point.comp define which, as LOBE; texture_means.comp is what they ask before.
+// closed_form.comp, half_vector.comp and representative_point.comp, of lobes of extras.steradian phong_lobe.comp and arcs_lobe.comp define
+// which, as LOBE; texture_means.comp is what they ask before.
 // Drivers compile all that a shader holds for each of its pipelines.
 #include "layout.glsl"
 #include "shadow_layout.glsl"
@@ -12,7 +13,7 @@ layout(constant_id = 0) const int KIND = 0;
 layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // of transformed cosines: 1: one walk for both lobes
 layout(constant_id = 2) const int COMPACT_TABLE = 0;       // of transformed cosines
 layout(constant_id = 3) const int QUALITY = 1;             // 0 draft, 1 normal, 2 high
-layout(constant_id = 4) const int COAT_LOBE = 0;           // 1: the clear coat's lobe in the place of the base's; of texture_means.comp, see there
+layout(constant_id = 4) const int WHICH_LOBE = 0;          // 1: the clear coat's in the place of the base's, 2: one of own_lobe.glsl; of texture_means.comp, see there
 layout(constant_id = 5) const int CAREFUL_LIGHTS = 1;      // some points may see a light as small, or be near its rim
 layout(constant_id = 6) const int CHUNKED_EDGES = 0;       // an outline may have more edges than there is space for
 layout(constant_id = 7) const int FRESNEL_LOBE = 0;        // the table has a lobe of its own for (1 - v.h)^5
@@ -28,6 +29,12 @@ layout(constant_id = 16) const int UNCUT_LIGHTS = 0;       // 1: every point see
 layout(constant_id = 17) const int TEXTURED_LIGHTS = 0;    // 1: lights are textured, their means stand in `means`
 layout(constant_id = 18) const int TABLE_FIRST = 0;        // of texture_means.comp: where the table begins
 layout(constant_id = 19) const int PROFILED_LIGHTS = 0;    // 1: points with a profile
+layout(constant_id = 20) const int LOBE_FORM = 0;          // of GGX 1: without shadowing, 2: and without Fresnel; of own lobes: see there
+layout(constant_id = 21) const int METHOD = 0;             // of Phong's lobe: phong_methods.glsl
+layout(constant_id = 22) const int LOW_EXPONENT = 0;       // which of a series' forms serves: own_lobes.cpp
+const float SMITH = LOBE_FORM == 0 ? 1.0 : 0.0;
+const bool COAT = WHICH_LOBE == 1;
+const bool OWN = WHICH_LOBE == 2;
 const bool CAREFUL = CAREFUL_LIGHTS == 1;
 const bool CHUNKED = CHUNKED_EDGES == 1;
 const bool FRESNEL_TABLE = FRESNEL_LOBE == 1;
@@ -82,10 +89,16 @@ PunctualIncident punctual_at(Light light, vec3 p) {
 }
 
 #include "outline.glsl"
+#include "own_lobe.glsl"
 #if LOBE == LOBE_DIFFUSE
 #include "diffuse.glsl"
 #elif LOBE == LOBE_SHEEN
 #include "sheen.glsl"
+#elif LOBE == LOBE_PHONG
+const int F_IS_X = METHOD == 3 ? 0 : 1;  // the closer form of each fit
+#include "phong_lobe.glsl"
+#elif LOBE == LOBE_ARCS
+#include "arcs_lobe.glsl"
 #elif LOBE != LOBE_TEXTURE_MEANS
 #include "specular.glsl"
 #endif
@@ -107,10 +120,14 @@ struct Surface {
     vec3 up;  // the same, but for a coat's lobe
     vec3 v;
     float loss;
+    bool has_lobe;
 #if LOBE == LOBE_DIFFUSE
     vec3 albedo;
 #elif LOBE == LOBE_SHEEN
     vec4 sheen;
+#elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
+    OwnLobe own;
+    vec3 tangent;
 #else
     SpecularLobe lobe;
     vec3 f0;
@@ -119,7 +136,9 @@ struct Surface {
 #endif
 };
 
-Surface surface_in(uint tile, uint slot) {
+Surface surface_in(Entry entry) {
+    uint tile = entry.tile;
+    uint slot = entry.slot;
     vec4 position = surface_at(tile, kPosition, slot);
     vec4 normal = surface_at(tile, kNormal, slot);
     vec4 view = surface_at(tile, kView, slot);
@@ -129,16 +148,34 @@ Surface surface_in(uint tile, uint slot) {
     s.up = normal.xyz;
     s.v = view.xyz;
     s.loss = view.w;
+    s.has_lobe = dot(s.up, s.up) > 0.25;
+    OwnLobe own;
+    if (OWN) {
+        own = own_lobe_at(entry.own);
+        s.has_lobe = s.has_lobe && surface_at(tile, kF0, slot).w == own.material;
+    }
 #if LOBE == LOBE_DIFFUSE
     s.albedo = surface_at(tile, kAlbedo, slot).xyz;
 #elif LOBE == LOBE_SHEEN
-    s.sheen = surface_at(tile, kSheen, slot);
+    if (OWN)
+        s.sheen = vec4(own.color, own.ax);
+    else
+        s.sheen = surface_at(tile, kSheen, slot);
+#elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
+    s.own = own;
+    s.tangent = surface_at(tile, kTangent, slot).xyz;
 #else
     vec4 tangent = surface_at(tile, kTangent, slot);
     s.lobe.tangent = tangent.xyz;
     s.lobe.ax = position.w;
     s.lobe.ay = normal.w;
-    if (COAT_LOBE == 1) {
+    if (OWN) {
+        s.lobe.tangent = tangent_of(own, tangent.xyz);
+        s.lobe.ax = own.ax;
+        s.lobe.ay = own.ay;
+        s.f0 = own.color;
+        s.f90 = own.f90;
+    } else if (COAT) {
         vec4 coat = surface_at(tile, kCoatNormal, slot);
         s.n = coat.xyz;
         s.lobe.ax = coat.w;
@@ -160,9 +197,11 @@ vec3 sent_by(Light light, Surface s) {
     return s.albedo * lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, s.loss));
 #elif LOBE == LOBE_SHEEN
     return s.sheen.xyz * sheen_radiance(light, s.p, s.n, s.v, s.sheen.w);
+#elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
+    return s.own.color * own_radiance(light, s.p, s.n, s.v, s.tangent, s.own);
 #else
     // What is seen of a light lies above the surface's horizon, and no coat's normal differs from that but by rounding.
-    vec3 n = COAT_LOBE == 1 && by_pieces() ? s.up : s.n;
+    vec3 n = COAT && by_pieces() ? s.up : s.n;
     Answer answer = specular_answer(light, s.p, n, s.v, s.lobe, s.loss);
     return s.f0 * (answer.specular.x - answer.specular.y) + s.f90 * answer.specular.y +
            s.albedo * lambert_radiance(answer.irradiance);
@@ -171,8 +210,8 @@ vec3 sent_by(Light light, Surface s) {
 
 void main() {
     Entry entry = entry_here();
-    Surface surface = surface_in(entry.tile, entry.slot);
-    if (!(dot(surface.up, surface.up) > 0.25)) return;  // none
+    Surface surface = surface_in(entry);
+    if (!surface.has_lobe) return;
     vec3 sum = vec3(0.0);
     uint i = 0u;
     do {

@@ -6,6 +6,7 @@ struct Entry {
     uint slot;
     uint first;  // of its lights in the lists
     uint count;
+    uint own;    // where the lobe begins that it is about: own_lobe.glsl
 };
 
 // The groups of a square lie below each other, those of two squares side by side in turn.
@@ -19,5 +20,6 @@ Entry entry_here() {
     entry.slot = group_of_square(square % uint(kSquares), gl_WorkGroupID.x) * uint(kGroup) + gl_LocalInvocationID.x;
     entry.first = lists[at + 1u];
     entry.count = lists[at + 2u];
+    entry.own = lists[at + 3u];
     return entry;
 }

@@ -7,7 +7,7 @@ const int kPosition = 0;    // alpha_x
 const int kNormal = 1;      // alpha_y
 const int kView = 2;        // Fresnel loss
 const int kAlbedo = 3;      // of what the device has found: x of the triangle's normal
-const int kF0 = 4;          // y
+const int kF0 = 4;          // y; of what the host has found: number of a material that has lobes of extras.steradian, from 1
 const int kF90 = 5;         // z
 const int kTangent = 6;     // weight of the coat
 const int kCoatNormal = 7;  // alpha of the coat
@@ -26,8 +26,11 @@ const int kEllipsoid = 2;
 const int kCapsule = 3;
 const int kPunctual = 4;
 
-// An entry of the lists: square, where its lights' numbers begin, how many there are.
-const int kEntry = 3;
+// An entry of the lists: square, where its lights' numbers begin, how many there are, where the lobe begins that it is about.
+const int kEntry = 4;
+
+// A lobe of extras.steradian, among the lights' details: own_lobe.glsl.
+const int kOwnLobe = 4;
 
 // Threads of a work group, and the groups that a tile makes.
 const int kGroup = 64;

@@ -146,8 +146,9 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     return e;
 }
 
-// Whether four elements serve in the place of the outline; roundings, least_distance2: source/shapes/small_light.h.
-bool elements_serve(LightElements e, float sharpness, float roundings) {
-    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, roundings, 0.0);
+// Whether four elements serve in the place of the outline; roundings, bias, least_distance2: source/shapes/small_light.h.
+bool elements_serve(LightElements e, float sharpness, float roundings, float bias) {
+    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, roundings, bias);
 }
+bool elements_serve(LightElements e, float sharpness, float roundings) { return elements_serve(e, sharpness, roundings, 0.0); }
 bool may_be_small(Light light, vec3 p, float least_distance2) { return distance2_of(light, p) > deviation2_of(light) * least_distance2; }

@@ -8,3 +8,5 @@
 #define LOBE_LTC_CLIPLESS 5
 #define LOBE_HALF_VECTOR 6
 #define LOBE_TEXTURE_MEANS 7
+#define LOBE_PHONG 8
+#define LOBE_ARCS 9

@@ -4,11 +4,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-layout(constant_id = 0) const int METHOD = 0;  // arvo, lorentzian, pearson, ellipsoid, series, series of high quality
+layout(constant_id = 0) const int METHOD = 0;  // of phong_methods.glsl
 layout(constant_id = 1) const int N = 1;
 layout(constant_id = 2) const int F_IS_X = 0;  // of the fits
 layout(constant_id = 3) const int CORNERS = 4;
 layout(constant_id = 4) const int EDGE_SPACE = 8;
+const int LOW_EXPONENT = 0;
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };    // position, normal and view of each
@@ -24,9 +25,10 @@ layout(push_constant) uniform Push { uint count; };
 #include "outline/horizon_clip.glsl"
 #include "lobe/phong.glsl"
 #include "integral/moment.glsl"
+#include "integral/moment_quadrature.glsl"
 #include "integral/moment_series.glsl"
-#include "comparison/moment_arvo.glsl"
-#include "comparison/moment_peak_fits.glsl"
+#include "integral/moment_cosine.glsl"
+#include "phong_front.glsl"
 
 vec3 edge_begins[EDGE_SPACE];
 vec3 edge_ends[EDGE_SPACE];
@@ -50,17 +52,6 @@ void add_arc(HorizonClip clip) {
         start = middle;
     }
     add_edge(start, clip.arc_end);
-}
-
-// |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of an edge, m = n + 1.
-float front_of(MomentEdge edge) {
-    float n = float(N);
-    if (METHOD == 0) return moment_arvo_front(edge, N, 0, 0.0);
-    if (METHOD == 1) return moment_lorentzian_front(edge, n, F_IS_X);
-    if (METHOD == 2) return moment_pearson_front(edge, n, F_IS_X);
-    if (METHOD == 3) return moment_ellipsoid_front(edge, n, F_IS_X);
-    if (METHOD == 4) return moment_series_front(edge, moment_series_prepare(n));
-    return moment_series_high_front(edge, moment_series_high_prepare(n));
 }
 
 void main() {
@@ -88,7 +79,7 @@ void main() {
     float sum = 0.0;
     for (int k = 0; k < edge_count; k++) {
         MomentEdge edge = moment_edge(edge_begins[k], edge_ends[k], axis);
-        sum += moment_edge_share(edge, front_of(edge));
+        sum += moment_edge_share(edge, phong_front(edge, float(N)));
     }
     results[i] = lit ? moment_phong_radiance(sum, false) : 0.0;
 }

@@ -133,7 +133,7 @@ vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView 
     vec2 sum = vec2(0.0);
     for (int i = 0; i < 4; i++) {
         LightElement element = light_element_at(e, i);
-        if (element.direction.z > 0.0) sum += ggx_lobe_and_fresnel(view, element.direction, 1.0) * element.solid_angle;
+        if (element.direction.z > 0.0) sum += ggx_lobe_and_fresnel(view, element.direction, SMITH) * element.solid_angle;
     }
     return sum;
 }
@@ -144,37 +144,21 @@ ConicArc arcs[ARC_SPACE];
 // An edge's share of E.
 #if LOBE == LOBE_CLOSED_FORM
 const bool DRAFT = QUALITY == 0;
+const bool EXACT = LOBE_FORM == 2;
 const int EXTRA_NODES = QUALITY == 2 ? 2 : 0;
 
 vec3 vector_of(GgxView view, ConicArc edge) { return conic_vector(edge); }
 #else
 const bool DRAFT = false;
+const bool EXACT = false;
 const int EXTRA_NODES = 0;
-const int SPLITS = QUALITY == 2 ? 8 : 3 + QUALITY;
-const int kSliverNodes = 4;
 
-// Arcs of great circles, and the slivers that they leave of the edge's image: as source/integrals/half_vector.h.
-vec3 vector_of(GgxView view, ConicArc edge) {
-    vec3 sum = vec3(0.0);
-    if (!(edge.end > edge.begin)) return sum;
-    float weight = half_vector_split_weight(edge);
-    ConicNode first = half_vector_split_end(edge, edge.begin, weight);
-    vec3 a = half_vector_at(view, edge, edge.begin);
-    for (int j = 1; j <= SPLITS; j++) {
-        float tau = edge.end;
-        if (j < SPLITS) tau = half_vector_split_pole_mapped(edge, float(j) / float(SPLITS));
-        vec3 b = half_vector_at(view, edge, tau);
-        ConicNode last = half_vector_split_end(edge, tau, weight);
-        sum += ggx_arc(view, a, b);
-        for (int i = 0; i < kSliverNodes; i++) {
-            HalfVectorNode node = half_vector_between(view, edge, first, last, a, b, gauss_legendre_node(kSliverNodes, i));
-            sum += ggx_at_half_vector(view, node.h) * node.solid_angle;
-        }
-        a = b;
-        first = last;
-    }
-    return sum;
-}
+#define ARC_SUM vec3
+vec3 share_of_arc(GgxView view, vec3 a, vec3 b) { return ggx_arc(view, a, b); }
+vec3 share_at(GgxView view, vec3 h) { return ggx_at_half_vector(view, h); }
+#include "arcs.glsl"
+
+vec3 vector_of(GgxView view, ConicArc edge) { return sum_over_arcs(view, edge); }
 #endif
 
 // Of a light that nothing cuts, whose edges are the outline's own.
@@ -191,8 +175,9 @@ vec2 by_arcs_uncut(Light light, mat3 frame, vec3 p, GgxView view) {
         previous = place.direction;
         ++i;
     } while (i < count);
-    if (DRAFT) return ggx_draft(view, e, 1.0, 1.0);
-    GgxCubature c = ggx_cubature_begin(view, e, 1.0, 1.0);
+    if (EXACT) return vec2(ggx_unshadowed(view, e), 0.0);
+    if (DRAFT) return ggx_draft(view, e, SMITH, 1.0);
+    GgxCubature c = ggx_cubature_begin(view, e, SMITH, 1.0);
     i = 0;
     do {
         c = ggx_cubature_edge(c, arcs[i], EXTRA_NODES);
@@ -209,7 +194,7 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
     vec3 e = vec3(0.0);
     ClippedWalk walk = clipped_walk_begin(light, frame, p);
     if (CHUNKED) {
-        GgxCubature c = ggx_cubature_begin(view, e, 1.0, facing);
+        GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
         for (int turn = 0; turn < 2; turn++) {
             walk = clipped_walk_begin(light, frame, p);
             while (walk.more) {
@@ -222,8 +207,9 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
                         c = ggx_cubature_edge(c, arc, EXTRA_NODES);
                 }
             }
-            if (turn == 0) c = ggx_cubature_begin(view, e, 1.0, facing);
-            if (DRAFT) return ggx_draft(view, e, 1.0, facing);
+            if (turn == 0) c = ggx_cubature_begin(view, e, SMITH, facing);
+            if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
+            if (DRAFT) return ggx_draft(view, e, SMITH, facing);
         }
         return ggx_cubature_finish(c);
     }
@@ -233,8 +219,9 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
         e += vector_of(view, arc);
         if (!DRAFT) arcs[i] = arc;
     }
-    if (DRAFT) return ggx_draft(view, e, 1.0, facing);
-    GgxCubature c = ggx_cubature_begin(view, e, 1.0, facing);
+    if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
+    if (DRAFT) return ggx_draft(view, e, SMITH, facing);
+    GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
     for (int i = 0; i < edge_count; i++) c = ggx_cubature_edge(c, arcs[i], EXTRA_NODES);
     return ggx_cubature_finish(c);
 }
@@ -267,8 +254,11 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
         vec3 view = transform_transposed(frame, v);
         PunctualIncident incident = punctual_at(light, p);
         vec3 l = transform_transposed(frame, incident.direction);
-        float sent = incident.irradiance * ggx_lobe(l, view, lobe.ax, lobe.ay);
-        answer.specular = vec2(sent, sent * fresnel_schlick(0.0, 1.0, dot(view, microfacet_half_vector(l, view))));
+        vec3 h = microfacet_half_vector(l, view);
+        float sent = microfacet_lobe_unshadowed(ggx_distribution(h, lobe.ax, lobe.ay), l, view);
+        if (LOBE_FORM == 0) sent = ggx_lobe(l, view, lobe.ax, lobe.ay);
+        sent *= incident.irradiance;
+        answer.specular = vec2(sent, sent * fresnel_schlick(0.0, 1.0, dot(view, h)));
         return answer;
     }
     Seen seen = see(light, p);

@@ -2,8 +2,8 @@
 // in its blurred copies where it is too narrow for them, as source/integrals/ltc/textured_light.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Which of a surface's lobes: 0 the diffuse one, 1 the base's, 2 the coat's.
-const int OF_LOBE = COAT_LOBE;
+// Which of a surface's lobes: 0 the diffuse one, 1 the base's, 2 the coat's, 3 one of extras.steradian.
+const int OF_LOBE = WHICH_LOBE;
 
 struct Mean {
     vec3 radiance;
@@ -157,6 +157,10 @@ void main() {
         weight = surface_at(entry.tile, kAlbedo, entry.slot).xyz;
     } else if (OF_LOBE == 1) {
         weight = surface_at(entry.tile, kF0, entry.slot).xyz + surface_at(entry.tile, kF90, entry.slot).xyz;
+    } else if (OF_LOBE == 3) {
+        OwnLobe own = own_lobe_at(entry.own);
+        alpha = sqrt(own.ax * own.ay);
+        if (surface_at(entry.tile, kF0, entry.slot).w == own.material) weight = own.color + own.f90;
     } else {
         vec4 coat = surface_at(entry.tile, kCoatNormal, entry.slot);
         n = coat.xyz;

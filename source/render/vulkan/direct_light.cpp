@@ -40,6 +40,8 @@ enum Shader : std::size_t {
   kCharlie,
   kLtcClipless,
   kHalfVector,
+  kPhong,
+  kArcs,
   kShares
 };
 
@@ -54,6 +56,21 @@ Shader shader_of(const DirectMethod& method) {
     case Method::half_vector: return kHalfVector;
     default: return kDiffuse;
   }
+}
+
+// Of a lobe of extras.steradian.
+Shader shader_of(const OwnLobes::Lobe& lobe) {
+  switch (lobe.material.brdf) {
+    case Brdf::phong:
+    case Brdf::lobe_product: return kPhong;
+    case Brdf::beckmann:
+    case Brdf::blinn_phong: return kArcs;
+    case Brdf::charlie: return kCharlie;
+    default: break;
+  }
+  DirectMethod by;
+  by.ggx = lobe.method == Method::exact ? Method::closed_form : lobe.method;
+  return shader_of(by);
 }
 
 LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
@@ -96,17 +113,25 @@ void check_device(const DeviceInfo& device) {
 struct DirectLight::Pass {
   std::size_t shader = kDiffuse;
   bool coat = false;
+  const OwnLobes::Lobe* own = nullptr;
   bool with_diffuse = false;  // one walk for both
   bool over_lobe() const { return shader != kDiffuse; }
+  // Other lobes take textured lights' mean radiance.
+  bool sees_textures() const { return shader != kCharlie && shader != kPhong && shader != kArcs; }
   const char* name() const {
-    return shader == kDiffuse ? "direct" : shader == kCharlie ? "sheen" : shader == kShares ? "shares" : coat ? "coat" : "specular";
+    return own != nullptr       ? "lobes"
+           : shader == kDiffuse ? "direct"
+           : shader == kCharlie ? "sheen"
+           : shader == kShares  ? "shares"
+           : coat               ? "coat"
+                                : "specular";
   }
 };
 
 // The lists of a batch: for each pipeline, tiles with their lights.
 struct DirectLight::Work {
   struct Entry {
-    std::uint32_t square, count;
+    std::uint32_t square, count, own;
     std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states, of textured ones with its means
   };
   struct Key {
@@ -122,27 +147,33 @@ struct DirectLight::Work {
   std::uint32_t means = 0;  // vectors that they take
 
   // A light of a square: its numbers in the list.
-  void add(const Key& key, const char* name, std::uint32_t square, const std::vector<std::uint32_t>& light) {
+  void add(const Key& key, const Pass& pass, std::uint32_t square, const std::vector<std::uint32_t>& light) {
     Group& group = groups[key];
-    group.name = name;
-    if (group.entries.empty() || group.entries.back().square != square) group.entries.push_back({square, 0, {}});
+    group.name = pass.name();
+    const std::uint32_t own = pass.own != nullptr ? pass.own->first : 0;
+    const bool long_loops = pass.own != nullptr && pass.own->method == Method::arvo;  // software devices bound their turns
+    if (group.entries.empty() || group.entries.back().square != square || group.entries.back().own != own || long_loops)
+      group.entries.push_back({square, 0, own, {}});
     ++group.entries.back().count;
     std::vector<std::uint32_t>& numbers = group.entries.back().lights;
     numbers.insert(numbers.end(), light.begin(), light.end());
   }
 };
 
-DirectLight::DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights)
+DirectLight::DirectLight(const Device& device, const Scene& scene, const DirectMethod& method, const std::string& table,
+                         const std::vector<PackLight>& lights)
     : device_(device),
       method_(method),
       specular_shader_(shader_of(method)),
       light_details_(lights, std::min({kLargestBuffer / sizeof(Vec4Floats), device.info().storage_buffer / sizeof(Vec4Floats),
-                                       device.info().texel_buffer})),
+                                       device.info().texel_buffer}) -
+                                 OwnLobes::most_vectors(scene)),
+      own_lobes_(scene, method, light_details_.values().size()),
       tiles_(
           (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program_(device,
                {texture_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(),
-                ltc_clipless_shader(), half_vector_shader(), shadow_shares_shader()},
+                ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(), arcs_lobe_shader(), shadow_shares_shader()},
                kBuffers, kTexels) {
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
@@ -163,7 +194,9 @@ DirectLight::DirectLight(const Device& device, const DirectMethod& method, const
     compact_size_ = compact.matrix.size;
     nodes.insert(nodes.end(), compact.matrix.nodes.begin(), compact.matrix.nodes.end());
   }
-  write(details_, light_details_.values().data(), light_details_.values().size() * sizeof(Vec4Floats));
+  std::vector<Vec4Floats> details = light_details_.values();
+  details.insert(details.end(), own_lobes_.values().begin(), own_lobes_.values().end());
+  write(details_, details.data(), details.size() * sizeof(Vec4Floats));
   matrix_size_ = std::max(tables.matrix.size, 2);
   magnitude_size_ = std::max(tables.magnitude.size, 2);
   fresnel_table_ = tables.fresnel_matrix.size > 0;
@@ -198,9 +231,11 @@ void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
   put_vector(planes, kNormal, tile.normal, tile.alpha_y);
   put_vector(planes, kView, tile.view, tile.fresnel_loss);
   if (tile.any_diffuse) put_vector(planes, kAlbedo, tile.albedo, tile.coat);
-  if (tile.any_specular || tile.any_coat) put_vector(planes, kTangent, tile.tangent, tile.coat);
-  if (tile.any_specular) {
-    put_vector(planes, kF0, tile.f0, tile.coat);
+  if (tile.any_specular || tile.any_coat || tile.any_override) put_vector(planes, kTangent, tile.tangent, tile.coat);
+  if (tile.any_specular || tile.any_override) {
+    TilePlane numbers;
+    for (std::size_t i = 0; i < kTilePixels; ++i) numbers[i] = static_cast<float>(own_lobes_.number_of(tile.material[i]));
+    put_vector(planes, kF0, tile.f0, numbers);
     put_vector(planes, kF90, tile.f90, tile.coat);
   }
   if (tile.any_sheen) put_vector(planes, kSheen, tile.sheen, tile.sheen_alpha);
@@ -228,6 +263,7 @@ bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) c
 
 // Of a lobe's integral, in the light's mean square deviations: source/shapes/small_light.h.
 float DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
+  if (pass.own != nullptr) return pass.own->least_distance2;
   switch (pass.shader) {
     case kDiffuse: return light.kind == kPolygon ? 4000 : 500;
     case kClosedForm: return 500;
@@ -253,7 +289,8 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   const int most = std::max(own(most_edges_), 1);
   const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
   const bool by_arcs = pass.shader == kClosedForm || pass.shader == kHalfVector;
-  const bool fine = by_arcs && method_.quality == Quality::high;
+  const bool by_points = pass.own != nullptr && pass.own->by_points;
+  const bool fine = (by_arcs || pass.shader == kArcs || by_points) && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
   const int edges = chunked || shadowed != nullptr ? kMostEdges : light.kind == kPolygon ? most : space + 2;
   const int arcs = by_arcs && !chunked ? edges : 1;
@@ -262,7 +299,9 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           pass.with_diffuse ? 1 : 0,
           specular && method_.ggx == Method::ltc_compact ? 1 : 0,
           specular ? static_cast<int>(method_.quality) : 1,
-          pass.coat ? 1 : 0,
+          pass.own != nullptr ? 2
+          : pass.coat         ? 1
+                              : 0,
           careful ? 1 : 0,
           specular && chunked ? 1 : 0,
           specular && fresnel_table_ ? 1 : 0,
@@ -275,23 +314,26 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           magnitude_size_,
           shadowed != nullptr ? 1 : 0,
           whole ? 1 : 0,
-          light.textured && pass.shader != kCharlie ? 1 : 0,
+          light.textured && pass.sees_textures() ? 1 : 0,
           0,
-          light.profiled ? 1 : 0};
+          light.profiled ? 1 : 0,
+          pass.own != nullptr ? pass.own->form : 0,
+          pass.own != nullptr ? pass.own->phong : 0,
+          pass.own != nullptr ? pass.own->low : 0};
 }
 
 // What a lobe sees of a textured light: an entry of its own, since software devices bound the turns of a thread's loops.
 void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
   std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
-  constants[4] = !pass.over_lobe() ? 0 : pass.coat ? 2 : 1;
+  constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
   constants[13] = compact_size_;
   constants[18] = compact_first_;
   Work::Group& group = work.groups[{kTextureMeans, constants}];
   group.name = "textures";
-  group.entries.push_back({place, 1, {light, work.means}});
+  group.entries.push_back({place, 1, pass.own != nullptr ? pass.own->first : 0, {light, work.means}});
 }
 
-void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) {
+void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) const {
   constexpr auto kGroupSlots = static_cast<std::size_t>(kGroup);
   const auto any = [](const TileVector& v, std::size_t first) {
     const auto some = [&](const TilePlane& p) { return std::any_of(&p[first], &p[first] + kGroupSlots, [](float x) { return x > 0; }); };
@@ -306,6 +348,10 @@ void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) {
     square.any_sheen |= surfaces.any_sheen && any(surfaces.sheen, first);
     square.any_coat |=
         surfaces.any_coat && std::any_of(&surfaces.coat[first], &surfaces.coat[first] + kGroupSlots, [](float c) { return c > 0; });
+    for (std::size_t i = first; surfaces.any_override && i < first + kGroupSlots; ++i) {
+      const std::size_t number = own_lobes_.number_of(surfaces.material[i]);
+      if (number > 0 && std::find(square.own.begin(), square.own.end(), number) == square.own.end()) square.own.push_back(number);
+    }
   }
 }
 
@@ -337,8 +383,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const 
 
 void DirectLight::list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square) {
   for (const Tile::Shadowed& shadowed : tile.shadowed)
-    if (shadowed.shares && reaches(*shadowed.light, square.bounds))
-      work.add({kShares, {}}, Pass{kShares}.name(), place, {0, shadowed.states});
+    if (shadowed.shares && reaches(*shadowed.light, square.bounds)) work.add({kShares, {}}, Pass{kShares}, place, {0, shadowed.states});
 }
 
 void DirectLight::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
@@ -346,17 +391,17 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   const bool together = brings_diffuse(square, *listed.light);
   if (pass.shader == kDiffuse && together) return;
   Pass own = pass;
-  own.with_diffuse = together && pass.shader == kLtc && !pass.coat;
+  own.with_diffuse = together && pass.shader == kLtc && !pass.coat && pass.own == nullptr;
   const std::uint32_t number = number_of(*listed.light, listed.cut_for_tile);
   const LightRecord& record = records_.lights[number];
   // Tubes' and balls' irradiance is the same formula either way.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
   const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
-  if (shadowed != nullptr) return work.add(key, own.name(), place, {number, shadowed->states});
-  if (!record.textured || own.shader == kCharlie) return work.add(key, own.name(), place, {number});
+  if (shadowed != nullptr) return work.add(key, own, place, {number, shadowed->states});
+  if (!record.textured || !own.sees_textures()) return work.add(key, own, place, {number});
   list_means(work, place, own, number);
-  work.add(key, own.name(), place, {number, work.means});
+  work.add(key, own, place, {number, work.means});
   work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
 }
 
@@ -371,6 +416,8 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       if (square.any_specular) list(work, place, tiles[i], square, {specular_shader_});
       if (square.any_sheen) list(work, place, tiles[i], square, {kCharlie});
       if (square.any_coat) list(work, place, tiles[i], square, {specular_shader_, true});
+      for (const std::size_t number : square.own)
+        for (const OwnLobes::Lobe& lobe : own_lobes_.of(number)) list(work, place, tiles[i], square, {shader_of(lobe), false, &lobe});
       if (any_surface(square.bounds)) list_shares(work, place, tiles[i], square);
     }
   }
@@ -392,7 +439,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
     dispatches.push_back({program_.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
                           static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
     for (const Work::Entry& entry : group.entries) {
-      entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count});
+      entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
     }
   }

@@ -13,6 +13,7 @@
 #include "render/vulkan/compute_program.h"
 #include "render/vulkan/light_records.h"
 #include "render/vulkan/light_details.h"
+#include "render/vulkan/own_lobes.h"
 
 namespace steradian::vulkan {
 
@@ -24,11 +25,14 @@ class DirectLight {
   // Whether the shaders have the lobes of metallic-roughness surfaces by this method; else only diffuse light and sheen.
   static bool has(const DirectMethod& method);
 
-  // table: as RenderOptions::table. The device and the lights must stay. Throws Error for a device that lacks something.
-  DirectLight(const Device& device, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
+  // table: as RenderOptions::table. The device, the scene and the lights must stay. Throws Error for a device that lacks something.
+  DirectLight(const Device& device, const Scene& scene, const DirectMethod& method, const std::string& table,
+              const std::vector<PackLight>& lights);
 
   // Whether the shaders have this light; without shadows.
   bool has(const PackLight& light) const;
+  // The lobes of extras.steradian.
+  const OwnLobes& own_lobes() const { return own_lobes_; }
 
   std::size_t tiles_of_batch() const { return tiles_; }
 
@@ -51,6 +55,7 @@ class DirectLight {
       bool whole, whole_about;  // seen whole; and so are the corners that stand for a round light about a lobe
     };
     std::vector<Listed> lights;
+    std::vector<std::size_t> own;  // materials that have lobes of extras.steradian: OwnLobes::number_of
   };
   struct Tile {
     ReachingLights lights;
@@ -65,7 +70,7 @@ class DirectLight {
     std::vector<Shadowed> shadowed;
   };
   // The squares' surfaces, from the tile's.
-  static void find_squares(const SurfaceTile& surfaces, Tile& tile);
+  void find_squares(const SurfaceTile& surfaces, Tile& tile) const;
   static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
   // The squares' lights, from the tile's.
   void list_lights(Tile& tile) const;
@@ -101,6 +106,7 @@ class DirectLight {
   const DirectMethod method_;
   std::size_t specular_shader_;
   const LightDetails light_details_;
+  const OwnLobes own_lobes_;
   LightRecords records_;
   std::size_t scene_lights_ = 0, scene_vertices_ = 0;
   int most_edges_ = 0;  // of the scene's polygons, as far as there is space for them

@@ -53,7 +53,7 @@ std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& op
     if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
     const std::string of = " of material '" + m.name + "'";
     for (const Material& lobe : m.specular_override)
-      if (lobe.brdf != Brdf::lambert) say(std::string("the ") + name_of(lobe.brdf) + " lobe" + of);
+      if (!direct.own_lobes().has(lobe)) say(std::string("the ") + name_of(lobe.brdf) + " lobe" + of);
   }
   return sentences;
 }
@@ -88,7 +88,7 @@ struct Frame::Parts {
         surfaces(s, o, parts.rays),
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
-        direct(*device, method, o.table, lights),
+        direct(*device, s, method, o.table, lights),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
     if (has_bounce() && !bounce_on_host(o.indirect)) bounce = std::make_unique<Bounce>(*device);
@@ -117,7 +117,8 @@ struct Frame::Parts {
   // they do not know, which leave the list; and of the others that of some lobes, which leave the tile.
   void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching, TileShadows& left) {
     left.clear();
-    const bool all_lobes = DirectLight::has(method) && !tile.any_override;
+    const bool own = tile.any_override && direct.own_lobes().has_all(tile);
+    const bool all_lobes = DirectLight::has(method) && (own || !tile.any_override);
     reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
     const auto unknown =
         std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) { return direct.has(*light); });
@@ -128,11 +129,13 @@ struct Frame::Parts {
     const bool layers = DirectLight::has(method);
     const bool specular = tile.any_specular, coat = tile.any_coat;
     if (layers) tile.any_specular = tile.any_coat = false;
+    if (own) tile.any_override = false;
     if (tile.any_specular || tile.any_coat || tile.any_override) host.add(tile, reaching);
     tile.any_diffuse = diffuse;
     tile.any_sheen = sheen;
     tile.any_specular = layers && specular;
     tile.any_coat = layers && coat;
+    tile.any_override = own;
   }
 
   // Whether the host has a part in the light of surfaces that the device finds, and so wants them.
@@ -178,7 +181,7 @@ struct Frame::Parts {
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
       light_on_host(tile, tiles[i].lights.lights, shadowed[i]);
       lists_clock.run([&] {
-        DirectLight::find_squares(tile, tiles[i]);
+        direct.find_squares(tile, tiles[i]);
         direct.list_lights(tiles[i]);
       });
       upload_clock.run([&] { found ? direct.put_radiance(i, tile) : direct.put(i, tile); });

@@ -1,79 +1,16 @@
 // The CPU judges the device: whole frames, every method, all kinds of lights.
 #include "render/vulkan/frame.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "core/test_memory.h"
-#include "paths.h"
-#include "render/vulkan/device.h"
-#include "scene/test_meshes.h"
+#include "render/vulkan/test_frames.h"
 #include "steradian/error.h"
-#include "steradian/load_scene.h"
 
 namespace steradian::vulkan {
 namespace {
-
-Scene scene_of(const std::string& name) { return load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene; }
-
-RenderOptions small(const std::string& method) {
-  RenderOptions options;
-  options.width = 160;
-  options.height = 90;
-  options.method = method;
-  return options;
-}
-
-// Prints what is off, and where the most. The bound is what the back end promises (docs/vulkan.md): float's own error along an outline is
-// a hundredth of it. outliers: how many pixels may be off by more than a thousandth of the picture's mean, where a rounding changes how
-// many nodes or corners stand for a light; the bound is that of the others. Returns RenderStats::shadow_on_host.
-double expect_same(const std::string& name, const Scene& scene, RenderOptions options, int outliers = 0) {
-  options.backend = Backend::cpu;
-  const Picture cpu = render(scene, options);
-  options.backend = Backend::vulkan;
-  RenderStats stats;
-  const Picture device = render(scene, options, &stats);
-  const auto square = [](Vec3f v) { return static_cast<double>(dot(v, v)); };
-  double squares = 0;
-  for (const Vec3f& p : cpu.pixels) squares += square(p);
-  const double limit = 1e-6 * squares / static_cast<double>(cpu.pixels.size());
-  double errors = 0, of_others = 0, largest = 0;
-  int found = 0, x = 0, y = 0;
-  for (std::size_t i = 0; i < cpu.pixels.size(); ++i) {
-    const double error = square(device.pixels[i] - cpu.pixels[i]);
-    if (!std::isfinite(error)) {
-      ADD_FAILURE() << name << " pixel " << i;
-      return 1;
-    }
-    errors += error;
-    if (error > limit)
-      ++found;
-    else
-      of_others += error;
-    if (error > largest) {
-      largest = error;
-      x = static_cast<int>(i) % options.width;
-      y = static_cast<int>(i) / options.width;
-    }
-  }
-  std::printf("%-16s %-22s relative L2 %.1e, largest %.1e at (%d, %d), %d pixels off by 0.1 %% of the mean, %.1e without them\n",
-              name.c_str(), options.method.c_str(), std::sqrt(errors / squares), std::sqrt(largest), x, y, found,
-              std::sqrt(of_others / squares));
-  EXPECT_LE(found, outliers) << name << " by " << options.method;
-  EXPECT_LE(std::sqrt(of_others / squares), 1e-4) << name << " by " << options.method;
-  return stats.shadow_on_host;
-}
-
-AreaLight light_of(Shape shape, Vec3d radiance, bool two_sided = false) {
-  AreaLight light;
-  light.shape = std::move(shape);
-  light.radiance = radiance;
-  light.two_sided = two_sided;
-  return light;
-}
 
 // A circle of corners about a centre, in a plane z = constant, whose lit side looks along z.
 std::vector<Vec3d> ring(Vec3d center, double radius, int corners) {
@@ -83,15 +20,6 @@ std::vector<Vec3d> ring(Vec3d center, double radius, int corners) {
     vertices.push_back(center + Vec3d{radius * std::cos(angle), radius * std::sin(angle), 0});
   }
   return vertices;
-}
-
-PunctualLight punctual(PunctualKind kind, Vec3d position, Vec3d direction) {
-  PunctualLight light;
-  light.kind = kind;
-  light.position = position;
-  light.direction = normalized(direction);
-  light.intensity = {1.5, 1, 0.5};
-  return light;
 }
 
 // Pixels of a textured light's picture in which a rounding may end the search for its mean a pass sooner, which moves the mean by less than
@@ -153,13 +81,6 @@ std::shared_ptr<const LightProfile> lamp_profile() {
   return std::make_shared<const LightProfile>(p);
 }
 
-class VulkanFrame : public testing::Test {
- protected:
-  void SetUp() override {
-    if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
-  }
-};
-
 const Polygon kSquare{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}};
 
 // A floor under a light, and triangles between them, here and there.
@@ -192,13 +113,6 @@ Scene under_triangles(int count, const Shape& light = kSquare) {
   scene.cameras = {camera};
   scene.area_lights = {light_of(light, {3, 2, 1}, true)};
   return scene;
-}
-
-std::vector<std::string> warnings_of(const Scene& scene, RenderOptions options) {
-  options.width = options.height = 32;
-  RenderStats stats;
-  Frame(scene, options).render(&stats);
-  return stats.warnings;
 }
 
 // A leak of two hundred bytes in each of ten thousand frames would show. A software device's memory is the process's own.

@@ -17,6 +17,9 @@ std::span<const std::uint32_t> ltc_clipless_shader();
 std::span<const std::uint32_t> half_vector_shader();
 // What lobes see of textured lights.
 std::span<const std::uint32_t> texture_means_shader();
+// Lobes of extras.steradian.
+std::span<const std::uint32_t> phong_lobe_shader();
+std::span<const std::uint32_t> arcs_lobe_shader();
 // What points see of lights behind edges.
 std::span<const std::uint32_t> shadow_parts_shader();
 // What arrives of round lights that something hides in part.

@@ -1,0 +1,23 @@
+// Lobes of extras.steradian, as the host wrote them among the lights' details (source/render/vulkan/own_lobes.cpp).
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+struct OwnLobe {
+    vec3 color;      // of GGX: f0
+    float material;  // which a surface has beside its f0
+    vec3 f90;
+    float exponent;
+    vec3 direction;  // of alpha_x, zero: any; or of the second lobe of a product, zero: the normal
+    float axis_exponent;
+    float ax;
+    float ay;
+};
+
+OwnLobe own_lobe_at(uint first) {
+    vec4 a = details[first];
+    vec4 b = details[first + 1u];
+    vec4 c = details[first + 2u];
+    vec4 d = details[first + 3u];
+    return OwnLobe(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y);
+}
+
+vec3 tangent_of(OwnLobe own, vec3 tangent) { return dot(own.direction, own.direction) > 0.0 ? own.direction : tangent; }
