@@ -113,6 +113,27 @@ TEST_F(VulkanFrame, HasOtherLobesUnderEveryShape) {
                        light_of(Polygon{{{-40, 30, -60}, {-39, 30, -60}, {-39, 31, -60}, {-40, 31, -60}}, {}}, {900, 800, 700})};
   scene.punctual_lights = {punctual(PunctualKind::point, {1, 1.5, 1}, {0, -1, 0})};
   expect_same("every lobe", scene, tiny("auto"));
+  EXPECT_EQ(warnings_of(scene, tiny("auto")), std::vector<std::string>());
+}
+
+TEST_F(VulkanFrame, HasOwnLobesInPenumbras) {
+  Scene scene = strips({phong(40), half_vectors(Brdf::beckmann, 1, 0.3, 0.3)});
+  scene.meshes.push_back(scene::quad_mesh({-2, 0.6f, 0}, {2, 0.8f, 0.2f}, {2, 0.8f, -0.6f}, {-2, 0.6f, -0.5f}, 2));
+  scene.area_lights = {kDisk, light_of(Polygon{{{-1, 2.5, -1}, {-1, 2.5, 1}, {1, 2.5, 1}, {1, 2.5, -1}}, {}}, {3, 2, 1}, true)};
+  RenderOptions options = tiny("auto");
+  options.shadows = Shadows::on;
+  EXPECT_LE(expect_same("lobes, shadows", scene, options), 0.01);
+}
+
+// What facets lose by the angle of the view has a table of the host's.
+TEST_F(VulkanFrame, SaysWhichLobesTheHostLights) {
+  Scene scene = strips({ggx(0.4, 0.4, true, {1, 1, 1}, {1, 1, 1})});
+  scene.materials[0].specular_override[0].multiple_scattering = true;
+  scene.area_lights = {kQuad};
+  const std::vector<std::string> warnings = warnings_of(scene, tiny("auto"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("the ggx lobe of material 'strip 0'"), std::string::npos) << warnings[0];
+  expect_same("a lobe by the host", scene, tiny("auto"));
 }
 
 }  // namespace steradian::vulkan
