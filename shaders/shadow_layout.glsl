@@ -37,9 +37,13 @@ const int kHorizonLeft = 16;  // the box's left side cuts: start, end; of the tr
 const int kShares = 256;      // of a round light, for which the outline stands
 const int kBase = 512;        // times how often the lower left corner is hidden
 
-// Answers: a place in cells, what is known, number of edges of the outline.
+// Answers:
+//   0  where a ray begins, as the host has it; number of edges of the outline, and kAskRay
+//   1  the ray's way, to its end; what is known
+const int kShadowAnswer = 2;
+const int kAskRay = 65536;  // whether the way is free: until that is known
 const int kSeesNone = 0;
-const int kSeesWhole = 1;    // if the way to its place is free; so is a part
+const int kSeesWhole = 1;    // if the way is free; so is a part
 const int kAskHost = 2;
 const int kNoRoom = 3;       // for what it sees
 const int kSeesPart = 4;     // and where its record begins
@@ -56,3 +60,8 @@ const int kPartHeader = 4;
 // Of a round light counts what share of the polygon's radiance the part sends. Before the polygon's record stand what arrives of the part,
 // of the polygon and of the light itself, sums over the lobes.
 const int kPartSums = 3;
+
+// The hierarchy of triangles, vectors of four uints: nodes in the order of a walk, then three corners of each triangle.
+//   0  least coordinates of a node's box; kLeafSizes times where the triangles of a leaf begin, and their number
+//   1  greatest coordinates; number of the node past all that is below this one
+const int kLeafSizes = 8;

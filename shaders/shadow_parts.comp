@@ -147,6 +147,7 @@ void main() {
     int flags = int(groups[at].w);
     int base = kHidden * (flags / kBase);
     Eye eye = eye_at(at, header, turned);
+    View view = View(eye, uintBitsToFloat(groups[at + 1u].xyz), eye.box * kCellSize);
 
     segment_count = 0;
     piece_count = 0;
@@ -154,34 +155,38 @@ void main() {
     see_edges(eye, begins, h1.x);
     see_sections(eye, begins.x, begins.y, corners.first + uint(kShadowCorner) * corners.count, h2.x / uint(kTriangles));
     bool occluded = segment_count > 0;
-    uvec4 answer = uvec4(0u, 0u, uint(kSeesWhole), 0u);
+    vec3 place = vec3(0.0);
+    uint sees = uint(kSeesWhole);
+    uint edges = 0u;
     if (!too_much && (occluded || (flags & kArranged) != 0)) {
         see_surroundings(corners, at, flags);
         cut_segments(base);
-        vec3 place = vec3(0.0);
         bool wide = !too_much && piece_count > 0 && region_is_wide();
         if (wide) place = place_inside(base);
-        answer.xy = floatBitsToUint(place.xy);
         if (too_much || (piece_count > 0 && !(place.z > kLeastRoom))) {
-            answer.z = uint(kAskHost);
+            sees = uint(kAskHost);
         } else if (piece_count == 0) {
-            answer.z = uint(kSeesNone);
+            sees = uint(kSeesNone);
         } else if (occluded || (flags & kCutByTriangle) != 0) {
-            View view = View(eye, uintBitsToFloat(groups[at + 1u].xyz), eye.box * kCellSize);
             bool shares = (flags & kShares) != 0;
             uint room = uint(kPartHeader + 2 * piece_count);
             uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + corners.count + 1u : 0u;
             uint begin = atomicAdd(parts_used, room + room_of_polygon);
-            answer.w = max(uint(piece_count), shares ? corners.count : 0u);
+            edges = max(uint(piece_count), shares ? corners.count : 0u);
             if (begin + room + room_of_polygon <= parts_room) {
                 write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
                 if (shares) write_polygon(view, corners, parts_begin + begin + room);
-                answer.z = uint(kSeesPart) + parts_begin + begin;
+                sees = uint(kSeesPart) + parts_begin + begin;
             } else {
-                answer.z = uint(kNoRoom);
+                sees = uint(kNoRoom);
             }
         }
     }
-    if (too_much) answer.z = uint(kAskHost);
-    answers[h2.y + number] = answer;
+    if (too_much) sees = uint(kAskHost);
+    if (sees != uint(kSeesNone) && sees != uint(kAskHost)) edges += uint(kAskRay);
+    // As far as it is from the light's plane below which things block.
+    vec3 way = relative(view, place.xy * view.scale) * max(1.0 + eye.height / eye.eye.z, 0.0);
+    uint to = uint(kShadowAnswer) * (h2.y + number);
+    answers[to].w = edges;
+    answers[to + 1u] = uvec4(floatBitsToUint(way), sees);
 }

@@ -78,7 +78,7 @@ bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
 }
 
 struct Frame::Parts {
-  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by)
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays)
       : scene(s),
         options(o),
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
@@ -89,6 +89,7 @@ struct Frame::Parts {
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
         direct(*device, s, method, o.table, lights),
+        rays_by_device(rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
     if (has_bounce() && !bounce_on_host(o.indirect)) bounce = std::make_unique<Bounce>(*device);
@@ -202,7 +203,7 @@ struct Frame::Parts {
     const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
     if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows = std::make_unique<Shadows>(*device, surfaces.rays(), host);
+    if (!shadows) shadows = std::make_unique<Shadows>(*device, parts, host, rays_by_device);
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t count =
           shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
@@ -284,6 +285,7 @@ struct Frame::Parts {
       stats.shadow_fallback = share(counts.fallback, points);
       stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
+      if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }
     for (PassTime pass : {host.direct_time(threads), host.specular_time(threads)}) stats.passes.push_back({"host: " + pass.name, pass.ms});
     if (const auto* environment = surfaces.environment()) {
@@ -322,6 +324,7 @@ struct Frame::Parts {
   std::vector<const PackLight*> light_pointers;
   TileLighting host;
   DirectLight direct;
+  const bool rays_by_device;
   std::string kept_on_host;
   std::unique_ptr<Shadows> shadows;        // made when something needs it
   std::vector<TileShadows> shadowed;       // by job
@@ -338,8 +341,8 @@ struct Frame::Parts {
   std::map<std::string, double> reported;  // milliseconds of passes up to the last report
 };
 
-Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces)
-    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces)) {}
+Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays)) {}
 Frame::~Frame() = default;
 
 Picture Frame::render(RenderStats* stats) {

@@ -16,6 +16,10 @@ bool runs_on_host_alone(const Scene& scene, const RenderOptions& options);
 // it.
 enum class SurfacesBy { automatic, host, device };
 
+// Who finds whether the ways to the visible parts of lights are free. automatic: the device, unless it is software, slower at that than
+// the host.
+enum class RaysBy { automatic, host, device };
+
 // Buffers and pipelines are made once, for any number of frames of a scene.
 class Frame {
  public:
@@ -23,7 +27,7 @@ class Frame {
   // options name. Throws UsageError for what runs on the host alone, and for options that this back end does not have yet; Error where
   // there is no such device.
   Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
-        SurfacesBy surfaces = SurfacesBy::automatic);
+        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic);
   ~Frame();
 
   // Sets stats of this frame alone. Returns early, with what it has, when options.stop becomes true.

@@ -295,6 +295,25 @@ TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
   }
 }
 
+// One ray more or less that is blocked takes a light from a pixel.
+TEST_F(VulkanFrame, AsksTheDevicesRaysAsTheHosts) {
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  options.width = 96;
+  options.height = 54;
+  for (const auto& [name, scene] :
+       {std::pair{"12 triangles", under_triangles(12)}, {"room", scene_of("room")}, {"tubes", scene_of("tubes")}}) {
+    RenderStats stats;
+    const Picture host = Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::host).render();
+    const Picture device = Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device).render(&stats);
+    const auto rays = std::find_if(stats.passes.begin(), stats.passes.end(), [](const auto& p) { return p.name == "device: shadow rays"; });
+    EXPECT_EQ(rays != stats.passes.end(), list_devices().front().timestamps) << name;
+    int others = 0;
+    for (std::size_t i = 0; i < host.pixels.size(); ++i) others += !(host.pixels[i] == device.pixels[i]);
+    EXPECT_EQ(others, 0) << name;
+  }
+}
+
 TEST_F(VulkanFrame, SaysWhatTheHostLights) {
   Scene scene = everything();
   scene.area_lights[4].name = "lamp";
@@ -325,7 +344,7 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
     options.width = 48;  // the layer asks what is called, not what comes of it
     options.height = 27;
     options.shadows = shadows;
-    Frame frame(scene, options, device);
+    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device);
     for (int i = 0; i < 2; ++i) frame.render();
   }
   EXPECT_TRUE(device->validation_messages().empty())

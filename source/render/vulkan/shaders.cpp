@@ -37,6 +37,9 @@ constexpr std::uint32_t kArcsLobe[] =
 constexpr std::uint32_t kShadowParts[] =
 #include "shadow_parts.comp.inc"
     ;
+constexpr std::uint32_t kShadowRays[] =
+#include "shadow_rays.comp.inc"
+    ;
 constexpr std::uint32_t kShadowShares[] =
 #include "shadow_shares.comp.inc"
     ;
@@ -81,7 +84,7 @@ std::span<const std::uint32_t> half_vector_shader() { return kHalfVector; }
 std::span<const std::uint32_t> texture_means_shader() { return kTextureMeans; }
 std::span<const std::uint32_t> phong_lobe_shader() { return kPhongLobe; }
 std::span<const std::uint32_t> arcs_lobe_shader() { return kArcsLobe; }
-std::span<const std::uint32_t> shadow_parts_shader() { return kShadowParts; }
+std::vector<std::span<const std::uint32_t>> shadow_shaders() { return {kShadowParts, kShadowRays}; }
 std::span<const std::uint32_t> shadow_shares_shader() { return kShadowShares; }
 std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
 std::vector<std::span<const std::uint32_t>> bounce_shaders() {

@@ -20,8 +20,8 @@ std::span<const std::uint32_t> texture_means_shader();
 // Lobes of extras.steradian.
 std::span<const std::uint32_t> phong_lobe_shader();
 std::span<const std::uint32_t> arcs_lobe_shader();
-// What points see of lights behind edges.
-std::span<const std::uint32_t> shadow_parts_shader();
+// What points see of lights behind edges; whether the way there is free.
+std::vector<std::span<const std::uint32_t>> shadow_shaders();
 // What arrives of round lights that something hides in part.
 std::span<const std::uint32_t> shadow_shares_shader();
 

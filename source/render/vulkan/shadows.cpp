@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "core/budget.h"
+#include "render/vulkan/ray_hierarchy.h"
 #include "render/vulkan/shaders.h"
-#include "shadow/visible.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -26,11 +26,16 @@ struct AnswersHead {
   std::uint32_t parts_begin, parts_used, parts_room, unused;
 };
 struct Answer {
-  float x, y;
-  std::uint32_t sees, edges;
+  Vec3f origin;
+  std::uint32_t edges;
+  Vec3f way;
+  std::uint32_t sees;
 };
-static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kVector);
+static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kShadowAnswer * kVector);
 
+constexpr std::size_t kThreads = 64;  // of shaders/shadow_rays.comp
+
+std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
 // What of a tile begins where among a batch's.
@@ -53,16 +58,23 @@ struct Shadows::Batch {
 
   std::span<TileShadows> tiles;
   std::vector<Begin> begins;
-  const Answer* answers = nullptr;
-  std::size_t device_records = 0;
-  std::vector<std::uint8_t> free;  // by point
+  Answer* answers = nullptr;  // by point
 };
 
-Shadows::Shadows(const Device& device, const RayScene& rays, TileLighting& host)
-    : device_(device), rays_(rays), host_(host), program_(device, {shadow_parts_shader()}, 3) {}
+Shadows::Shadows(const Device& device, const SceneParts& parts, TileLighting& host, bool rays_by_device)
+    : device_(device), rays_(*parts.rays), host_(host), program_(device, shadow_shaders(), 4) {
+  const std::size_t most = most_of_buffer() / kVector;
+  if (!rays_by_device || least_of_hierarchy(parts.shadows->mesh) > most) return;
+  const auto hierarchy = ray_hierarchy(parts.shadows->mesh);
+  if (hierarchy.size() > most) return;
+  hierarchy_ = std::make_unique<Buffer>(device, hierarchy.size() * kVector, BufferUse::host_writes);
+  hierarchy_->write(hierarchy.data(), hierarchy.size() * kVector);
+}
+
+std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, device_.info().storage_buffer); }
 
 Buffer& Shadows::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const char* what) const {
-  const std::size_t most = std::min<std::size_t>(kLargestBuffer, device_.info().storage_buffer);
+  const std::size_t most = most_of_buffer();
   if (bytes > most)
     throw Error(
         "Vulkan",
@@ -99,48 +111,52 @@ void Shadows::upload(const Batch& batch) {
 // Returns how many vectors the parts' records want.
 std::size_t Shadows::search(Batch& batch) {
   AnswersHead head{0, 0, number(parts_->bytes() / kVector), 0};
-  Buffer& answers = fitting(answers_, (1 + batch.all().point) * kVector, "points before lights");
+  const std::size_t count = batch.all().point;
+  Buffer& answers = fitting(answers_, sizeof head + count * sizeof(Answer), "points before lights");
   answers.write(&head, sizeof head);
+  batch.answers = reinterpret_cast<Answer*>(static_cast<char*>(answers.mapped()) + sizeof head);
+  for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+    for (std::size_t k = 0; k < batch.tiles[i].points.size(); ++k)
+      batch.answers[batch.begins[i].point + k].origin = static_cast<Vec3f>(batch.tiles[i].points[k].at.position);
   std::vector<ComputeProgram::Dispatch> dispatches;
   std::uint32_t first = 0;
   for (const int space : kSpaces) {
-    std::uint32_t count = 0;
+    std::uint32_t groups = 0;
     for (const TileShadows& tile : batch.tiles)
-      count += number(
+      groups += number(
           static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return g.space == space; })));
-    if (count > 0) dispatches.push_back({program_.pipeline(0, {space, space + kMorePieces}), count, 1, first});
-    first += count;
+    if (groups > 0) dispatches.push_back({program_.pipeline(0, {space, space + kMorePieces}), groups, 1, first});
+    first += groups;
   }
-  for (const double ms : program_.run({groups_.get(), parts_.get(), &answers}, dispatches)) time_ += ms;
+  if (hierarchy_ && count > 0) dispatches.push_back({program_.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
+  const std::vector<double> times =
+      program_.run({groups_.get(), parts_.get(), &answers, hierarchy_ ? hierarchy_.get() : &answers}, dispatches);
+  for (std::size_t i = 0; i < times.size(); ++i) (hierarchy_ && i + 1 == times.size() ? rays_time_ : time_) += times[i];
   std::memcpy(&head, answers.mapped(), sizeof head);
-  batch.answers = reinterpret_cast<const Answer*>(static_cast<const char*>(answers.mapped()) + sizeof head);
-  return batch.device_records = head.parts_used;
+  return head.parts_used;
 }
 
-// Whether the way to the places that were found is free.
+// Whether ways are free for which the device does not know it.
 void Shadows::trace(Batch& batch, const Each& each) {
-  batch.free.assign(batch.all().point, 0);
   each(batch.tiles.size(), [&](std::size_t i) {
     constexpr std::size_t kRays = 16;
-    const std::vector<TileShadows::Point>& points = batch.tiles[i].points;
-    const std::size_t begin = batch.begins[i].point;
+    const std::size_t end = batch.begins[i + 1].point;
     RayScene::Sixteen rays;
-    for (std::size_t first = 0; first < points.size(); first += kRays) {
+    for (std::size_t first = batch.begins[i].point; first < end; first += kRays) {
       std::uint32_t asked = 0;
-      for (std::size_t k = 0; k < std::min(kRays, points.size() - first); ++k) {
-        const Answer& answer = batch.answers[begin + first + k];
-        if (answer.sees == kSeesNone || answer.sees == kAskHost) continue;
-        const TileShadows::Point& point = points[first + k];
-        const shadow::LightFrame& frame = point.side->frame;
-        const double z = -frame.to_local(point.at.position).z;
-        const Vec3d place = frame.to_world({static_cast<double>(answer.x) / shadow::kCells * frame.box_x,
-                                            static_cast<double>(answer.y) / shadow::kCells * frame.box_y, 0});
-        rays.set(k, point.at.position, (place - point.at.position) * std::max((z - frame.eta) / z, 0.0));
+      for (std::size_t k = 0; k < std::min(kRays, end - first); ++k) {
+        const Answer& answer = batch.answers[first + k];
+        if ((answer.edges & flag(kAskRay)) == 0) continue;
+        rays.set(k, static_cast<Vec3d>(answer.origin), static_cast<Vec3d>(answer.way));
         asked |= 1u << k;
       }
-      if (asked == 0) continue;
-      const std::uint32_t free = asked & ~rays_.blocked_among(rays, asked);
-      for (std::size_t k = 0; k < kRays && first + k < points.size(); ++k) batch.free[begin + first + k] = free >> k & 1;
+      const std::uint32_t blocked = rays_.blocked_among(rays, asked);
+      for (std::size_t k = 0; k < kRays; ++k) {
+        if ((asked >> k & 1) == 0) continue;
+        Answer& answer = batch.answers[first + k];
+        answer.edges -= flag(kAskRay);
+        if ((blocked >> k & 1) != 0) answer.sees = flag(kSeesNone);
+      }
     }
   });
 }
@@ -192,7 +208,7 @@ void Shadows::write_states(Batch& batch, const Each& each) {
       }
     for (std::size_t k = 0; k < tile.points.size(); ++k) {
       const Answer& answer = batch.answers[begin.point + k];
-      if (batch.free[begin.point + k] == 0) continue;
+      if (answer.sees == flag(kSeesNone) || answer.sees == flag(kAskHost)) continue;
       const TileShadows::Point& point = tile.points[k];
       to[point.light * kTilePixels + point.slot] = answer.sees;
       TileShadows::Light& light = tile.by_light[point.light];
@@ -235,7 +251,7 @@ std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
     write_states(batch, each);
     for (std::size_t k = 0; k < batch.all().point; ++k) {
       points_ += batch.answers[k].sees != kAskHost;
-      found_ += batch.answers[k].sees >= kSeesPart && batch.free[k] != 0;
+      found_ += batch.answers[k].sees >= kSeesPart;
     }
     return count;
   }

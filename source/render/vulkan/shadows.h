@@ -1,5 +1,6 @@
-// Shadows on a device: finds what points see of lights behind edges (shaders/shadow_parts.comp). One ray of the host a point says whether
-// that is free; points that a thread has no space for, or that it is not certain about, the host finds.
+// Shadows on a device: finds what points see of lights behind edges (shaders/shadow_parts.comp). One ray a point says whether that is free
+// (shaders/shadow_rays.comp, or the host's: also where a buffer has no room for the triangles, and where a walk through them does not end).
+// Points that a thread has no space for, or that it is not certain about, the host finds.
 #pragma once
 
 #include <map>
@@ -7,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "render/cpu/ray_scene.h"
+#include "render/cpu/scene_parts.h"
 #include "render/cpu/tile_lighting.h"
 #include "render/vulkan/compute_program.h"
 #include "render/vulkan/tile_shadows.h"
@@ -16,8 +17,8 @@ namespace steradian::vulkan {
 
 class Shadows {
  public:
-  // All must stay.
-  Shadows(const Device& device, const RayScene& rays, TileLighting& host);
+  // All must stay; parts: with edges. rays_by_device: not the host's.
+  Shadows(const Device& device, const SceneParts& parts, TileLighting& host, bool rays_by_device);
 
   // Finds what the first tiles need, as many as buffers have room for, and says how many those are: at least one. Throws Error where one is
   // too many. Calls each(count, work) for work in parallel.
@@ -30,6 +31,7 @@ class Shadows {
 
   // Milliseconds of the device so far.
   double time() const { return time_; }
+  double rays_time() const { return rays_time_; }
   // Pairs of a surface and a light that the device has answered; of these, that see a part of the light.
   std::uint64_t points() const { return points_; }
   std::uint64_t found() const { return found_; }
@@ -43,12 +45,15 @@ class Shadows {
   void write_states(Batch& batch, const Each& each);
   Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const char* what) const;
 
+  std::size_t most_of_buffer() const;  // bytes
+
   const Device& device_;
   const RayScene& rays_;
   TileLighting& host_;
   ComputeProgram program_;
+  std::unique_ptr<Buffer> hierarchy_;  // null: the host's rays
   std::unique_ptr<Buffer> groups_, answers_, parts_, states_;
-  double time_ = 0;
+  double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;
 };
 

@@ -1,0 +1,97 @@
+// Whether triangles stand in a ray's way, from a hierarchy of boxes in a buffer (source/render/vulkan/ray_hierarchy.h). The walk needs no
+// stack: nodes stand in the order of a walk through all of them, and each knows where to go on past what is below it.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// A way from a point along a vector, to its end.
+struct Ray {
+    vec3 origin;
+    vec3 along;
+    vec3 inverse;  // 1 / along
+    int axis;      // along which it is longest
+    vec3 shear;    // to a ray along that axis, from 0 to 1
+};
+
+// The other two coordinates, and that along the axis.
+vec3 to_axis(vec3 v, int axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
+
+Ray ray_of(vec3 origin, vec3 along) {
+    Ray ray;
+    ray.origin = origin;
+    ray.along = along;
+    vec3 size = abs(along);
+    ray.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    vec3 turned = to_axis(along, ray.axis);
+    ray.shear = vec3(turned.xy / turned.z, 1.0 / turned.z);
+    // No product with 0 then; no ray is that long.
+    for (int i = 0; i < 3; i++) ray.inverse[i] = 1.0 / (size[i] < 1.0e-30 ? 1.0e-30 : along[i]);
+    return ray;
+}
+
+// Never false where the way meets the box. T. Ize, "Robust BVH Ray Traversal", Journal of Computer Graphics Techniques 2(2), 2013: a
+// difference, a reciprocal of 2.5 units in the last place and a product are off by less than 4e-7 of themselves, and so is its end by less
+// than twice that of its beginning.
+bool meets_box(Ray ray, vec3 low, vec3 high) {
+    vec3 a = (low - ray.origin) * ray.inverse;
+    vec3 b = (high - ray.origin) * ray.inverse;
+    vec3 near = min(a, b);
+    vec3 far = max(a, b);
+    float begin = max(max(near.x, near.y), max(near.z, 0.0));
+    float end = min(min(far.x, far.y), min(far.z, 1.0));
+    return begin <= end * 1.000001;
+}
+
+// Twice the area of a triangle with a corner at 0. Its sign is right or it is 0: products round, but never past each other. With the sides
+// in the other order it is the same number, negative, which it would not be if a compiler made one rounding of two.
+float twice_area(vec2 a, vec2 b) {
+    precise float left = a.x * b.y;
+    precise float right = a.y * b.x;
+    precise float twice = left - right;
+    return twice;
+}
+
+// S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013: seen along the
+// ray, which of the corners' sides pass it on the left? Neighbours see the same corners, so they agree about the side between them, and
+// one of them is hit; a ray through a side hits both. A triangle seen edge-on is not hit: those around it are.
+bool meets_triangle(Ray ray, vec3 v0, vec3 v1, vec3 v2) {
+    vec3 a = to_axis(v0 - ray.origin, ray.axis);
+    vec3 b = to_axis(v1 - ray.origin, ray.axis);
+    vec3 c = to_axis(v2 - ray.origin, ray.axis);
+    precise vec2 pa = a.xy - ray.shear.xy * a.z;
+    precise vec2 pb = b.xy - ray.shear.xy * b.z;
+    precise vec2 pc = c.xy - ray.shear.xy * c.z;
+    vec3 weights = vec3(twice_area(pb, pc), twice_area(pc, pa), twice_area(pa, pb));
+    bool left = all(greaterThanEqual(weights, vec3(0.0)));
+    bool right = all(lessThanEqual(weights, vec3(0.0)));
+    float sum = weights.x + weights.y + weights.z;
+    float at = dot(weights, vec3(a.z, b.z, c.z)) * ray.shear.z;
+    float size = abs(sum);
+    at = sum < 0.0 ? -at : at;
+    return (left || right) && size > 0.0 && at >= 0.0 && at <= size;
+}
+
+const int kFree = 0;
+const int kBlocked = 1;
+const int kNotKnown = 2;  // the walk took too many turns
+
+// Software devices end a thread's loops after 65,535 turns in all, silently: a node takes one, a triangle another, and a leaf's loop that
+// ends one more. This many nodes keep below that, and whoever is not at the end did not finish.
+const int kMostNodes = 10000;
+
+int way_along(Ray ray) {
+    uint end = hierarchy[1].w;
+    uint node = 0u;
+    bool blocked = false;
+    for (int turn = 0; turn < kMostNodes && node < end && !blocked; turn++) {
+        uvec4 low = hierarchy[2u * node];
+        uvec4 high = hierarchy[2u * node + 1u];
+        bool meets = meets_box(ray, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
+        node = meets ? node + 1u : high.w;
+        uint first = low.w / uint(kLeafSizes);
+        uint last = meets ? first + 3u * (low.w % uint(kLeafSizes)) : first;
+        for (uint t = first; t < last; t += 3u) {
+            blocked = blocked || meets_triangle(ray, uintBitsToFloat(hierarchy[t].xyz), uintBitsToFloat(hierarchy[t + 1u].xyz),
+                                                uintBitsToFloat(hierarchy[t + 2u].xyz));
+        }
+    }
+    return blocked ? kBlocked : node >= end ? kFree : kNotKnown;
+}
