@@ -90,7 +90,7 @@ vec4 under_gaussian(LightTexture t, vec2 at, LtcTextureEllipse g) {
     return sum / total;
 }
 
-// A cell, of the tree or, by a path of halves below one of its smallest (1: none), of what lies there: TextureTree::half.
+// A cell of the tree, its first child and what comes after it and all below it.
 struct TreeCell {
     LtcTextureCell cell;
     int child;
@@ -119,28 +119,43 @@ TreeCell tree_cell_at(LightTexture t, int number) {
     return tree;
 }
 
-LtcTextureCell half_of(LightTexture t, LtcTextureCell cell, int which) {
+// Radiance times coverage, and coverage, of the finest level, which goes on beyond its border.
+vec4 texel_of_finest(vec4 size, vec2 texel) { return details[int(size.z) + int(texel.y) * int(size.x) + int(texel.x)]; }
+
+// Every second of five bits, the last among them.
+int every_second(int bits) { return ((bits >> 2) & 4) | ((bits >> 1) & 2) | (bits & 1); }
+
+// Part of one of the smallest cells: TextureTree::half, once for each bit of `path` after its first, at most kTextureDeepest times. They
+// halve the two axes in turn, so that the bits of each are a number that says how far along it the part lies; and so no loop is needed,
+// of which llvmpipe allows a thread 65,535 turns in all, silently.
+LtcTextureCell part_of(LightTexture t, LtcTextureCell cell, int path) {
+    int depth = findMSB(path);
+    if (depth == 0) return cell;
+    int bits = path << (kTextureDeepest - depth);
+    float of_a = 1.0 / float(1 << ((depth + 1) / 2));
+    float of_b = 1.0 / float(1 << (depth / 2));
+    vec2 along = vec2(every_second(bits >> 1), every_second(bits)) * 0.5 - 2.0 * (1.0 - vec2(of_a, of_b));
+    vec2 a = cell.axis_a * of_a;
+    vec2 b = cell.axis_b * of_b;
+    bool across = (depth & 1) == 1;
     LtcTextureCell part = cell;
-    part.center = cell.center + cell.axis_a * (float(2 * which - 1) * 0.612372435695794525);
-    part.axis_a = cell.axis_b;
-    part.axis_b = 0.5 * cell.axis_a;
-    part.area = 0.5 * cell.area;
-    part.radius = sqrt(1.5 * (dot(part.axis_a, part.axis_a) + dot(part.axis_b, part.axis_b)));
+    part.center = cell.center + (cell.axis_a * along.x + cell.axis_b * along.y) * 0.612372435695794525;
+    part.axis_a = across ? b : a;
+    part.axis_b = across ? a : b;
+    part.area = cell.area * of_a * of_b;
+    part.radius = sqrt(1.5 * (dot(a, a) + dot(b, b)));
     part.along_a = vec3(0.0);
     part.along_b = vec3(0.0);
-    part.deviation = 0.7 * cell.deviation;
+    part.deviation = cell.deviation * (across ? 0.7 : 1.0) * ((depth & 2) == 2 ? 0.49 : 1.0) * ((depth & 4) == 4 ? 0.2401 : 1.0);
     vec4 place = details[t.first + kTextureHead];
     vec4 size = details[t.first + kTextureHead + 1];
     vec2 q = clamp((part.center - place.xy) / place.z, vec2(0.0), size.xy - 1.0);
     vec2 low = min(floor(q), max(size.xy - 2.0, 0.0));
+    vec2 high = min(low + 1.0, size.xy - 1.0);
     vec2 share = q - low;
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; i++) {
-        vec2 side = vec2(float(i & 1), float(i >> 1));
-        vec2 texel = min(low + side, size.xy - 1.0);
-        vec2 weights = mix(1.0 - share, share, side);
-        sum += weights.x * weights.y * details[int(size.z) + int(texel.y) * int(size.x) + int(texel.x)];
-    }
+    vec4 below = mix(texel_of_finest(size, low), texel_of_finest(size, vec2(high.x, low.y)), share.x);
+    vec4 above = mix(texel_of_finest(size, vec2(low.x, high.y)), texel_of_finest(size, high), share.x);
+    vec4 sum = mix(below, above, share.y);
     if (sum.w > 0.0) part.mean = sum.xyz / sum.w;
     return part;
 }

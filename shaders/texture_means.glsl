@@ -28,13 +28,11 @@ CellSums sum_cells(LightTexture t, LtcTextureCellView view, vec3 expected, float
     int path = 1;  // below the cell: a half for each bit after the first
     do {
         TreeCell tree = tree_cell_at(t, number);
-        LtcTextureCell cell = tree.cell;
-        int depth = findMSB(path);
-        for (int i = depth - 1; i >= 0; i--) cell = half_of(t, cell, (path >> i) & 1);
+        LtcTextureCell cell = part_of(t, tree.cell, path);
         LtcTextureCellSeen seen = ltc_texture_cell_seen(cell, view, expected);
         bool covered = cell.area > 0.0;
         bool split = covered && seen.error > threshold;
-        if (split && depth == kTextureDeepest) {
+        if (split && findMSB(path) == kTextureDeepest) {
             sums.too_deep = true;
             return sums;
         }

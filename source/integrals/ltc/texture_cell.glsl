@@ -52,7 +52,7 @@ LtcTextureCellView ltc_texture_cell_view(LtcMatrix m, int by_ggx, GgxView half_v
 //   axis_a, axis_b    conjugate half axes of the ellipse on which its four elements lie (light_elements.glsl)
 //   area              [m2]; 0: nothing is covered
 //   radius            the farthest that a part of it may lie from the centroid
-//   deviation         of its luminance
+//   deviation         of its channels: the root of their mean variance, for what is even in luminance may yet change in colour
 //   mean              of its radiance
 //   along_a, along_b  how far each channel's centroid is from the area's, in units of the axes, times the mean
 struct LtcTextureCell {
@@ -133,7 +133,8 @@ LtcTextureCellSeen ltc_texture_cell_seen(LtcTextureCell cell, LtcTextureCellView
     real nearest = max(max(distance - cell.radius, view.height), 1.0e-12);
     real steep = min(view.height + cell.radius, nearest) / (nearest * nearest * nearest);
     real highest = view.determinant * inverse_pi() / max(m * m * m, smallest_square()) * steep;
-    real off = abs(ltc_texture_cell_luminance(cell.mean) - ltc_texture_cell_luminance(expected));
+    vec3 apart = cell.mean - expected;
+    real off = sqrt(dot(apart, apart) * 0.333333333333333333);
     real small = min(t, 2.0);
 
     LtcTextureCellSeen seen;

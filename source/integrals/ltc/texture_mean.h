@@ -74,7 +74,7 @@ class TextureCells {
       sums_ = {};
       splits_ = zero;
       too_deep_ = real(1.0) < zero;
-      visit(whole, open);
+      visit(whole, whole, open);
       over = splits_ > static_cast<real>(kTextureSplits);
       closing = closing || over;
       active = active && !too_deep_;
@@ -117,7 +117,8 @@ class TextureCells {
     sums.error = sums.error + select(lanes, seen.error, zero);
   }
 
-  void visit(const TextureCell& cell, Mask<S> lanes) {
+  // smallest: the cell itself, or that of the smallest ones below which it lies.
+  void visit(const TextureCell& cell, const TextureCell& smallest, Mask<S> lanes) {
     if (!(cell.area > 0)) return;
     const auto seen = K().ltc_texture_cell_seen(packed(cell), view_, expected_);
     auto splits = lanes && seen.error > threshold_;
@@ -131,11 +132,11 @@ class TextureCells {
     if (!any_lane(splits)) return;
     if (cell.children > 0) {
       const auto first = static_cast<std::size_t>(cell.children);
-      visit(tree_.cells()[first], splits);
-      visit(tree_.cells()[first + 1], splits);
+      visit(tree_.cells()[first], tree_.cells()[first], splits);
+      visit(tree_.cells()[first + 1], tree_.cells()[first + 1], splits);
     } else {
-      visit(tree_.half(cell, 0, texels_), splits);
-      visit(tree_.half(cell, 1, texels_), splits);
+      visit(tree_.half(cell, 0, smallest, texels_), smallest, splits);
+      visit(tree_.half(cell, 1, smallest, texels_), smallest, splits);
     }
   }
 

@@ -6,11 +6,11 @@
 namespace steradian {
 namespace {
 
-constexpr int kMostCells = 128;  // a side
-double luminance(Vec3d v) { return (v.x + v.y + v.z) / 3; }
+constexpr int kMostCells = 128;                        // a side
+double mean_square(Vec3d v) { return dot(v, v) / 3; }  // of the three channels
 double length2(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]; }
 
-// Sums over texels: of coverage, of radiance, their first moments, the coverage's second ones, and the radiance's square.
+// Sums over texels: of coverage, of radiance, their first moments, the coverage's second ones, and the radiance's mean square.
 struct Moments {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, square = 0;
   Vec3d power{}, power_x{}, power_y{};
@@ -26,7 +26,7 @@ struct Moments {
     xx += w * (at_x * at_x + own);
     xy += w * at_x * at_y;
     yy += w * (at_y * at_y + own);
-    square += luminance(p) * luminance(p) / w;
+    square += mean_square(p) / w;
     power += p;
     power_x += p * at_x;
     power_y += p * at_y;
@@ -75,7 +75,7 @@ TextureTree::TextureTree(const PlaneTexels& t) {
     if (!(m.area > 0)) return m;
     cell.area = m.area;
     cell.mean = m.power / m.area;
-    cell.deviation = std::sqrt(std::max(m.square / m.area - luminance(cell.mean) * luminance(cell.mean), 0.0));
+    cell.deviation = std::sqrt(std::max(m.square / m.area - mean_square(cell.mean), 0.0));
     cell.center = {m.x / m.area, m.y / m.area};
     const double x = cell.center[0], y = cell.center[1];
     const double xx = m.xx / m.area - x * x, xy = m.xy / m.area - x * y, yy = m.yy / m.area - y * y;
@@ -97,7 +97,7 @@ TextureTree::TextureTree(const PlaneTexels& t) {
 }
 
 // Of a smallest cell: one side of its long axis, as large as an even cell of its moments would be cut.
-TextureCell TextureTree::half(const TextureCell& cell, int which, const PlaneTexels& t) const {
+TextureCell TextureTree::half(const TextureCell& cell, int which, const TextureCell& smallest, const PlaneTexels& t) const {
   // Half a rectangle of the deviation s has its centre at s sqrt(3) / 2, and half the deviation; the axes are s sqrt(2).
   TextureCell half = cell;
   const double shift = (2 * which - 1) * std::sqrt(3.0 / 8);
@@ -120,7 +120,7 @@ TextureCell TextureTree::half(const TextureCell& cell, int which, const PlaneTex
       const double w = (a == 0 ? 1 - (x - i) : x - i) * (b == 0 ? 1 - (y - j) : y - j);
       for (std::size_t c = 0; c < 4; ++c) sum[c] += w * static_cast<double>(t.texels[at][c]);
     }
-  if (sum[3] > 0) half.mean = Vec3d{sum[0], sum[1], sum[2]} / sum[3];
+  half.mean = sum[3] > 0 ? Vec3d{sum[0], sum[1], sum[2]} / sum[3] : smallest.mean;
   return half;
 }
 

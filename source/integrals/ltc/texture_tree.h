@@ -17,8 +17,9 @@ struct PlaneTexels {
   const std::vector<std::array<float, 4>>& texels;
 };
 
-// Of the covered part of a piece of the light's plane: area, mean radiance, its deviation; centroid and the two axes on which the elements
-// lie; how far each channel's centroid is from there in units of the axes; the farthest that a part of the cell may lie.
+// Of the covered part of a piece of the light's plane: area, mean radiance, its deviation (of the channels, rms); centroid and the two axes
+// on which the elements lie; how far each channel's centroid is from there in units of the axes; the farthest that a part of the cell may
+// lie.
 struct TextureCell {
   double area = 0, deviation = 0, radius = 0;
   Vec3d mean{};
@@ -34,8 +35,8 @@ class TextureTree {
 
   // The first is the whole light.
   const std::vector<TextureCell>& cells() const { return cells_; }
-  // One of the two halves (0 and 1) of a smallest cell, or of what lies below.
-  TextureCell half(const TextureCell& cell, int which, const PlaneTexels& texels) const;
+  // One of the two halves (0 and 1) of a smallest cell, or of what lies below it.
+  TextureCell half(const TextureCell& cell, int which, const TextureCell& smallest, const PlaneTexels& texels) const;
 
   double finest() const { return finest_; }                        // deviation of the smallest cells
   const std::array<double, 4>& bounds() const { return bounds_; }  // left, right, bottom, top

@@ -11,16 +11,26 @@ namespace {
 
 using K = Kernels<double>;
 
-// Where the lobe is wider than the texture's cells, over these; else around where it looks.
-Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at,
-              const K::mat3& frame, const K::LtcMatrix& m, const K::GgxView* ggx = nullptr) {
-  K k;
-  const auto turned = [&](Vec3d v) { return transform_transposed(frame, integrals::to_kernel<double>(v)); };
-  const auto view = TextureKernels<double>().ltc_texture_cell_view(m, ggx != nullptr ? 1 : 0, ggx != nullptr ? *ggx : K::GgxView{},
+// A lobe at a point. ggx: of which half vectors it is GGX, or null.
+struct Seeing {
+  K::mat3 frame;
+  K::LtcMatrix m;
+  const K::GgxView* ggx = nullptr;
+};
+
+// Over the texture's cells.
+TextureMean<double> over_cells(const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at, const Seeing& s) {
+  const auto turned = [&](Vec3d v) { return transform_transposed(s.frame, integrals::to_kernel<double>(v)); };
+  const auto view = TextureKernels<double>().ltc_texture_cell_view(s.m, s.ggx != nullptr ? 1 : 0, s.ggx != nullptr ? *s.ggx : K::GgxView{},
                                                                    turned(texture.origin() - at.position), turned(texture.axis_x()),
                                                                    turned(texture.axis_y()));
-  const auto mean = TextureCells<double>(tree, texture.finest(), view).mean(K::mask(true));
-  if (any_lane(mean.found)) return static_cast<Vec3f>(Vec3d{mean.radiance.x.v, mean.radiance.y.v, mean.radiance.z.v});
+  return TextureCells<double>(tree, texture.finest(), view).mean(K::mask(true));
+}
+
+// Around where the lobe looks.
+Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const ShadingPoint& at, const Seeing& s) {
+  K k;
+  const auto& [frame, m, ggx] = s;
   // Any view serves: the lobe is where its matrix says.
   const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
   integrals::LtcVector<double> integral({m});
@@ -57,14 +67,23 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
   return texture.radiance(sum);
 }
 
-}  // namespace
-
-Vec3f TexturedLight::seen_by_diffuse(const ShadingPoint& at) const {
-  K k;
-  return look_up(polygon_, texture_, tree_, at, k.frame_from_normal(integrals::to_kernel<double>(at.normal)), k.ltc_texture_diffuse());
+Vec3f seen(const PreparedPolygon& light, const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at, const Seeing& s,
+           TextureWay way) {
+  if (way == TextureWay::either) {
+    const auto mean = over_cells(texture, tree, at, s);
+    if (any_lane(mean.found)) return static_cast<Vec3f>(Vec3d{mean.radiance.x.v, mean.radiance.y.v, mean.radiance.z.v});
+  }
+  return look_up(light, texture, at, s);
 }
 
-Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
+}  // namespace
+
+Vec3f TexturedLight::seen_by_diffuse(const ShadingPoint& at, TextureWay way) const {
+  K k;
+  return seen(polygon_, texture_, tree_, at, {k.frame_from_normal(integrals::to_kernel<double>(at.normal)), k.ltc_texture_diffuse()}, way);
+}
+
+Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way) const {
   K k;
   const double cosine = dot(at.normal, at.view);
   if (!(cosine > 0)) return texture_.mean();
@@ -74,7 +93,7 @@ Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha) const {
   const double width = std::max(alpha, kSmallestAlpha);
   const auto lobe = compact_lobe<double>(ggx_compact_table(), width, cosine, view);
   const auto ggx = K().ggx_view(view, width, width);
-  return look_up(polygon_, texture_, tree_, at, frame, lobe.matrix, &ggx);
+  return seen(polygon_, texture_, tree_, at, {frame, lobe.matrix, &ggx}, way);
 }
 
 }  // namespace steradian

@@ -15,6 +15,10 @@ struct TextureGaussian {
 inline const TextureGaussian kMixture[] = {{static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureNarrow)},
                                            {1 - static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureWide)}};
 
+// Cells where they serve, else a look-up; or the look-up at once, where packs have found that cells do not: floats and doubles may
+// disagree.
+enum class TextureWay { either, look_up };
+
 class TexturedLight {
  public:
   // The light must have a texture; `polygon` is its prepared outline.
@@ -23,8 +27,8 @@ class TexturedLight {
 
   // The mean over the light's visible part, weighted with the lobe. Times the lobe's integral over a light of radiance 1, it is
   // the radiance. The light's mean where it sends nothing.
-  Vec3f seen_by_diffuse(const ShadingPoint& at) const;
-  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha) const;
+  Vec3f seen_by_diffuse(const ShadingPoint& at, TextureWay way = TextureWay::either) const;
+  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way = TextureWay::either) const;
 
   const FilteredTexture& texture() const { return texture_; }
   const TextureTree& tree() const { return tree_; }

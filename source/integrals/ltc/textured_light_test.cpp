@@ -280,4 +280,31 @@ TEST(TexturedLight, LitCornersAndHalvesOverAFloor) {
   }
 }
 
+// Red and green in squares, of one luminance: what tells the cells apart is their colour alone.
+TEST(TexturedLight, ColoursOfOneLuminance) {
+  std::vector<Image> images;
+  const AreaLight light = square_light(64, std::vector<std::uint8_t>(64 * 64, 0), images);
+  for (std::size_t i = 0; i < 64 * 64; ++i) images[0].rgba[4 * i + ((i % 64) / 16 + i / 1024) % 2] = 255;
+  const TexturedLight textured(light, prepare_polygon(flat_polygon(light)), images);
+  double error = 0, signal = 0;
+  for (int j = 0; j < 9; ++j)
+    for (int i = 0; i < 9; ++i) {
+      const Vec3d p{-1 + 0.25 * i, -1 + 0.25 * j, 0.7};
+      double red = 0, all = 0;
+      constexpr int kSteps = 96;
+      for (int b = 0; b < kSteps; ++b)
+        for (int a = 0; a < kSteps; ++a) {
+          const Vec3d q{-1 + 2 * (a + 0.5) / kSteps, 1 - 2 * (b + 0.5) / kSteps, 1}, r = q - p;
+          const double weight = 1 / (dot(r, r) * dot(r, r));
+          all += weight;
+          red += weight * texture_radiance(*light.texture, images, q).x;
+        }
+      const double off = static_cast<double>(textured.seen_by_diffuse({p, {0, 0, 1}, {0, 0, 1}}).x) - red / all;
+      error += off * off;
+      signal += red / all * (red / all);
+    }
+  std::printf("red of red and green squares: relative L2 %.1e\n", std::sqrt(error / signal));
+  EXPECT_LT(std::sqrt(error / signal), 0.02);
+}
+
 }  // namespace steradian

@@ -108,10 +108,10 @@ double largest_of(Vec3d v) { return std::max({v.x, v.y, v.z}); }
 // The mean radiance of an uneven light as a lobe sees it; of textured ones, other lobes than GGX take the mean (lobes_under_means).
 //
 //   even  what the lobe sends to the view under radiance 1
-Vec3d seen_by(const PackLight& light, const Material& material, const ShadingPoint& at, Vec3d even) {
+Vec3d seen_by(const PackLight& light, const Material& material, const ShadingPoint& at, Vec3d even, TextureWay way = TextureWay::either) {
   if (light.profiled != nullptr) return light.profiled->seen_by(material, at, largest_of(even));
   if (light.textured != nullptr && material.brdf == Brdf::ggx)
-    return static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y)));
+    return static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y), way));
   return static_cast<Vec3d>(light.radiance);
 }
 
@@ -223,8 +223,8 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
         Vec3f radiance = get(seen, i);
         const Vec3f even = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
         if (!(found[i] > 0))
-          radiance = static_cast<Vec3f>(
-              seen_by(*light, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i), static_cast<Vec3d>(even)));
+          radiance = static_cast<Vec3f>(seen_by(*light, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i),
+                                                static_cast<Vec3d>(even), TextureWay::look_up));
         add_to(tile.radiance, i, radiance * even);
       }
       continue;

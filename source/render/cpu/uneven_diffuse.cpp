@@ -40,7 +40,7 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
       const ShadingPoint at = {position, normal, normal};
       const Vec3f mean = found[i] > 0 ? Vec3f{seen.x[i], seen.y[i], seen.z[i]}
                          : light->textured != nullptr
-                             ? light->textured->seen_by_diffuse(at)
+                             ? light->textured->seen_by_diffuse(at, TextureWay::look_up)
                              : static_cast<Vec3f>(light->profiled->seen_by({}, at, static_cast<double>(irradiance[i] * kInversePi)));
       const Vec3f add = albedo * mean * (irradiance[i] * kInversePi);
       tile.radiance.x[i] += add.x;

@@ -22,10 +22,6 @@ std::vector<Vec3d> ring(Vec3d center, double radius, int corners) {
   return vertices;
 }
 
-// Pixels of a textured light's picture in which a rounding may end the search for its mean a pass sooner, which moves the mean by less than
-// the percent that it is good to. That this is their cause is likely and not proven; how many there are no bound says: 26 were counted.
-constexpr int kEndsSooner = 160 * 90 / 400;
-
 // Every kind of light, and surfaces of every lobe that the device has: a floor, a wall behind it, a cloth, and a pane through which they
 // are seen. Lights touch the surfaces' horizons, stand next to them and far away.
 Scene everything() {
@@ -156,9 +152,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuByEveryQuality) {
 TEST_F(VulkanFrame, AgreesWithTheCpuInEveryScene) {
   for (const char* name : {"plane", "ring", "tubes", "textured_floor"}) {
     const Scene scene = scene_of(name);
-    // Of textured lights: a rounding may end the search for a mean, good to a percent, a pass sooner.
-    const int outliers = std::string(name) == "textured_floor" ? kEndsSooner : 0;
-    for (const char* method : {"auto", "ltc-compact"}) expect_same(name, scene, small(method), outliers);
+    for (const char* method : {"auto", "ltc-compact"}) expect_same(name, scene, small(method));
   }
 }
 
@@ -209,8 +203,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderTexturedLights) {
       textured({{{-1, 0.2, -2}, {1, 0.2, -2}, {1, 2.2, -2}, {-1, 2.2, -2}}, {}}, {-1, 2.2, -2}, {0.5, 0, 0}, {0, -0.5, 0}, false),
       textured({{{2, -0.5, 0}, {2, 1.5, 1}, {2, 1, -1}}, {}}, {2, 0, 0}, {0, 0.7, 0.7}, {0, -0.7, 0.7}, true),
       textured({{{-3000, 3, -1}, {3000, 3, -1}, {3000, 3, 0}, {-3000, 3, 0}}, {}}, {0, 3, 0}, {0.1, 0, 0}, {0, 0, 1}, true)};
-  constexpr int kOutliers = 160 * 90 / 1000;
-  for (const char* method : {"auto", "ltc-compact"}) expect_same("textured lights", scene, small(method), kOutliers);
+  for (const char* method : {"auto", "ltc-compact"}) expect_same("textured lights", scene, small(method));
   EXPECT_EQ(warnings_of(scene, small("auto")), std::vector<std::string>());
 }
 
@@ -239,8 +232,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   options.shadows = Shadows::on;
   for (const char* name : {"gallery", "textured_floor", "lamp_shade", "tubes"}) {
     const Scene scene = scene_of(name);
-    const int outliers = std::string(name) == "textured_floor" ? kEndsSooner : 0;
-    const double share = expect_same(std::string(name) + ", shadows", scene, options, outliers);
+    const double share = expect_same(std::string(name) + ", shadows", scene, options);
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
     EXPECT_LE(share, 0.35) << name;
   }
