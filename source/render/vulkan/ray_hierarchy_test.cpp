@@ -196,6 +196,7 @@ TEST_F(VulkanRays, DoNotLeakBetweenTriangles) {
   }
   std::printf("%zu ways through sides and corners: %zu leave the ball, %zu by Embree\n", ways.size(), leaks, of_embree);
   EXPECT_EQ(leaks, 0u);
+  EXPECT_LT(of_embree, ways.size() / 1000);  // its robust mode lets a few through corners; without it, one in seven
 }
 
 // Triangles stacked so that a way meets all their boxes and none of them.
