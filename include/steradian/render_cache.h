@@ -27,7 +27,7 @@ class RenderCache {
   std::unique_ptr<Parts> parts_;
 };
 
-// As render; a device keeps nothing yet. For one picture at a time.
+// As render. Of a Vulkan device the cache keeps its pipelines, too. For one picture at a time.
 Picture render(const Scene& scene, const RenderOptions& options, RenderCache& cache, RenderStats* stats = nullptr,
                RenderState* state = nullptr);
 

@@ -1,4 +1,5 @@
 #include "render/cpu/render.h"
+#include "render/cpu/scene_parts.h"
 #include "render/vulkan/frame.h"
 
 namespace steradian {
@@ -16,8 +17,13 @@ Picture render_by(const Scene& scene, const RenderOptions& options, RenderCache*
           " has nothing for the device '" + device.info().name + "'");
     return picture;
   }
-  vulkan::Frame frame(scene, options);
-  Picture picture = frame.render(stats);
+  Picture picture;
+  try {
+    picture = vulkan::Frame(scene, options, nullptr, vulkan::SurfacesBy::automatic, vulkan::RaysBy::automatic, cache).render(stats);
+  } catch (...) {  // what is lost is not asked again
+    if (cache != nullptr) cache->parts().device.reset();
+    throw;
+  }
   if (state != nullptr) state->complete = options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);
   return picture;
 }

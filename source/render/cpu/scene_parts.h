@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "render/cpu/ray_scene.h"
 #include "shadow/gather.h"
@@ -9,6 +10,10 @@
 #include "steradian/render_cache.h"
 
 namespace steradian {
+
+namespace vulkan {
+class Device;
+}
 
 // The edges that cast shadows, and the trees over them.
 struct ShadowEdges {
@@ -36,6 +41,9 @@ struct RenderCache::Parts {
 
   std::shared_ptr<RayScene> rays;
   std::shared_ptr<const ShadowEdges> shadows;
+
+  std::shared_ptr<const vulkan::Device> device;  // with its pipelines; of that name in the options
+  std::string device_name;
 };
 
 }  // namespace steradian

@@ -1,6 +1,5 @@
 #include "render/vulkan/compute_program.h"
 
-#include <map>
 #include <utility>
 
 #include "render/vulkan/buffer_handles.h"
@@ -13,18 +12,37 @@ struct ComputeProgram::Handles {
     return binding < texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
   }
 
-  std::vector<vk::raii::ShaderModule> shaders;
-  vk::raii::DescriptorSetLayout set_layout = nullptr;
-  vk::raii::PipelineLayout layout = nullptr;
+  Pipelines* pipelines = nullptr;  // the device's
   vk::raii::DescriptorPool pool = nullptr;
   vk::raii::DescriptorSet set = nullptr;
   vk::raii::CommandBuffer commands = nullptr;
   vk::raii::Fence done = nullptr;
   vk::raii::QueryPool queries = nullptr;
   std::size_t query_count = 0;
-  std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> numbers;
-  std::vector<vk::raii::Pipeline> pipelines;
 };
+
+namespace {
+
+// The device's, made where it has none of the kind yet. type(i): of binding i.
+template <class Type>
+Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::uint32_t buffers,
+                        std::uint32_t texels, Type type) {
+  const Device::Handles& d = device.handles();
+  std::vector<const void*> key;
+  for (const auto& spirv : shaders) key.push_back(spirv.data());
+  for (const std::uint32_t count : {buffers, texels}) key.push_back(reinterpret_cast<const void*>(std::uintptr_t{count}));
+  if (const auto found = d.pipelines.find(key); found != d.pipelines.end()) return found->second;
+  Pipelines p;
+  for (const auto& spirv : shaders) p.shaders.push_back(module_of(d.device, spirv));
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (std::uint32_t i = 0; i < buffers + texels; ++i) bindings.emplace_back(i, type(i), 1, vk::ShaderStageFlagBits::eCompute);
+  p.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
+  const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
+  p.layout = d.device.createPipelineLayout({{}, *p.set_layout, push});
+  return d.pipelines.emplace(std::move(key), std::move(p)).first->second;
+}
+
+}  // namespace
 
 ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
                                std::size_t texels)
@@ -33,19 +51,11 @@ ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span
     const vk::raii::Device& d = device.handles().device;
     Handles& h = *handles_;
     h.texels = static_cast<std::uint32_t>(texels);
-    const auto buffer_count = static_cast<std::uint32_t>(texels + buffers);
-    for (const auto& spirv : shaders) h.shaders.push_back(module_of(d, spirv));
-
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < buffer_count; ++i) bindings.emplace_back(i, h.type(i), 1, vk::ShaderStageFlagBits::eCompute);
-    h.set_layout = d.createDescriptorSetLayout({{}, bindings});
-    const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
-    h.layout = d.createPipelineLayout({{}, *h.set_layout, push});
-
+    h.pipelines = &pipelines_of(device, shaders, static_cast<std::uint32_t>(buffers), h.texels, [&](std::uint32_t i) { return h.type(i); });
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, static_cast<std::uint32_t>(buffers)}};
     if (texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
     h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
-    h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.set_layout}).front());
+    h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.pipelines->set_layout}).front());
     h.commands = std::move(d.allocateCommandBuffers({*device.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
     h.done = d.createFence({});
   });
@@ -54,17 +64,17 @@ ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span
 ComputeProgram::~ComputeProgram() { device_.handles().leave(handles_); }
 
 std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::int32_t>& constants) {
-  Handles& h = *handles_;
-  if (const auto found = h.numbers.find({shader, constants}); found != h.numbers.end()) return found->second;
+  Pipelines& p = *handles_->pipelines;
+  if (const auto found = p.numbers.find({shader, constants}); found != p.numbers.end()) return found->second;
   checked(device_, "make a compute pipeline", [&] {
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, i * 4u, sizeof(std::int32_t));
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
                                                 constants.size() * sizeof(std::int32_t), constants.data());
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *h.shaders.at(shader), "main", &specialization);
-    h.pipelines.push_back(device_.handles().device.createComputePipeline(nullptr, {{}, stage, *h.layout}));
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *p.shaders.at(shader), "main", &specialization);
+    p.made.push_back(device_.handles().device.createComputePipeline(nullptr, {{}, stage, *p.layout}));
   });
-  return h.numbers.emplace(std::pair(shader, constants), h.pipelines.size() - 1).first->second;
+  return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
 }
 
 std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
@@ -98,11 +108,11 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
       h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 0);
       wait();
     }
-    h.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *h.layout, 0, *h.set, nullptr);
+    h.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *h.pipelines->layout, 0, *h.set, nullptr);
     for (std::uint32_t i = 0; i < dispatches.size(); ++i) {
       const Dispatch& one = dispatches[i];
-      h.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *h.pipelines.at(one.pipeline));
-      h.commands.pushConstants<std::uint32_t>(*h.layout, vk::ShaderStageFlagBits::eCompute, 0, one.push);
+      h.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *h.pipelines->made.at(one.pipeline));
+      h.commands.pushConstants<std::uint32_t>(*h.pipelines->layout, vk::ShaderStageFlagBits::eCompute, 0, one.push);
       h.commands.dispatch(one.groups_x, one.groups_y, 1);
       if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, i + 1);
       wait();

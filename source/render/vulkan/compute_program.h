@@ -1,5 +1,5 @@
-// Compute shaders over the same storage buffers: pipelines are made once for each choice of specialisation constants, and a run is any
-// number of dispatches, one after another.
+// Compute shaders over the same storage buffers: pipelines are made once for a device and each choice of specialisation constants, and a
+// run is any number of dispatches, one after another.
 #pragma once
 
 #include <cstdint>

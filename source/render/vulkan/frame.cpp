@@ -63,6 +63,21 @@ DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
   return choose_method(scene, options);
 }
 
+std::shared_ptr<const Device> device_of(const std::string& name, RenderCache* cache) {
+  if (cache != nullptr && cache->parts().device != nullptr && cache->parts().device_name == name) return cache->parts().device;
+  auto device = std::make_shared<const Device>(DeviceOptions{name, false});
+  if (cache != nullptr) {
+    cache->parts().device = device;
+    cache->parts().device_name = name;
+  }
+  return device;
+}
+
+SceneParts parts_of(const Scene& scene, const RenderOptions& options, RenderCache* cache) {
+  const Sorted sorted = options.shadows != steradian::Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays;
+  return cache != nullptr ? cache->parts().follow(scene, sorted) : SceneParts::of(scene, sorted);
+}
+
 // What is seen through one primary sample of a tile, past as many surfaces as `layer` says.
 struct Job {
   int tile;
@@ -78,13 +93,13 @@ bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
 }
 
 struct Frame::Parts {
-  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays)
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache)
       : scene(s),
         options(o),
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
         method(chosen(s, o)),
-        device(d != nullptr ? std::move(d) : std::make_shared<const Device>(DeviceOptions{o.device, false})),
-        parts(SceneParts::of(s, o.shadows != steradian::Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays)),
+        device(d != nullptr ? std::move(d) : device_of(o.device, cache)),
+        parts(parts_of(s, o, cache)),
         surfaces(s, o, parts.rays),
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
@@ -341,8 +356,9 @@ struct Frame::Parts {
   std::map<std::string, double> reported;  // milliseconds of passes up to the last report
 };
 
-Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays)
-    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays)) {}
+Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays,
+             RenderCache* cache)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache)) {}
 Frame::~Frame() = default;
 
 Picture Frame::render(RenderStats* stats) {

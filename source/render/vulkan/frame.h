@@ -6,6 +6,7 @@
 
 #include "render/vulkan/device.h"
 #include "steradian/render.h"
+#include "steradian/render_cache.h"
 
 namespace steradian::vulkan {
 
@@ -24,10 +25,10 @@ enum class RaysBy { automatic, host, device };
 class Frame {
  public:
   // Scene and options must stay. surfaces: `device` is a UsageError where something keeps the host at it. device: null for the one that the
-  // options name. Throws UsageError for what runs on the host alone, and for options that this back end does not have yet; Error where
-  // there is no such device.
+  // options name. cache: keeps what is sorted, and that device with its pipelines, for the next frame; null: nothing is kept. Throws
+  // UsageError for what runs on the host alone, and for options that this back end does not have yet; Error where there is no such device.
   Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
-        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic);
+        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr);
   ~Frame();
 
   // Sets stats of this frame alone. Returns early, with what it has, when options.stop becomes true.

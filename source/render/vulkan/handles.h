@@ -5,15 +5,26 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/vulkan/device.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
+
+// Shaders over the same buffers, and the pipelines that were made of them so far.
+struct Pipelines {
+  std::vector<vk::raii::ShaderModule> shaders;
+  vk::raii::DescriptorSetLayout set_layout = nullptr;
+  vk::raii::PipelineLayout layout = nullptr;
+  std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> numbers;  // by shader and constants
+  std::vector<vk::raii::Pipeline> made;
+};
 
 struct Device::Handles {
   vk::raii::Context context;
@@ -25,6 +36,9 @@ struct Device::Handles {
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
   float timestamp_period = 0;  // nanoseconds of a tick
+  // By what tells programs apart: their shaders and how many buffers they have. They stay as long as the device: pipelines take longer
+  // to make than pictures.
+  mutable std::map<std::vector<const void*>, Pipelines> pipelines;
   std::vector<std::string> messages;
   mutable bool hangs = false;  // work that it was given has not ended, and still uses what was made for it
 
