@@ -74,97 +74,145 @@ void take_piece(vec4 ends, int segment, int left) {
 }
 
 // Software devices end a thread's loops after 65,535 turns in all, silently; eight threads turn together, and a loop that ends at once takes a
-// turn as well. With a space of 128 segments the pairs take half of them, and 3,072 edges (tile_shadows.cpp) a tenth. These bounds on a
-// thread's pairs that are looked at closely, and on the sorting of crossings, keep all of it below 62,000.
+// turn as well. So a turn looks at four segments, and those for which floats are not enough are gone through afterwards: with a space of 256
+// segments that takes a quarter of the turns, and 5,120 edges (tile_shadows.cpp), four turns each, a third. These bounds on a thread's pairs
+// that are looked at closely, and on the sorting of crossings, keep all of it below 62,000, even if no two of the eight share any of them.
+const int kAtOnce = 4;
 const int kMostCloseTurns = 600;
 const int kMostShiftTurns = 400;
 int close_turns;
 int shift_turns;
+
+// Segments that a segment may cross, or its middle's ray to the left, with what floats know.
+const int kClose = 128;
+const int kMeets = 1;
+const int kNotCertain = 2;
+const int kEndAbove = 4;
+const int kCloseNumber = 8;
+int close[kClose];
+int close_count;
 
 // Crossings of one segment, in their order.
 const int kCrossings = 32;
 float crossing_at[kCrossings];
 int crossing_change[kCrossings];
 
+// A segment whose count is wanted.
+struct Walk {
+    int number;
+    ivec4 cells;
+    ivec4 shifts;
+    uvec2 names;
+    ivec2 m;  // twice the middle
+    ivec2 shift_m;
+    ivec4 bounds;
+};
+
 // What a segment whose start and end lie on different sides of a height adds to a ray to the left along it, from a place on its left or right.
 int left_ray(int weight, bool upwards, bool left) { return upwards ? (left ? 0 : -weight) : (left ? weight : 0); }
 
+// What segment i adds to the count left of the middle, as far as floats know; notes the segment where that is not all.
+int look_at_segment(Walk e, int i) {
+    ivec4 f = cells[i];
+    ivec4 shift_f = shifts[i];
+    uvec2 named_f = names[i];
+    int weight = weights[i];
+    int count = 0;
+    // Events of the box's left side, and which ends lie above the middle; ties go by displacements.
+    ivec2 height = 2 * f.yw - ivec2(e.m.y);
+    ivec2 shifted = 2 * shift_f.yw - ivec2(e.shift_m.y);
+    bool start_above = height.x > 0 || (height.x == 0 && shifted.x > 0);
+    bool end_above = height.y > 0 || (height.y == 0 && shifted.y > 0);
+    bool start_below = height.x < 0 || (height.x == 0 && shifted.x < 0);
+    bool end_below = height.y < 0 || (height.y == 0 && shifted.y < 0);
+    if ((named_f.x & kLeftName) != 0u && start_below) count += weight;
+    if ((named_f.y & kLeftName) != 0u && end_below) count -= weight;
+    if (i == e.number) return count;
+
+    ivec2 d = e.cells.zw - e.cells.xy;
+    ivec2 df = f.zw - f.xy;
+    ivec2 low = min(f.xy, f.zw);
+    ivec2 high = max(f.xy, f.zw);
+    bool passes = start_above != end_above && 2 * low.x <= e.m.x;
+    bool certain = true;
+    if (passes) {
+        int side = 2 * high.x < e.m.x ? (end_above ? -1 : 1) : float_side(df, e.m - 2 * f.xy);
+        certain = side != 0;
+        count += left_ray(side == 0 ? 0 : weight, end_above, side > 0);
+    }
+    bool meets = all(lessThanEqual(low, e.bounds.zw)) && all(greaterThanEqual(high, e.bounds.xy)) && !share_an_end(e.names, named_f);
+    if (meets) {
+        int ea = float_side(df, e.cells.xy - f.xy);
+        int eb = float_side(df, e.cells.zw - f.xy);
+        int fa = float_side(d, f.xy - e.cells.xy);
+        int fb = float_side(d, f.zw - e.cells.xy);
+        meets = ea * eb <= 0 && fa * fb <= 0;
+    }
+    if (meets || !certain) {
+        too_much = too_much || close_count == kClose;
+        close[min(close_count, kClose - 1)] =
+            kCloseNumber * i + (meets ? kMeets : 0) + (certain ? 0 : kNotCertain) + (end_above ? kEndAbove : 0);
+        ++close_count;
+    }
+    return count;
+}
+
 void cut_segment(int number, int base) {
-    ivec4 e = cells[number];
-    ivec4 shift_e = shifts[number];
-    uvec2 named = names[number];
+    Walk w;
+    w.number = number;
+    w.cells = cells[number];
+    w.shifts = shifts[number];
+    w.names = names[number];
+    ivec4 e = w.cells;
+    ivec4 shift_e = w.shifts;
     ivec2 d = e.zw - e.xy;
     if (d == ivec2(0)) return;
-    ivec2 m = e.xy + e.zw;  // twice the middle
-    ivec2 shift_m = shift_e.xy + shift_e.zw;
-    ivec4 bounds = ivec4(min(e.xy, e.zw), max(e.xy, e.zw));
+    w.m = e.xy + e.zw;
+    w.shift_m = shift_e.xy + shift_e.zw;
+    w.bounds = ivec4(min(e.xy, e.zw), max(e.xy, e.zw));
+    close_count = 0;
     int count = base;
+    for (int i = 0; i < segment_count; i += kAtOnce) {
+        count += look_at_segment(w, i);
+        if (i + 1 < segment_count) count += look_at_segment(w, i + 1);
+        if (i + 2 < segment_count) count += look_at_segment(w, i + 2);
+        if (i + 3 < segment_count) count += look_at_segment(w, i + 3);
+    }
+    close_turns += close_count;
+    too_much = too_much || close_turns > kMostCloseTurns;
     int before_middle = 0;
     int crossings = 0;
-    for (int i = 0; i < segment_count; i++) {
+    for (int n = 0; n < close_count && !too_much; n++) {
+        int i = close[n] / kCloseNumber;
         ivec4 f = cells[i];
         ivec4 shift_f = shifts[i];
-        uvec2 named_f = names[i];
         int weight = weights[i];
-        // Events of the box's left side, and which ends lie above the middle; ties go by displacements.
-        ivec2 height = 2 * f.yw - ivec2(m.y);
-        ivec2 shifted = 2 * shift_f.yw - ivec2(shift_m.y);
-        bool start_above = height.x > 0 || (height.x == 0 && shifted.x > 0);
-        bool end_above = height.y > 0 || (height.y == 0 && shifted.y > 0);
-        bool start_below = height.x < 0 || (height.x == 0 && shifted.x < 0);
-        bool end_below = height.y < 0 || (height.y == 0 && shifted.y < 0);
-        if ((named_f.x & kLeftName) != 0u && start_below) count += weight;
-        if ((named_f.y & kLeftName) != 0u && end_below) count -= weight;
-        if (i == number) continue;
-
-        ivec2 df = f.zw - f.xy;
-        ivec2 low = min(f.xy, f.zw);
-        ivec2 high = max(f.xy, f.zw);
-        bool passes = start_above != end_above && 2 * low.x <= m.x;
-        bool certain = true;
-        if (passes) {
-            int side = 2 * high.x < m.x ? (end_above ? -1 : 1) : float_side(df, m - 2 * f.xy);
-            certain = side != 0;
-            count += left_ray(side == 0 ? 0 : weight, end_above, side > 0);
+        if ((close[n] & kNotCertain) != 0)
+            count += left_ray(weight, (close[n] & kEndAbove) != 0, is_left(side_of(f, shift_f, w.m, w.shift_m, 2)));
+        if ((close[n] & kMeets) == 0) continue;
+        Side ea = side_of(f, shift_f, e.xy, shift_e.xy, 1);
+        Side eb = side_of(f, shift_f, e.zw, shift_e.zw, 1);
+        bool to_left = is_left(eb);
+        if (is_left(ea) == to_left) continue;
+        if (is_left(side_of(e, shift_e, f.xy, shift_f.xy, 1)) == is_left(side_of(e, shift_e, f.zw, shift_f.zw, 1))) continue;
+        if (crossings == kCrossings || shift_turns > kMostShiftTurns) {
+            too_much = true;
+            break;
         }
-        bool meets = all(lessThanEqual(low, bounds.zw)) && all(greaterThanEqual(high, bounds.xy)) && !share_an_end(named, named_f);
-        if (meets) {
-            int ea = float_side(df, e.xy - f.xy);
-            int eb = float_side(df, e.zw - f.xy);
-            int fa = float_side(d, f.xy - e.xy);
-            int fb = float_side(d, f.zw - e.xy);
-            meets = ea * eb <= 0 && fa * fb <= 0;
+        int change = to_left ? weight : -weight;
+        // The middle is still to come where it lies on the end's side.
+        if (is_left(side_sum(ea, eb)) == to_left) before_middle += change;
+        float t = place_between(ea, eb);
+        int k = crossings;
+        shift_turns += k;
+        while (k > 0 && crossing_at[k - 1] > t) {
+            crossing_at[k] = crossing_at[k - 1];
+            crossing_change[k] = crossing_change[k - 1];
+            --k;
         }
-        bool close = meets || !certain;
-        if (close) ++close_turns;
-        too_much = too_much || close_turns > kMostCloseTurns;
-        for (int turn = close && !too_much ? 0 : 1; turn < 1; turn++) {
-            if (!certain) count += left_ray(weight, end_above, is_left(side_of(f, shift_f, m, shift_m, 2)));
-            if (!meets) break;
-            Side ea = side_of(f, shift_f, e.xy, shift_e.xy, 1);
-            Side eb = side_of(f, shift_f, e.zw, shift_e.zw, 1);
-            bool to_left = is_left(eb);
-            if (is_left(ea) == to_left) break;
-            if (is_left(side_of(e, shift_e, f.xy, shift_f.xy, 1)) == is_left(side_of(e, shift_e, f.zw, shift_f.zw, 1))) break;
-            if (crossings == kCrossings || shift_turns > kMostShiftTurns) {
-                too_much = true;
-                break;
-            }
-            int change = to_left ? weight : -weight;
-            // The middle is still to come where it lies on the end's side.
-            if (is_left(side_sum(ea, eb)) == to_left) before_middle += change;
-            float t = place_between(ea, eb);
-            int k = crossings;
-            shift_turns += k;
-            while (k > 0 && crossing_at[k - 1] > t) {
-                crossing_at[k] = crossing_at[k - 1];
-                crossing_change[k] = crossing_change[k - 1];
-                --k;
-            }
-            crossing_at[k] = t;
-            crossing_change[k] = change;
-            ++crossings;
-        }
+        crossing_at[k] = t;
+        crossing_change[k] = change;
+        ++crossings;
     }
     // The count is on the -x side: the left if the segment runs up.
     bool up = d.y > 0 || (d.y == 0 && shift_e.w > shift_e.y);

@@ -237,7 +237,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
     const Scene scene = scene_of(name);
     const double share = expect_same(std::string(name) + ", shadows", scene, options);
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
-    EXPECT_LE(share, 0.35) << name;
+    EXPECT_LE(share, std::string(name) == "textured_floor" ? 0.35 : 0.15) << name;
   }
   // Coats under bumps see other parts of lights than what lies below them.
   Scene scene = everything();
@@ -259,7 +259,7 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
     EXPECT_EQ(expect_same("12 triangles", under_triangles(12), options), 0);
   }
   options.method = "ltc-compact";
-  // 120 edges: hardly less than a thread has space and turns of loops for. A few points have no turns left.
+  // A few points have no turns of loops left.
   EXPECT_LE(expect_same("40 triangles", under_triangles(40), options), 0.01);
   EXPECT_GE(expect_same("200 triangles", under_triangles(200), options), 0.5);
   // Through the triangles, which leave sections of theirs in its plane.

@@ -12,7 +12,7 @@ namespace {
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdges = 3072, kMostIncidences = 1024;  // of a group: see shaders/shadow_count.glsl
+constexpr std::size_t kMostEdges = 5120, kMostIncidences = 1024;  // of a group: see shaders/shadow_count.glsl
 constexpr std::size_t kMostValues = std::size_t{1} << 23;         // of a tile: a quarter of a buffer
 constexpr std::uint32_t kMostNumber = 1 << 27;                    // of a vertex or edge: names have 28 bits
 constexpr std::size_t kMostPlaces = 1 << 16;                      // of vertices and planes in a group
@@ -140,7 +140,8 @@ bool TileShadows::find(const Group& asked) {
   const shadow::EdgeArrays& edges = asked.edges;
   const shadow::LaneEdges all = edges.lane_edges();
   const std::vector<shadow::EdgeArrays::Triangle>& crossing = edges.crossing();
-  if (values.size() > kMostValues || all.edge_count + crossing.size() > kMostEdges) return false;
+  // A triangle takes half more turns of a thread's loops than an edge.
+  if (values.size() > kMostValues || all.edge_count + crossing.size() + crossing.size() / 2 > kMostEdges) return false;
   for (const auto& triangle : crossing)
     if (triangle.number >= kMostNumber || *std::max_element(std::begin(triangle.edges), std::end(triangle.edges)) >= kMostNumber)
       return false;

@@ -13,7 +13,7 @@
 namespace steradian::vulkan {
 
 // Segments that a thread may have space for: shaders/shadow_count.glsl says why not more.
-inline constexpr std::array<int, 3> kSpaces = {32, 64, 128};
+inline constexpr std::array<int, 4> kSpaces = {32, 64, 128, 256};
 
 class TileShadows : public ShadowTaker {
  public:
