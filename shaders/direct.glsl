@@ -26,7 +26,7 @@ layout(constant_id = 13) const int MATRIX_SIZE = 2;
 layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
 layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something hides the lights from some points, or a part of them
 layout(constant_id = 16) const int UNCUT_LIGHTS = 0;       // 1: every point sees each light whole, above its horizon, from the lit side
-layout(constant_id = 17) const int TEXTURED_LIGHTS = 0;    // 1: lights are textured, their means stand in `means`
+layout(constant_id = 17) const int UNEVEN_LIGHTS = 0;      // kTextureMean, kProfileMean: of lights of such, the means stand in `means`
 layout(constant_id = 18) const int TABLE_FIRST = 0;        // of texture_means.comp: where the table begins
 layout(constant_id = 19) const int PROFILED_LIGHTS = 0;    // 1: points with a profile
 layout(constant_id = 20) const int LOBE_FORM = 0;          // of GGX 1: without shadowing, 2: and without Fresnel; of own lobes: see there
@@ -44,7 +44,7 @@ const bool TOGETHER = WITH_DIFFUSE == 1;
 const bool SHADOWED = SHADOWED_LIGHTS == 1;
 const bool UNCUT = UNCUT_LIGHTS == 1;
 const bool PROFILED = PROFILED_LIGHTS == 1;
-const bool TEXTURED = TEXTURED_LIGHTS == 1;
+const bool UNEVEN = UNEVEN_LIGHTS != 0;
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer surfaces;
@@ -99,7 +99,7 @@ const int F_IS_X = METHOD == 3 ? 0 : 1;  // the closer form of each fit
 #include "phong_lobe.glsl"
 #elif LOBE == LOBE_ARCS
 #include "arcs_lobe.glsl"
-#elif LOBE != LOBE_TEXTURE_MEANS
+#elif LOBE != LOBE_TEXTURE_MEANS && LOBE != LOBE_PROFILE_MEANS
 #include "specular.glsl"
 #endif
 
@@ -112,6 +112,8 @@ vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (
 #include "tables.glsl"
 #include "light_textures.glsl"
 #include "texture_means.glsl"
+#elif LOBE == LOBE_PROFILE_MEANS
+#include "profile_means.glsl"
 #else
 // What of a pixel's surface the lobe asks for.
 struct Surface {
@@ -208,6 +210,19 @@ vec3 sent_by(Light light, Surface s) {
 #endif
 }
 
+// The radiance that a lobe sees of a light with a profile: the peak's, and what the rest differs from that, over the lobe's integral.
+//
+//   found  radiance at the peak, sum of what differs, least and most [1 / m2 of the light]
+//   sent   what the lobe sends of a light of radiance 1
+vec3 profiled_mean(Light light, Surface s, vec4 found, vec3 sent) {
+#if LOBE == LOBE_DIFFUSE
+    float integral = lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, 0.0));  // the boundary is no part of the mean's lobe
+#else
+    float integral = max(sent.x, max(sent.y, sent.z));
+#endif
+    return light.r[8].xyz * (integral > 0.0 ? clamp(found.x + found.y / integral, found.z, found.w) : 0.0);
+}
+
 void main() {
     Entry entry = entry_here();
     Surface surface = surface_in(entry);
@@ -226,9 +241,11 @@ void main() {
                 else
                     sum += sent;
             }
-        } else if (TEXTURED) {
+        } else if (UNEVEN) {
             Light light = light_at(lists[entry.first + 2u * i]);
-            sum += means[lists[entry.first + 2u * i + 1u] + slot_of_means()].xyz * sent_by(light, surface);
+            vec4 found = means[lists[entry.first + 2u * i + 1u] + slot_of_means()];
+            vec3 sent = sent_by(light, surface);
+            sum += sent * (UNEVEN_LIGHTS == kProfileMean ? profiled_mean(light, surface, found, sent) : found.xyz);
         } else {
             Light light = light_at(lists[entry.first + i]);
             sum += light.r[0].xyz * sent_by(light, surface);

@@ -53,3 +53,8 @@ const int kAnyForHost = 8;  // what the device does not find: the tile is the ho
 const int kTextureHead = 7;
 const int kTextureLevel = 2;
 const int kTextureCell = 5;
+
+// Rects and disks with a profile: profile_means.glsl. What a light's mean is found by.
+const int kProfileHead = 6;
+const int kTextureMean = 1;
+const int kProfileMean = 2;

@@ -30,12 +30,15 @@ float profile_intensity(int first, vec3 d) {
     int verticals = int(head.y);
     int horizontals = int(head.z);
     float degree = 180.0 * inverse_pi();
-    float vertical = trig_atan2(length(d.xy), d.z) * degree;
-    float horizontal = trig_atan2(d.y, d.x) * degree;
+    float pole = 1.0e-6;
+    float across = length(d.xy);
+    float vertical = trig_atan2(across, d.z) * degree;
+    float horizontal = across > pole * abs(d.z) ? trig_atan2(d.y, d.x) * degree : 0.0;
     if (horizontal < 0.0) horizontal += 360.0;
     if (head.x > 0.5) {  // type b
-        vertical = trig_atan2(d.x, d.z) * degree;
-        horizontal = trig_atan2(-d.y, length(d.xz)) * degree;
+        across = length(d.xz);
+        vertical = across > pole * abs(d.y) ? trig_atan2(d.x, d.z) * degree : 0.0;
+        horizontal = trig_atan2(-d.y, across) * degree;
     }
     vec2 v = profile_place(first, 0, verticals, vertical);
     vec2 h = profile_place(first, verticals, horizontals, horizontal);

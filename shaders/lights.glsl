@@ -11,7 +11,8 @@
 //   r[4]  polygon: reach_a; others: axis y, half axis of a capsule; spot_offset
 //   r[5]  polygon: reach_b; others: axis z
 //   r[6]  polygon: area; ellipsoid: row x of the inverse; r[7], r[8]: its rows y and z; punctual: x and y of
-//         the profile's frame, in r[7] where it aims; r[7].w: where the texture or profile begins
+//         the profile's frame, in r[7] where it aims; r[7].w: where the texture or profile begins; polygon, disk with a profile: r[8] the
+//         intensity that its candela are of, over the area
 struct Light {
     vec4 r[kRecord];
 };

@@ -10,3 +10,4 @@
 #define LOBE_TEXTURE_MEANS 7
 #define LOBE_PHONG 8
 #define LOBE_ARCS 9
+#define LOBE_PROFILE_MEANS 10

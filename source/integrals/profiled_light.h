@@ -24,6 +24,15 @@ class ProfiledLight {
   // direction alone, so that this is what bounds the error.
   Vec3d seen_by(const Material& lobe, const ShadingPoint& at, double integral, int most_cells = 256) const;
 
+  // What the means go by.
+  const LightEmission& emission() const { return emission_; }
+  struct Outline {
+    bool round;
+    Vec3d center, x, y;  // of a rect: half axes
+    double widest;       // a cell's largest span [rad]: of the kernel 1 / r^2, and of the profile
+  };
+  Outline outline() const { return {round_, center_, x_, y_, widest_}; }
+
   // What the lobe sends to the view, by adaptive cubature over the light's area, with a bound on the error.
   ReferenceResult reference(const Material& lobe, const ShadingPoint& at, const ReferenceOptions& options) const;
 

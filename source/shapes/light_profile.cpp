@@ -33,14 +33,18 @@ bool is_within(const std::vector<double>& angles, double at) {
 
 double intensity(const LightProfile& profile, Vec3d d) {
   if (profile.candela.empty() || d == Vec3d{}) return 0;
+  // At the poles, where all half planes meet, roundings would say which one; not all files have one value there.
+  constexpr double kPole = 1e-6;
   double vertical, horizontal;
   if (profile.type == LightProfile::Type::c) {
-    vertical = std::atan2(std::hypot(d.x, d.y), d.z) / kDegree;
-    horizontal = std::atan2(d.y, d.x) / kDegree;
+    const double across = std::hypot(d.x, d.y);
+    vertical = std::atan2(across, d.z) / kDegree;
+    horizontal = across > kPole * std::fabs(d.z) ? std::atan2(d.y, d.x) / kDegree : 0;
     if (horizontal < 0) horizontal += 360;
   } else {
-    vertical = std::atan2(d.x, d.z) / kDegree;
-    horizontal = std::atan2(-d.y, std::hypot(d.x, d.z)) / kDegree;
+    const double across = std::hypot(d.x, d.z);
+    vertical = across > kPole * std::fabs(d.y) ? std::atan2(d.x, d.z) / kDegree : 0;
+    horizontal = std::atan2(-d.y, across) / kDegree;
   }
   if (!is_within(profile.vertical, vertical) || !is_within(profile.horizontal, horizontal)) return 0;
   const Between v = find(profile.vertical, vertical), h = find(profile.horizontal, horizontal);

@@ -7,6 +7,9 @@
 #include <tuple>
 
 #include "render/cpu/camera_rays.h"
+#include "render/cpu/irradiance.h"
+#include "render/cpu/light_list.h"
+#include "render/cpu/uneven_diffuse.h"
 #include "scene/test_meshes.h"
 #include "steradian/radiance.h"
 #include "steradian/render.h"
@@ -78,6 +81,36 @@ TEST(ProfiledRender, DiffuseLightIsTheReferences) {
     std::printf("%s: worst %.2e\n", round ? "disk" : "rect", worst);
     EXPECT_GT(worst, 0);
     EXPECT_LT(worst, 3e-3);  // ProfiledLight.ErrorsAreMeasured
+  }
+}
+
+// The mean is of directions; what a boundary keeps from all of them is in the integral that it is multiplied by.
+TEST(ProfiledRender, ABoundaryAboveTheDiffuseLobeLeavesTheMeanAsItIs) {
+  const Scene scene = lit_floor(false, 0.5f, 1);
+  const std::vector<PackLight> lights = prepare_lights(scene);
+  const auto tile = std::make_unique<SurfaceTile>();
+  const Vec3f view = normalized(Vec3f{0.9f, 0.3f, 0.1f});
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    tile->material[i] = &scene.materials[0];
+    tile->position.x[i] = static_cast<float>(i % 32) / 8 - 2, tile->position.z[i] = static_cast<float>(i / 32) / 8 - 2;
+    tile->normal.y[i] = 1;
+    tile->view.x[i] = view.x, tile->view.y[i] = view.y, tile->view.z[i] = view.z;
+    tile->albedo.x[i] = tile->albedo.y[i] = tile->albedo.z[i] = 1;
+  }
+  alignas(64) TilePlane irradiance, mean;
+  for (const float loss : {0.0f, 1.0f}) {
+    tile->fresnel_loss.fill(loss);
+    tile->radiance.x.fill(0);
+    add_diffuse_from_uneven(*tile, {&lights[0]});
+    irradiance_table_for(active_simd()).irradiance(lights[0], points_of(*tile), irradiance.data());
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const float now = tile->radiance.x[i] / irradiance[i];
+      if (loss > 0) {
+        EXPECT_NEAR(now, mean[i], 1e-6f * mean[i]) << i;
+      } else {
+        mean[i] = now;
+      }
+    }
   }
 }
 

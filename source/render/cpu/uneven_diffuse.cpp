@@ -20,11 +20,17 @@ std::vector<const PackLight*> even_ones(const std::vector<const PackLight*>& lig
 }
 
 void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-  alignas(64) TilePlane irradiance;
+  alignas(64) TilePlane irradiance, above;  // above: the boundary, which the lobe of a profile's mean has not
   for (const PackLight* light : lights) {
     if (light->is_even()) continue;
     const Points points = points_of(tile);
-    irradiance_table_for(active_simd()).irradiance(*light, points, irradiance.data());
+    const IrradianceTable& table = irradiance_table_for(active_simd());
+    table.irradiance(*light, points, irradiance.data());
+    if (light->profiled != nullptr) {
+      Points without_boundary = points;
+      without_boundary.fresnel_loss = nullptr;
+      table.irradiance(*light, without_boundary, above.data());
+    }
     TileVector seen;
     alignas(64) TilePlane found;
     found.fill(0);
@@ -41,7 +47,7 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
       const Vec3f mean = found[i] > 0 ? Vec3f{seen.x[i], seen.y[i], seen.z[i]}
                          : light->textured != nullptr
                              ? light->textured->seen_by_diffuse(at, TextureWay::look_up)
-                             : static_cast<Vec3f>(light->profiled->seen_by({}, at, static_cast<double>(irradiance[i] * kInversePi)));
+                             : static_cast<Vec3f>(light->profiled->seen_by({}, at, static_cast<double>(above[i] * kInversePi)));
       const Vec3f add = albedo * mean * (irradiance[i] * kInversePi);
       tile.radiance.x[i] += add.x;
       tile.radiance.y[i] += add.y;

@@ -30,9 +30,10 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-// In the order in which they run: lobes ask what textured lights' means are, shares are of what all lobes have left.
+// In the order in which they run: lobes ask what uneven lights' means are, shares are of what all lobes have left.
 enum Shader : std::size_t {
   kTextureMeans,
+  kProfileMeans,
   kDiffuse,
   kLtc,
   kClosedForm,
@@ -117,7 +118,9 @@ struct DirectLight::Pass {
   bool with_diffuse = false;  // one walk for both
   bool over_lobe() const { return shader != kDiffuse; }
   // Other lobes take textured lights' mean radiance.
-  bool sees_textures() const { return shader != kCharlie && shader != kPhong && shader != kArcs; }
+  bool asks_for_mean(const LightRecord& light) const {
+    return light.mean == kProfileMean || (light.mean == kTextureMean && shader != kCharlie && shader != kPhong && shader != kArcs);
+  }
   const char* name() const {
     return own != nullptr       ? "lobes"
            : shader == kDiffuse ? "direct"
@@ -172,8 +175,9 @@ DirectLight::DirectLight(const Device& device, const Scene& scene, const DirectM
       tiles_(
           (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program_(device,
-               {texture_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(),
-                ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(), arcs_lobe_shader(), shadow_shares_shader()},
+               {texture_means_shader(), profile_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(),
+                representative_point_shader(), sheen_shader(), ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(),
+                arcs_lobe_shader(), shadow_shares_shader()},
                kBuffers, kTexels) {
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
@@ -314,7 +318,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           magnitude_size_,
           shadowed != nullptr ? 1 : 0,
           whole ? 1 : 0,
-          light.textured && pass.sees_textures() ? 1 : 0,
+          pass.asks_for_mean(light) ? light.mean : 0,
           0,
           light.profiled ? 1 : 0,
           pass.own != nullptr ? pass.own->form : 0,
@@ -322,14 +326,19 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           pass.own != nullptr ? pass.own->low : 0};
 }
 
-// What a lobe sees of a textured light: an entry of its own, since software devices bound the turns of a thread's loops.
+// What a lobe sees of an uneven light: an entry of its own, since software devices bound the turns of a thread's loops.
 void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
   std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
   constants[13] = compact_size_;
   constants[18] = compact_first_;
-  Work::Group& group = work.groups[{kTextureMeans, constants}];
-  group.name = "textures";
+  const bool profiled = records_.lights[light].mean == kProfileMean;
+  if (profiled) {
+    constants[0] = records_.lights[light].kind;
+    if (pass.shader == kCharlie) constants[4] = 3;
+  }
+  Work::Group& group = work.groups[{profiled ? kProfileMeans : kTextureMeans, constants}];
+  group.name = profiled ? "profiles" : "textures";
   group.entries.push_back({place, 1, pass.own != nullptr ? pass.own->first : 0, {light, work.means}});
 }
 
@@ -399,7 +408,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
   const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
   if (shadowed != nullptr) return work.add(key, own, place, {number, shadowed->states});
-  if (!record.textured || !own.sees_textures()) return work.add(key, own, place, {number});
+  if (!own.asks_for_mean(record)) return work.add(key, own, place, {number});
   list_means(work, place, own, number);
   work.add(key, own, place, {number, work.means});
   work.means += static_cast<std::uint32_t>(kSlotsOfSquare);

@@ -28,6 +28,11 @@ namespace {
 // What of the bounce the shaders do not have.
 bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
 
+bool has_own_lobes(const Scene& scene) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                     [&](const Mesh& mesh) { return !scene.materials[static_cast<std::size_t>(mesh.material)].specular_override.empty(); });
+}
+
 // What the shaders do not have, and the host lights: a sentence each.
 std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
                                      const std::vector<PackLight>& lights, const DirectLight& direct) {
@@ -40,13 +45,15 @@ std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& op
     say(options.indirect.mode == IndirectMode::path ? "the bounce by paths" : "the bounce behind its shadow rays");
   if (!DirectLight::has(method)) say(std::string("lobes by the method ") + name_of(method.ggx));
   for (const PackLight& light : lights) {
-    if (direct.has(light)) continue;
-    if (light.profiled != nullptr)
-      say("by the measured lamp '" + light.area->name + "'");
-    else
+    if (direct.has(light)) {
+      if (light.profiled != nullptr && has_own_lobes(scene))
+        say("tiles with lobes of extras.steradian by the measured lamp '" + light.area->name + "'");
+    } else
       sentences.push_back("the CPU lights by " +
-                          (light.area != nullptr ? "the textured light '" + light.area->name + "'" : "a measured lamp") +
-                          ": the device's buffers have no room for that");
+                          (light.area == nullptr
+                               ? std::string("a measured lamp")
+                               : (light.textured != nullptr ? "the textured light '" : "the measured lamp '") + light.area->name + "'") +
+                          ": too much for the device's buffers or loops");
   }
   for (const Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
@@ -136,8 +143,9 @@ struct Frame::Parts {
     const bool own = tile.any_override && direct.own_lobes().has_all(tile);
     const bool all_lobes = DirectLight::has(method) && (own || !tile.any_override);
     reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
-    const auto unknown =
-        std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) { return direct.has(*light); });
+    const auto unknown = std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) {
+      return direct.has(*light) && !(own && light->profiled != nullptr);  // no shader finds what those lobes see of a profile
+    });
     if (unknown != reaching.end()) host.add(tile, {unknown, reaching.end()});
     reaching.erase(unknown, reaching.end());
 

@@ -309,15 +309,6 @@ TEST_F(VulkanFrame, AsksTheDevicesRaysAsTheHosts) {
   }
 }
 
-TEST_F(VulkanFrame, SaysWhatTheHostLights) {
-  Scene scene = everything();
-  scene.area_lights[4].name = "lamp";
-  set_emission(scene.area_lights[4], lamp_profile(), {1, 0, 0});
-  const std::vector<std::string> warnings = warnings_of(scene, small("ltc-compact"));
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("by the measured lamp 'lamp'"), std::string::npos) << warnings[0];
-}
-
 TEST_F(VulkanFrame, RefusesWhatItDoesNotHave) {
   const Scene scene = scene_of("glossy_floor");
   const auto refused = [&](auto change) {

@@ -1,8 +1,10 @@
 #include "render/vulkan/light_details.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "integrals/ltc/textured_light.h"
+#include "integrals/profiled_light.h"
 
 namespace steradian::vulkan {
 namespace {
@@ -10,7 +12,7 @@ namespace {
 #include "shaders/layout.glsl"
 
 constexpr std::size_t kHead = static_cast<std::size_t>(kTextureHead), kLevel = static_cast<std::size_t>(kTextureLevel),
-                      kCell = static_cast<std::size_t>(kTextureCell);
+                      kCell = static_cast<std::size_t>(kTextureCell), kProfiled = static_cast<std::size_t>(kProfileHead);
 constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // that a float counts to
 
 float number(double x) { return static_cast<float>(x); }
@@ -85,12 +87,33 @@ void add_profile(const LightProfile& profile, std::vector<Vec4Floats>& to) {
     }
 }
 
+// Of a rect or disk, which the profile follows.
+void add_profiled(const PackLight& light, std::vector<Vec4Floats>& to) {
+  const LightEmission& emission = light.profiled->emission();
+  const ProfiledLight::Outline o = light.profiled->outline();
+  // The mean of all directions in the unit of the profile's candela.
+  const auto largest = [](Vec3d v) { return std::max({v.x, v.y, v.z}); };
+  const double mean = largest(static_cast<Vec3d>(light.radiance)) * emission.area / largest(emission.intensity);
+  to.insert(to.end(), {with(o.center, o.round ? 1 : 0), with(o.x, o.widest), with(o.y, static_cast<double>(to.size() + kProfiled)),
+                       with(emission.axes.x, length(cross(o.x, o.y))), with(emission.axes.y, mean), with(emission.axes.aim, 0)});
+  add_profile(*emission.profile, to);
+}
+
 const LightProfile* profile_of(const PackLight& light) {
+  if (light.profiled != nullptr) return light.profiled->emission().profile.get();
   const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
   return punctual != nullptr ? punctual->profile : nullptr;
 }
 
+// A mean asks for up to 2,304 directions, each found among the angles by halving; software devices end a thread's loops after 65,535 turns.
+bool is_too_fine(const LightProfile& profile) {
+  constexpr int kMostHalvings = 19;
+  const auto halvings = [](const std::vector<double>& angles) { return std::bit_width(angles.size()); };
+  return halvings(profile.vertical) + halvings(profile.horizontal) > kMostHalvings;
+}
+
 const void* key_of(const PackLight& light) {
+  if (light.profiled != nullptr) return light.profiled.get();
   return light.textured != nullptr ? static_cast<const void*>(light.textured.get()) : profile_of(light);
 }
 
@@ -102,9 +125,12 @@ LightDetails::LightDetails(const std::vector<PackLight>& lights, std::size_t mos
     const void* key = key_of(light);
     if (key == nullptr || firsts_.contains(key)) continue;
     const LightProfile* profile = profile_of(light);
-    if (values_.size() + (profile != nullptr ? vectors_of(*profile) : vectors_of(*light.textured)) > most_vectors) continue;
+    if (light.profiled != nullptr && is_too_fine(*profile)) continue;
+    if (values_.size() + (profile != nullptr ? kProfiled + vectors_of(*profile) : vectors_of(*light.textured)) > most_vectors) continue;
     firsts_[key] = values_.size();
-    if (profile != nullptr)
+    if (light.profiled != nullptr)
+      add_profiled(light, values_);
+    else if (profile != nullptr)
       add_profile(*profile, values_);
     else
       add_texture(*light.textured, values_);
@@ -112,7 +138,8 @@ LightDetails::LightDetails(const std::vector<PackLight>& lights, std::size_t mos
 }
 
 bool LightDetails::has(const PackLight& light) const {
-  return light.profiled == nullptr && (key_of(light) == nullptr || firsts_.contains(key_of(light)));
+  const void* key = key_of(light);
+  return key == nullptr || firsts_.contains(key);
 }
 
 std::ptrdiff_t LightDetails::first_of(const PackLight& light) const {

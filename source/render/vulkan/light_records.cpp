@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "integrals/profiled_light.h"
+
 namespace steradian::vulkan {
 namespace {
 
@@ -96,7 +98,11 @@ std::uint32_t LightRecords::add(const PackLight& light, std::ptrdiff_t details) 
   LightRecord record;
   r[0] = with(light.radiance);
   std::visit(Writer{r, record, vertices}, light.shape);
-  record.textured = light.textured != nullptr;
+  record.mean = light.textured != nullptr ? kTextureMean : light.profiled != nullptr ? kProfileMean : 0;
+  if (light.profiled != nullptr) {
+    const LightEmission& emission = light.profiled->emission();
+    r[8] = with(static_cast<Vec3f>(emission.intensity * (1 / emission.area)));
+  }
   record.profiled = record.kind == kPunctual && details != kNoDetails;
   if (details != kNoDetails) r[kWhereDetails][3] = static_cast<float>(details);
   lights.push_back(record);

@@ -16,9 +16,9 @@ bool shaders_have(const PackLight& light);
 
 // What is behind a light's number.
 struct LightRecord {
-  int kind = 0;       // of shaders/layout.glsl
-  bool ball = false;  // an ellipsoid of three equal axes
-  bool textured = false;
+  int kind = 0;              // of shaders/layout.glsl
+  bool ball = false;         // an ellipsoid of three equal axes
+  int mean = 0;              // whose lobes ask for one: kTextureMean, kProfileMean
   bool profiled = false;     // by direction alone
   int edges = 0;             // most edges that the horizon leaves of a polygon; 0 of other lights
   float deviation2 = 0;      // as the shaders have it

@@ -28,6 +28,9 @@ constexpr std::uint32_t kHalfVector[] =
 constexpr std::uint32_t kTextureMeans[] =
 #include "texture_means.comp.inc"
     ;
+constexpr std::uint32_t kProfileMeans[] =
+#include "profile_means.comp.inc"
+    ;
 constexpr std::uint32_t kPhongLobe[] =
 #include "phong_lobe.comp.inc"
     ;
@@ -82,6 +85,7 @@ std::span<const std::uint32_t> sheen_shader() { return kSheen; }
 std::span<const std::uint32_t> ltc_clipless_shader() { return kLtcClipless; }
 std::span<const std::uint32_t> half_vector_shader() { return kHalfVector; }
 std::span<const std::uint32_t> texture_means_shader() { return kTextureMeans; }
+std::span<const std::uint32_t> profile_means_shader() { return kProfileMeans; }
 std::span<const std::uint32_t> phong_lobe_shader() { return kPhongLobe; }
 std::span<const std::uint32_t> arcs_lobe_shader() { return kArcsLobe; }
 std::vector<std::span<const std::uint32_t>> shadow_shaders() { return {kShadowParts, kShadowRays}; }

@@ -15,8 +15,9 @@ std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
 std::span<const std::uint32_t> ltc_clipless_shader();
 std::span<const std::uint32_t> half_vector_shader();
-// What lobes see of textured lights.
+// What lobes see of textured lights, and of those with a profile.
 std::span<const std::uint32_t> texture_means_shader();
+std::span<const std::uint32_t> profile_means_shader();
 // Lobes of extras.steradian.
 std::span<const std::uint32_t> phong_lobe_shader();
 std::span<const std::uint32_t> arcs_lobe_shader();

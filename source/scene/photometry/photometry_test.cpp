@@ -70,6 +70,26 @@ TEST(LightProfile, AnswersWhatWasMeasured) {
   EXPECT_EQ(lambert.rated_lumens, 1000);
 }
 
+// Files may have other values there in every plane; roundings of a direction must not choose among them.
+TEST(LightProfile, PolesHaveTheFirstPlanesValue) {
+  LightProfile c;
+  c.vertical = {0, 90, 180};
+  c.horizontal = {0, 180};
+  c.candela = {1, 2, 3, 4, 5, 6};
+  LightProfile b;
+  b.type = LightProfile::Type::b;
+  b.vertical = {-180, 0, 180};
+  b.horizontal = {-90, 90};
+  b.candela = {1, 2, 3, 4, 5, 6};
+  for (const double x : {0.0, -0.0, 1e-9, -1e-9})
+    for (const double y : {0.0, -0.0, 1e-9, -1e-9}) {
+      EXPECT_NEAR(intensity(c, {x, y, 1}), 1, 1e-6) << x << " " << y;
+      EXPECT_NEAR(intensity(c, {x, y, -1}), 3, 1e-6) << x << " " << y;
+      EXPECT_NEAR(intensity(b, {x, -1, y}), 5, 1e-6) << x << " " << y;
+      EXPECT_NEAR(intensity(b, {x, 1, y}), 2, 1e-6) << x << " " << y;
+    }
+}
+
 TEST(LightProfile, SymmetriesAreWrittenOut) {
   Ies whole;
   whole.vertical = steps(0, 180, 15);
