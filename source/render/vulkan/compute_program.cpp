@@ -28,9 +28,11 @@ template <class Type>
 Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::uint32_t buffers,
                         std::uint32_t texels, Type type) {
   const Device::Handles& d = device.handles();
-  std::vector<const void*> key;
-  for (const auto& spirv : shaders) key.push_back(spirv.data());
-  for (const std::uint32_t count : {buffers, texels}) key.push_back(reinterpret_cast<const void*>(std::uintptr_t{count}));
+  std::vector<std::uint32_t> key = {buffers, texels};
+  for (const auto& spirv : shaders) {
+    key.push_back(static_cast<std::uint32_t>(spirv.size()));
+    key.insert(key.end(), spirv.begin(), spirv.end());
+  }
   if (const auto found = d.pipelines.find(key); found != d.pipelines.end()) return found->second;
   Pipelines p;
   for (const auto& spirv : shaders) p.shaders.push_back(module_of(d.device, spirv));

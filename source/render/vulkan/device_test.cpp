@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
+#include <vector>
+
 #include "core/budget.h"
 #include "render/vulkan/buffer.h"
+#include "render/vulkan/compute_program.h"
 #include "render/vulkan/direct_light.h"
 #include "render/vulkan/handles.h"
+#include "render/vulkan/shaders.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -64,6 +70,19 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
   }
   info.storage_buffer = std::size_t{128} << 20;
   EXPECT_NO_THROW(check_device(info));
+}
+
+// Programs are kept: another one may come to stand where the words of an earlier one stood.
+TEST(VulkanDevice, TellsProgramsApartByTheirWords) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const Device device;
+  const auto one = diffuse_shader(), other = sheen_shader();
+  std::vector<std::uint32_t> words(std::max(one.size(), other.size()));
+  for (const auto& spirv : {one, other, one}) {
+    std::copy(spirv.begin(), spirv.end(), words.begin());
+    const ComputeProgram program(device, {std::span(words).first(spirv.size())}, 5, 6);
+  }
+  EXPECT_EQ(device.handles().pipelines.size(), 2u);
 }
 
 TEST(VulkanDevice, ItsLossIsAnErrorThatSaysWhatWasBeingDone) {

@@ -36,9 +36,9 @@ struct Device::Handles {
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
   float timestamp_period = 0;  // nanoseconds of a tick
-  // By what tells programs apart: their shaders and how many buffers they have. They stay as long as the device: pipelines take longer
-  // to make than pictures.
-  mutable std::map<std::vector<const void*>, Pipelines> pipelines;
+  // By what tells programs apart: how many buffers they have, and their shaders, word for word. They stay as long as the device: pipelines
+  // take longer to make than pictures.
+  mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
   std::vector<std::string> messages;
   mutable bool hangs = false;  // work that it was given has not ended, and still uses what was made for it
 
