@@ -1252,9 +1252,6 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (!moving) {
-            break;
-        }
         vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
         vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
         vec2 step1 = z1 - poles.z1;
@@ -1262,6 +1259,10 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
         poles.z1 = steradian_select(moving, z1, poles.z1);
         poles.z2 = steradian_select(moving, z2, poles.z2);
         moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        // At the end: devices that mask lanes instead of jumping would go through a sweep for nobody.
+        if (!moving) {
+            break;
+        }
     }
     return poles;
 }
@@ -1271,14 +1272,14 @@ float steradian_conic_sweep(vec2 z, float begin, float end) {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
-// Prepares an arc.
+// An arc in its unit, whose poles are still to be found: all of steradian_conic_prepare that costs little.
 //
 //   u0..u2      the curve; the origin must not lie on it
 //   begin, end  ends in tau, begin <= end
 //
 // Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
 // tau = 0 as it is.
-SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
+SteradianConicArc steradian_conic_scaled(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
     float least = 1.0e-12;
     float d0 = max(dot(u0, u0), steradian_smallest_divisor());
     float d4 = dot(u2, u2);
@@ -1290,16 +1291,34 @@ SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin
     arc.u2 = steradian_select(d4 > least * d0, u2, u0 * sqrt(least)) * ratio;
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
+    arc.z1 = vec2(0.0, 1.0);
+    arc.z2 = vec2(0.0, 1.0);
+    arc.sweep = vec2(0.0, 0.0);
+    return arc;
+}
 
+// The poles of a scaled arc.
+SteradianQuarticPoles steradian_conic_poles(SteradianConicArc arc) {
     float inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
     SteradianQuarticPoles poles = steradian_quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = steradian_conic_polish_poles(arc, poles);
+    return steradian_conic_polish_poles(arc, poles);
+}
+
+// A scaled arc and its poles, found now or kept from before: steradian_conic_prepare is steradian_conic_with_poles(arc, steradian_conic_poles(arc)).
+SteradianConicArc steradian_conic_with_poles(SteradianConicArc scaled, SteradianQuarticPoles poles) {
+    SteradianConicArc arc = scaled;
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
     arc.sweep = vec2(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
+}
+
+// Prepares an arc. Arguments and degenerate case: steradian_conic_scaled.
+SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
+    SteradianConicArc arc = steradian_conic_scaled(u0, u1, u2, begin, end);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // A place on an arc by its share of the angle C under which both poles together see it: in C the integrand is smooth
@@ -1495,6 +1514,46 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     return vec3(steradian_select(seen, sum.x, 0.0), steradian_select(seen, sum.y, 0.0), steradian_select(seen, clamp(sum.z, 0.0, steradian_pi()), 0.0));
 }
 
+// The same of an ellipse that is all above the horizon: without arcs, from the axes of the cone of directions to it.
+//
+//   e        of steradian_ellipse_prepare
+//
+// The cone's axes are those of B = a a' + b b' - c c' (a, b: half axes, c: centre), whose eigenvalues are -nu < 0 <= mu1, mu2. Along the
+// axis of -nu the cone cuts the plane at distance 1 in an ellipse of half axes sqrt(mu / nu), and by symmetry the vector points along it:
+// pi |det(a, b, c)| / sqrt(nu P) long, P = (mu1 + nu)(mu2 + nu). Newton finds nu from above, where the cubic is convex; the
+// adjugate of B + nu, times c, is the axis, a sum whose terms all lie on c's side.
+// Degenerate: an ellipse without area, or seen from its plane, gives 0.
+// Error: next to the rim, at the share h of its reach, float loses a factor 1 / h.
+// Source: the form factor of an ellipse from above its centre; this project for the axes.
+vec3 steradian_ellipse_whole_irradiance_vector(SteradianEllipse e) {
+    vec3 normal = cross(e.axis_a, e.axis_b);
+    vec3 across_a = cross(e.center, e.axis_a);
+    vec3 across_b = cross(e.center, e.axis_b);
+    float c2 = dot(e.center, e.center);
+    float det = dot(e.center, normal);
+    float det2 = det * det;
+    float t = dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b) - c2;
+    float s = dot(normal, normal) - dot(across_a, across_a) - dot(across_b, across_b);
+    float tolerance = 1.0e-7;
+    float nu = c2;
+    bool moving = steradian_mask_all();  // a lane that stands still stays so, whatever its neighbours do
+    for (int i = 0; i < 24; i++) {
+        float step = (((nu + t) * nu + s) * nu - det2) / max((3.0 * nu + 2.0 * t) * nu + s, steradian_smallest_divisor());
+        float next = clamp(nu - step, 0.0, nu);
+        bool still_moving = moving && nu - next > tolerance * nu;
+        nu = steradian_select(moving, next, nu);
+        moving = still_moving;
+        if (!moving) {
+            break;
+        }
+    }
+    vec3 axis = e.center * (nu * nu) + (cross(e.axis_a, across_a) + cross(e.axis_b, across_b)) * nu + normal * det;
+    // |axis| = P |v.c| and axis.c = P (v.c)^2 with the unit axis v.
+    float length2 = max(dot(axis, axis), steradian_smallest_square());
+    float p = length2 / max(dot(axis, e.center), steradian_smallest_divisor());
+    return axis * (steradian_pi() * det * inversesqrt(max(length2 * nu * p, steradian_smallest_square())));
+}
+
 // A polygon about an ellipse: where its corners gather.
 //   ellipse    prepared
 //   turn       (cos, sin) of the t of the corner nearest to the lobe
@@ -1678,15 +1737,22 @@ float steradian_ellipse_gap(vec2 from_corner, vec2 to_corner) {
     return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
 }
 
+// A corner, as a vector from the shading point.
+//
+//   gaps     sum of steradian_ellipse_gap to the corner before it and to the one after it
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+vec3 steradian_ellipse_corner_between(SteradianEllipseFan fan, vec2 here, float gaps) {
+    float radius = sqrt(0.5 * gaps);
+    SteradianEllipse e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
 // The corner between two others, as a vector from the shading point.
 //
 //   before, here, after  steradian_ellipse_corner of three neighbours
-//
-// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 here, vec2 after) {
-    float radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
-    SteradianEllipse e = fan.ellipse;
-    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+    return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
@@ -3664,14 +3730,14 @@ SteradianGgxView steradian_ggx_view(vec3 v, float ax, float ay) {
     return view;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (steradian_conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
 // tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
 // is further from it.
 // Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+SteradianConicArc steradian_ggx_edge_scaled(SteradianGgxView view, vec3 a, vec3 b) {
     vec3 chord = b - a;
     vec3 sum = a + b;
     float chord2 = dot(chord, chord);
@@ -3693,9 +3759,15 @@ SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
     float y = 1.0 / view.ay;
     vec3 u0 = view.v + base;
     vec3 u2 = view.v - base;
-    return steradian_conic_prepare(
+    return steradian_conic_scaled(
         vec3(u0.x * x, u0.y * y, u0.z), vec3(q.x * x, q.y * y, q.z) * 2.0, vec3(u2.x * x, u2.y * y, u2.z),
         steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: steradian_ggx_edge_scaled.
+SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+    SteradianConicArc arc = steradian_ggx_edge_scaled(view, a, b);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
@@ -3815,10 +3887,10 @@ SteradianGgxCubature steradian_ggx_cubature_add(SteradianGgxCubature c, vec3 u, 
     return next;
 }
 
-// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
-vec2 steradian_ggx_rule(float n, int j) {
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to `most`, at most 6: vec2(node, weight), weight 0 from j = n on.
+vec2 steradian_ggx_rule(float n, int j, int most) {
     vec2 r = steradian_gauss_legendre_node(1, j);
-    for (int k = 2; k <= 6; k++) {
+    for (int k = 2; k <= most; k++) {
         r = steradian_select(n > float(k) - 0.5, steradian_gauss_legendre_node(k, j), r);
     }
     return r;
@@ -3842,10 +3914,7 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
-        if (!present) {
-            break;
-        }
-        vec2 rule = steradian_ggx_rule(n, j);
+        vec2 rule = steradian_ggx_rule(n, j, 4 + extra);
         SteradianConicNode node = steradian_conic_node(edge, rule.x);
         vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -3859,18 +3928,36 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
         om = steradian_select(present, om, 0.0);
 
         next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
-        float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
-        float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
-        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if ((fine || wide) && present) {
-            share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
-            share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        int turns = 1;
+        if (fine && present) {
+            turns = 2;
         }
         if (wide && present) {
-            om = steradian_select(wide, om, 0.0);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (int k = 0; k < turns; k++) {
+            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+            if (k == 1) {
+                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = steradian_select(wide, 0.281356015149461949, 0.0);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = steradian_select(wide, 0.143713560791225886, 0.0);
+            }
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            // At the end, here and below, as in steradian_conic_polish_poles.
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!(present && n > float(j) + 1.5)) {
+            break;
         }
     }
     return next;

@@ -1249,9 +1249,6 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
     let tolerance = 1.0e-6;
     var moving = arc.end > arc.begin;
     for (var i: i32 = 0; i < sweeps; i++) {
-        if (!moving) {
-            break;
-        }
         let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
         let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
         let step1 = z1 - poles.z1;
@@ -1259,6 +1256,10 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
         poles.z1 = select(poles.z1, z1, moving);
         poles.z2 = select(poles.z2, z2, moving);
         moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        // At the end: devices that mask lanes instead of jumping would go through a sweep for nobody.
+        if (!moving) {
+            break;
+        }
     }
     return poles;
 }
@@ -1268,14 +1269,14 @@ fn steradian_conic_sweep(z: vec2f, begin: f32, end: f32) -> f32 {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
-// Prepares an arc.
+// An arc in its unit, whose poles are still to be found: all of conic_prepare that costs little.
 //
 //   u0..u2      the curve; the origin must not lie on it
 //   begin, end  ends in tau, begin <= end
 //
 // Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
 // tau = 0 as it is.
-fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
+fn steradian_conic_scaled(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
     let least = 1.0e-12;
     let d0 = max(dot(u0, u0), steradian_smallest_divisor());
     let d4 = dot(u2, u2);
@@ -1287,16 +1288,34 @@ fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32
     arc.u2 = select(u0 * sqrt(least), u2, d4 > least * d0) * ratio;
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
+    arc.z1 = vec2f(0.0, 1.0);
+    arc.z2 = vec2f(0.0, 1.0);
+    arc.sweep = vec2f(0.0, 0.0);
+    return arc;
+}
 
+// The poles of a scaled arc.
+fn steradian_conic_poles(arc: SteradianConicArc) -> SteradianQuarticPoles {
     let inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
-    var poles = steradian_quartic_poles_approximate(
+    let poles = steradian_quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = steradian_conic_polish_poles(arc, poles);
+    return steradian_conic_polish_poles(arc, poles);
+}
+
+// A scaled arc and its poles, found now or kept from before: conic_prepare is conic_with_poles(arc, conic_poles(arc)).
+fn steradian_conic_with_poles(scaled: SteradianConicArc, poles: SteradianQuarticPoles) -> SteradianConicArc {
+    var arc = scaled;
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
     arc.sweep = vec2f(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
+}
+
+// Prepares an arc. Arguments and degenerate case: conic_scaled.
+fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
+    let arc = steradian_conic_scaled(u0, u1, u2, begin, end);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // A place on an arc by its share of the angle C under which both poles together see it: in C the integrand is smooth
@@ -1492,6 +1511,46 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     return vec3f(select(0.0, sum.x, seen), select(0.0, sum.y, seen), select(0.0, clamp(sum.z, 0.0, steradian_pi()), seen));
 }
 
+// The same of an ellipse that is all above the horizon: without arcs, from the axes of the cone of directions to it.
+//
+//   e        of ellipse_prepare
+//
+// The cone's axes are those of B = a a' + b b' - c c' (a, b: half axes, c: centre), whose eigenvalues are -nu < 0 <= mu1, mu2. Along the
+// axis of -nu the cone cuts the plane at distance 1 in an ellipse of half axes sqrt(mu / nu), and by symmetry the vector points along it:
+// pi |det(a, b, c)| / sqrt(nu P) long, P = (mu1 + nu)(mu2 + nu). Newton finds nu from above, where the cubic is convex; the
+// adjugate of B + nu, times c, is the axis, a sum whose terms all lie on c's side.
+// Degenerate: an ellipse without area, or seen from its plane, gives 0.
+// Error: next to the rim, at the share h of its reach, float loses a factor 1 / h.
+// Source: the form factor of an ellipse from above its centre; this project for the axes.
+fn steradian_ellipse_whole_irradiance_vector(e: SteradianEllipse) -> vec3f {
+    let normal = cross(e.axis_a, e.axis_b);
+    let across_a = cross(e.center, e.axis_a);
+    let across_b = cross(e.center, e.axis_b);
+    let c2 = dot(e.center, e.center);
+    let det = dot(e.center, normal);
+    let det2 = det * det;
+    let t = dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b) - c2;
+    let s = dot(normal, normal) - dot(across_a, across_a) - dot(across_b, across_b);
+    let tolerance = 1.0e-7;
+    var nu = c2;
+    var moving = steradian_mask_all();  // a lane that stands still stays so, whatever its neighbours do
+    for (var i: i32 = 0; i < 24; i++) {
+        let step = (((nu + t) * nu + s) * nu - det2) / max((3.0 * nu + 2.0 * t) * nu + s, steradian_smallest_divisor());
+        let next = clamp(nu - step, 0.0, nu);
+        let still_moving = moving && nu - next > tolerance * nu;
+        nu = select(nu, next, moving);
+        moving = still_moving;
+        if (!moving) {
+            break;
+        }
+    }
+    let axis = e.center * (nu * nu) + (cross(e.axis_a, across_a) + cross(e.axis_b, across_b)) * nu + normal * det;
+    // |axis| = P |v.c| and axis.c = P (v.c)^2 with the unit axis v.
+    let length2 = max(dot(axis, axis), steradian_smallest_square());
+    let p = length2 / max(dot(axis, e.center), steradian_smallest_divisor());
+    return axis * (steradian_pi() * det * inverseSqrt(max(length2 * nu * p, steradian_smallest_square())));
+}
+
 // A polygon about an ellipse: where its corners gather.
 //   ellipse    prepared
 //   turn       (cos, sin) of the t of the corner nearest to the lobe
@@ -1675,15 +1734,22 @@ fn steradian_ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
     return select(angle / max(sine, 1.0e-4), 1.0, angle < 1.0e-3);
 }
 
+// A corner, as a vector from the shading point.
+//
+//   gaps     sum of ellipse_gap to the corner before it and to the one after it
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+fn steradian_ellipse_corner_between(fan: SteradianEllipseFan, here: vec2f, gaps: f32) -> vec3f {
+    let radius = sqrt(0.5 * gaps);
+    let e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
 // The corner between two others, as a vector from the shading point.
 //
 //   before, here, after  ellipse_corner of three neighbours
-//
-// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
-    let radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
-    let e = fan.ellipse;
-    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+    return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
@@ -3661,14 +3727,14 @@ fn steradian_ggx_view(v: vec3f, ax: f32, ay: f32) -> SteradianGgxView {
     return view;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
 // tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
 // is further from it.
 // Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+fn steradian_ggx_edge_scaled(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
     let chord = b - a;
     let sum = a + b;
     let chord2 = dot(chord, chord);
@@ -3690,9 +3756,15 @@ fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianCo
     let y = 1.0 / view.ay;
     let u0 = view.v + base;
     let u2 = view.v - base;
-    return steradian_conic_prepare(
+    return steradian_conic_scaled(
         vec3f(u0.x * x, u0.y * y, u0.z), vec3f(q.x * x, q.y * y, q.z) * 2.0, vec3f(u2.x * x, u2.y * y, u2.z),
         select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
+}
+
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: ggx_edge_scaled.
+fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+    let arc = steradian_ggx_edge_scaled(view, a, b);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
@@ -3812,10 +3884,10 @@ fn steradian_ggx_cubature_add(c: SteradianGgxCubature, u: vec3f, weight: f32) ->
     return next;
 }
 
-// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
-fn steradian_ggx_rule(n: f32, j: i32) -> vec2f {
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to `most`, at most 6: vec2(node, weight), weight 0 from j = n on.
+fn steradian_ggx_rule(n: f32, j: i32, most: i32) -> vec2f {
     var r = steradian_gauss_legendre_node(1, j);
-    for (var k: i32 = 2; k <= 6; k++) {
+    for (var k: i32 = 2; k <= most; k++) {
         r = select(r, steradian_gauss_legendre_node(k, j), n > f32(k) - 0.5);
     }
     return r;
@@ -3839,10 +3911,7 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
-        if (!present) {
-            break;
-        }
-        let rule = steradian_ggx_rule(n, j);
+        let rule = steradian_ggx_rule(n, j, 4 + extra);
         let node = steradian_conic_node(edge, rule.x);
         let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         let du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -3856,18 +3925,36 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
         om = select(0.0, om, present);
 
         next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
-        var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
-        var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
-        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if ((fine || wide) && present) {
-            share = select(0.844948974278317810, 0.416409567631083166, wide);
-            share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        var turns: i32 = 1;
+        if (fine && present) {
+            turns = 2;
         }
         if (wide && present) {
-            om = select(0.0, om, wide);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (var k: i32 = 0; k < turns; k++) {
+            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+            if (k == 1) {
+                share = select(0.844948974278317810, 0.416409567631083166, wide);
+                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = select(0.0, 0.281356015149461949, wide);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = select(0.0, 0.143713560791225886, wide);
+            }
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            // At the end, here and below, as in steradian_conic_polish_poles.
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!(present && n > f32(j) + 1.5)) {
+            break;
         }
     }
     return next;

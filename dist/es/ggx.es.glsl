@@ -160,14 +160,14 @@ SteradianGgxView steradian_ggx_view(vec3 v, float ax, float ay) {
     return view;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (steradian_conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
 // tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
 // is further from it.
 // Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+SteradianConicArc steradian_ggx_edge_scaled(SteradianGgxView view, vec3 a, vec3 b) {
     vec3 chord = b - a;
     vec3 sum = a + b;
     float chord2 = dot(chord, chord);
@@ -189,9 +189,15 @@ SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
     float y = 1.0 / view.ay;
     vec3 u0 = view.v + base;
     vec3 u2 = view.v - base;
-    return steradian_conic_prepare(
+    return steradian_conic_scaled(
         vec3(u0.x * x, u0.y * y, u0.z), vec3(q.x * x, q.y * y, q.z) * 2.0, vec3(u2.x * x, u2.y * y, u2.z),
         steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: steradian_ggx_edge_scaled.
+SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+    SteradianConicArc arc = steradian_ggx_edge_scaled(view, a, b);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
@@ -311,10 +317,10 @@ SteradianGgxCubature steradian_ggx_cubature_add(SteradianGgxCubature c, vec3 u, 
     return next;
 }
 
-// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
-vec2 steradian_ggx_rule(float n, int j) {
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to `most`, at most 6: vec2(node, weight), weight 0 from j = n on.
+vec2 steradian_ggx_rule(float n, int j, int most) {
     vec2 r = steradian_gauss_legendre_node(1, j);
-    for (int k = 2; k <= 6; k++) {
+    for (int k = 2; k <= most; k++) {
         r = steradian_select(n > float(k) - 0.5, steradian_gauss_legendre_node(k, j), r);
     }
     return r;
@@ -338,10 +344,7 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
-        if (!present) {
-            break;
-        }
-        vec2 rule = steradian_ggx_rule(n, j);
+        vec2 rule = steradian_ggx_rule(n, j, 4 + extra);
         SteradianConicNode node = steradian_conic_node(edge, rule.x);
         vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -355,18 +358,36 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
         om = steradian_select(present, om, 0.0);
 
         next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
-        float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
-        float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
-        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if ((fine || wide) && present) {
-            share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
-            share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        int turns = 1;
+        if (fine && present) {
+            turns = 2;
         }
         if (wide && present) {
-            om = steradian_select(wide, om, 0.0);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (int k = 0; k < turns; k++) {
+            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+            if (k == 1) {
+                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = steradian_select(wide, 0.281356015149461949, 0.0);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = steradian_select(wide, 0.143713560791225886, 0.0);
+            }
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            // At the end, here and below, as in steradian_conic_polish_poles.
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!(present && n > float(j) + 1.5)) {
+            break;
         }
     }
     return next;

@@ -202,9 +202,6 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (!moving) {
-            break;
-        }
         float2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
         float2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
         float2 step1 = z1 - poles.z1;
@@ -212,6 +209,10 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
         poles.z1 = steradian_select(moving, z1, poles.z1);
         poles.z2 = steradian_select(moving, z2, poles.z2);
         moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        // At the end: devices that mask lanes instead of jumping would go through a sweep for nobody.
+        if (!moving) {
+            break;
+        }
     }
     return poles;
 }
@@ -221,14 +222,14 @@ float steradian_conic_sweep(float2 z, float begin, float end) {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
-// Prepares an arc.
+// An arc in its unit, whose poles are still to be found: all of steradian_conic_prepare that costs little.
 //
 //   u0..u2      the curve; the origin must not lie on it
 //   begin, end  ends in tau, begin <= end
 //
 // Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
 // tau = 0 as it is.
-SteradianConicArc steradian_conic_prepare(float3 u0, float3 u1, float3 u2, float begin, float end) {
+SteradianConicArc steradian_conic_scaled(float3 u0, float3 u1, float3 u2, float begin, float end) {
     float least = 1.0e-12;
     float d0 = max(dot(u0, u0), steradian_smallest_divisor());
     float d4 = dot(u2, u2);
@@ -240,16 +241,34 @@ SteradianConicArc steradian_conic_prepare(float3 u0, float3 u1, float3 u2, float
     arc.u2 = steradian_select(d4 > least * d0, u2, u0 * sqrt(least)) * ratio;
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
+    arc.z1 = float2(0.0, 1.0);
+    arc.z2 = float2(0.0, 1.0);
+    arc.sweep = float2(0.0, 0.0);
+    return arc;
+}
 
+// The poles of a scaled arc.
+SteradianQuarticPoles steradian_conic_poles(SteradianConicArc arc) {
     float inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
     SteradianQuarticPoles poles = steradian_quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = steradian_conic_polish_poles(arc, poles);
+    return steradian_conic_polish_poles(arc, poles);
+}
+
+// A scaled arc and its poles, found now or kept from before: steradian_conic_prepare is steradian_conic_with_poles(arc, steradian_conic_poles(arc)).
+SteradianConicArc steradian_conic_with_poles(SteradianConicArc scaled, SteradianQuarticPoles poles) {
+    SteradianConicArc arc = scaled;
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
     arc.sweep = float2(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
+}
+
+// Prepares an arc. Arguments and degenerate case: steradian_conic_scaled.
+SteradianConicArc steradian_conic_prepare(float3 u0, float3 u1, float3 u2, float begin, float end) {
+    SteradianConicArc arc = steradian_conic_scaled(u0, u1, u2, begin, end);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // A place on an arc by its share of the angle C under which both poles together see it: in C the integrand is smooth
@@ -445,6 +464,46 @@ float3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     return float3(steradian_select(seen, sum.x, 0.0), steradian_select(seen, sum.y, 0.0), steradian_select(seen, clamp(sum.z, 0.0, steradian_pi()), 0.0));
 }
 
+// The same of an ellipse that is all above the horizon: without arcs, from the axes of the cone of directions to it.
+//
+//   e        of steradian_ellipse_prepare
+//
+// The cone's axes are those of B = a a' + b b' - c c' (a, b: half axes, c: centre), whose eigenvalues are -nu < 0 <= mu1, mu2. Along the
+// axis of -nu the cone cuts the plane at distance 1 in an ellipse of half axes sqrt(mu / nu), and by symmetry the vector points along it:
+// pi |det(a, b, c)| / sqrt(nu P) long, P = (mu1 + nu)(mu2 + nu). Newton finds nu from above, where the cubic is convex; the
+// adjugate of B + nu, times c, is the axis, a sum whose terms all lie on c's side.
+// Degenerate: an ellipse without area, or seen from its plane, gives 0.
+// Error: next to the rim, at the share h of its reach, float loses a factor 1 / h.
+// Source: the form factor of an ellipse from above its centre; this project for the axes.
+float3 steradian_ellipse_whole_irradiance_vector(SteradianEllipse e) {
+    float3 normal = cross(e.axis_a, e.axis_b);
+    float3 across_a = cross(e.center, e.axis_a);
+    float3 across_b = cross(e.center, e.axis_b);
+    float c2 = dot(e.center, e.center);
+    float det = dot(e.center, normal);
+    float det2 = det * det;
+    float t = dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b) - c2;
+    float s = dot(normal, normal) - dot(across_a, across_a) - dot(across_b, across_b);
+    float tolerance = 1.0e-7;
+    float nu = c2;
+    bool moving = steradian_mask_all();  // a lane that stands still stays so, whatever its neighbours do
+    for (int i = 0; i < 24; i++) {
+        float step = (((nu + t) * nu + s) * nu - det2) / max((3.0 * nu + 2.0 * t) * nu + s, steradian_smallest_divisor());
+        float next = clamp(nu - step, 0.0, nu);
+        bool still_moving = moving && nu - next > tolerance * nu;
+        nu = steradian_select(moving, next, nu);
+        moving = still_moving;
+        if (!moving) {
+            break;
+        }
+    }
+    float3 axis = e.center * (nu * nu) + (cross(e.axis_a, across_a) + cross(e.axis_b, across_b)) * nu + normal * det;
+    // |axis| = P |v.c| and axis.c = P (v.c)^2 with the unit axis v.
+    float length2 = max(dot(axis, axis), steradian_smallest_square());
+    float p = length2 / max(dot(axis, e.center), steradian_smallest_divisor());
+    return axis * (steradian_pi() * det * rsqrt(max(length2 * nu * p, steradian_smallest_square())));
+}
+
 // A polygon about an ellipse: where its corners gather.
 //   ellipse    prepared
 //   turn       (cos, sin) of the t of the corner nearest to the lobe
@@ -628,15 +687,22 @@ float steradian_ellipse_gap(float2 from_corner, float2 to_corner) {
     return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
 }
 
+// A corner, as a vector from the shading point.
+//
+//   gaps     sum of steradian_ellipse_gap to the corner before it and to the one after it
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+float3 steradian_ellipse_corner_between(SteradianEllipseFan fan, float2 here, float gaps) {
+    float radius = sqrt(0.5 * gaps);
+    SteradianEllipse e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
 // The corner between two others, as a vector from the shading point.
 //
 //   before, here, after  steradian_ellipse_corner of three neighbours
-//
-// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 float3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, float2 before, float2 here, float2 after) {
-    float radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
-    SteradianEllipse e = fan.ellipse;
-    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+    return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.

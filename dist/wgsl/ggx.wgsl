@@ -160,14 +160,14 @@ fn steradian_ggx_view(v: vec3f, ax: f32, ay: f32) -> SteradianGgxView {
     return view;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
 // tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
 // is further from it.
 // Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+fn steradian_ggx_edge_scaled(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
     let chord = b - a;
     let sum = a + b;
     let chord2 = dot(chord, chord);
@@ -189,9 +189,15 @@ fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianCo
     let y = 1.0 / view.ay;
     let u0 = view.v + base;
     let u2 = view.v - base;
-    return steradian_conic_prepare(
+    return steradian_conic_scaled(
         vec3f(u0.x * x, u0.y * y, u0.z), vec3f(q.x * x, q.y * y, q.z) * 2.0, vec3f(u2.x * x, u2.y * y, u2.z),
         select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
+}
+
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: ggx_edge_scaled.
+fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+    let arc = steradian_ggx_edge_scaled(view, a, b);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
@@ -311,10 +317,10 @@ fn steradian_ggx_cubature_add(c: SteradianGgxCubature, u: vec3f, weight: f32) ->
     return next;
 }
 
-// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
-fn steradian_ggx_rule(n: f32, j: i32) -> vec2f {
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to `most`, at most 6: vec2(node, weight), weight 0 from j = n on.
+fn steradian_ggx_rule(n: f32, j: i32, most: i32) -> vec2f {
     var r = steradian_gauss_legendre_node(1, j);
-    for (var k: i32 = 2; k <= 6; k++) {
+    for (var k: i32 = 2; k <= most; k++) {
         r = select(r, steradian_gauss_legendre_node(k, j), n > f32(k) - 0.5);
     }
     return r;
@@ -338,10 +344,7 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
-        if (!present) {
-            break;
-        }
-        let rule = steradian_ggx_rule(n, j);
+        let rule = steradian_ggx_rule(n, j, 4 + extra);
         let node = steradian_conic_node(edge, rule.x);
         let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         let du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -355,18 +358,36 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
         om = select(0.0, om, present);
 
         next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
-        var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
-        var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
-        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if ((fine || wide) && present) {
-            share = select(0.844948974278317810, 0.416409567631083166, wide);
-            share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        var turns: i32 = 1;
+        if (fine && present) {
+            turns = 2;
         }
         if (wide && present) {
-            om = select(0.0, om, wide);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (var k: i32 = 0; k < turns; k++) {
+            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+            if (k == 1) {
+                share = select(0.844948974278317810, 0.416409567631083166, wide);
+                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = select(0.0, 0.281356015149461949, wide);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = select(0.0, 0.143713560791225886, wide);
+            }
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            // At the end, here and below, as in steradian_conic_polish_poles.
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!(present && n > f32(j) + 1.5)) {
+            break;
         }
     }
     return next;

@@ -42,14 +42,14 @@ GgxView ggx_view(vec3 v, real ax, real ay) {
     return view;
 }
 
-// One edge of a light as an arc in stretched half vector space.
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
 // tau counts from the edge's middle; where the middle is near the view, and u2 = S (v - l) would vanish, from the end that
 // is further from it.
 // Degenerate: a = b, and a = -b, which spans no plane, give an arc of no length.
-ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
+ConicArc ggx_edge_scaled(GgxView view, vec3 a, vec3 b) {
     vec3 chord = b - a;
     vec3 sum = a + b;
     real chord2 = dot(chord, chord);
@@ -71,9 +71,15 @@ ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
     real y = 1.0 / view.ay;
     vec3 u0 = view.v + base;
     vec3 u2 = view.v - base;
-    return conic_prepare(
+    return conic_scaled(
         vec3(u0.x * x, u0.y * y, u0.z), vec3(q.x * x, q.y * y, q.z) * 2.0, vec3(u2.x * x, u2.y * y, u2.z),
         select(side < 0.0, 0.0, -reach), select(side > 0.0, 0.0, reach));
+}
+
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: ggx_edge_scaled.
+ConicArc ggx_edge(GgxView view, vec3 a, vec3 b) {
+    ConicArc arc = ggx_edge_scaled(view, a, b);
+    return conic_with_poles(arc, conic_poles(arc));
 }
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.

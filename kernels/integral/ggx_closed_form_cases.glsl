@@ -16,6 +16,20 @@ vec4 case_ggx_edge(CaseInput i) {
     return case_of_vec3(half_vector_at(view, edge, edge.begin + i.c.w * (edge.end - edge.begin)));
 }
 
+// GGX, the image of an edge without its poles: half vectors on it
+//   a.xyz  upper_direction
+//   b.xyz  upper_direction
+//   c.xyz  upper_direction
+//   a.w    log(0.01, 1)
+//   b.w    log(0.01, 1)
+//   c.w    range(0, 1)
+// Values: 3
+vec4 case_ggx_edge_scaled(CaseInput i) {
+    GgxView view = ggx_view(case_xyz(i.a), i.a.w, i.b.w);
+    ConicArc edge = ggx_edge_scaled(view, case_xyz(i.b), case_xyz(i.c));
+    return case_of_vec3(half_vector_at(view, edge, edge.begin + i.c.w * (edge.end - edge.begin)));
+}
+
 // GGX, the lobe towards the view, and times (1 - v.h)^5
 //   a.xyz  direction
 //   b.xyz  upper_direction

@@ -97,10 +97,10 @@ GgxCubature ggx_cubature_add(GgxCubature c, vec3 u, real weight) {
     return next;
 }
 
-// Node j of the rule with n nodes, n differing from lane to lane in 1 to 6: vec2(node, weight), weight 0 from j = n on.
-vec2 ggx_rule(real n, int j) {
+// Node j of the rule with n nodes, n differing from lane to lane in 1 to `most`, at most 6: vec2(node, weight), weight 0 from j = n on.
+vec2 ggx_rule(real n, int j, int most) {
     vec2 r = gauss_legendre_node(1, j);
-    for (int k = 2; k <= 6; k++) {
+    for (int k = 2; k <= most; k++) {
         r = select(n > real(k) - 0.5, gauss_legendre_node(k, j), r);
     }
     return r;
@@ -124,10 +124,7 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
     mask wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         mask present = n > real(j) + 0.5 && total > 0.0;
-        if (!any_lane(present)) {
-            break;
-        }
-        vec2 rule = ggx_rule(n, j);
+        vec2 rule = ggx_rule(n, j, 4 + extra);
         ConicNode node = conic_node(edge, rule.x);
         vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -141,18 +138,36 @@ GgxCubature ggx_cubature_edge(GgxCubature c, ConicArc edge, int extra) {
         om = select(present, om, 0.0);
 
         next.centre_weight = next.centre_weight + om * select(wide, 0.04, select(fine, 0.111111111111111111, 0.25));
-        real share = select(wide, 0.139759864343780571, select(fine, 0.355051025721682190, 0.666666666666666667));
-        real share_weight = select(wide, 0.223103901083570916, select(fine, 0.512485826188421615, 0.75));
-        next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if (any_lane((fine || wide) && present)) {
-            share = select(wide, 0.416409567631083166, 0.844948974278317810);
-            share_weight = select(wide, 0.311826522975741250, select(fine, 0.376403062700467274, 0.0));
-            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        int turns = 1;
+        if (any_lane(fine && present)) {
+            turns = 2;
         }
         if (any_lane(wide && present)) {
-            om = select(wide, om, 0.0);
-            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (int k = 0; k < turns; k++) {
+            real share = select(wide, 0.139759864343780571, select(fine, 0.355051025721682190, 0.666666666666666667));
+            real share_weight = select(wide, 0.223103901083570916, select(fine, 0.512485826188421615, 0.75));
+            if (k == 1) {
+                share = select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = select(wide, 0.311826522975741250, select(fine, 0.376403062700467274, 0.0));
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = select(wide, 0.281356015149461949, 0.0);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = select(wide, 0.143713560791225886, 0.0);
+            }
+            next = ggx_cubature_add(next, fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            // At the end, here and below, as in conic_polish_poles.
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!any_lane(present && n > real(j) + 1.5)) {
+            break;
         }
     }
     return next;

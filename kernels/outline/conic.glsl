@@ -73,9 +73,6 @@ QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
     }
     mask moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (!any_lane(moving)) {
-            break;
-        }
         vec2 z1 = conic_pole_step(arc, poles.z1, poles.z2, d4);
         vec2 z2 = conic_pole_step(arc, poles.z2, z1, d4);
         vec2 step1 = z1 - poles.z1;
@@ -83,6 +80,10 @@ QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
         poles.z1 = select(moving, z1, poles.z1);
         poles.z2 = select(moving, z2, poles.z2);
         moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        // At the end: devices that mask lanes instead of jumping would go through a sweep for nobody.
+        if (!any_lane(moving)) {
+            break;
+        }
     }
     return poles;
 }
@@ -92,14 +93,14 @@ real conic_sweep(vec2 z, real begin, real end) {
     return trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
-// Prepares an arc.
+// An arc in its unit, whose poles are still to be found: all of conic_prepare that costs little.
 //
 //   u0..u2      the curve; the origin must not lie on it
 //   begin, end  ends in tau, begin <= end
 //
 // Degenerate: |u2| below 1.0e-6 |u0| (1.0e-12 in double) is replaced by a little of u0, which leaves the curve's direction at
 // tau = 0 as it is.
-ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, real begin, real end) {
+ConicArc conic_scaled(vec3 u0, vec3 u1, vec3 u2, real begin, real end) {
     real least = 1.0e-12;
     if (real_digits() > 24) {
         least = 1.0e-24;
@@ -114,16 +115,34 @@ ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, real begin, real end) {
     arc.u2 = select(d4 > least * d0, u2, u0 * sqrt(least)) * ratio;
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
+    arc.z1 = vec2(0.0, 1.0);
+    arc.z2 = vec2(0.0, 1.0);
+    arc.sweep = vec2(0.0, 0.0);
+    return arc;
+}
 
+// The poles of a scaled arc.
+QuarticPoles conic_poles(ConicArc arc) {
     real inverse = 1.0 / max(dot(arc.u2, arc.u2), smallest_divisor());
     QuarticPoles poles = quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = conic_polish_poles(arc, poles);
+    return conic_polish_poles(arc, poles);
+}
+
+// A scaled arc and its poles, found now or kept from before: conic_prepare is conic_with_poles(arc, conic_poles(arc)).
+ConicArc conic_with_poles(ConicArc scaled, QuarticPoles poles) {
+    ConicArc arc = scaled;
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
     arc.sweep = vec2(conic_sweep(arc.z1, arc.begin, arc.end), conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
+}
+
+// Prepares an arc. Arguments and degenerate case: conic_scaled.
+ConicArc conic_prepare(vec3 u0, vec3 u1, vec3 u2, real begin, real end) {
+    ConicArc arc = conic_scaled(u0, u1, u2, begin, end);
+    return conic_with_poles(arc, conic_poles(arc));
 }
 
 // A place on an arc by its share of the angle C under which both poles together see it: in C the integrand is smooth

@@ -72,6 +72,56 @@ vec4 case_conic_prepare(CaseInput i) {
     return vec4(arc.z1.x + arc.z2.x, arc.z1.y + arc.scale, arc.z2.y, arc.sweep.x + arc.sweep.y);
 }
 
+// conic, an arc in its unit
+//   a.x    range(-1, -0.2)
+//   a.y    range(0.3, 1)
+//   b.x    range(0.2, 1)
+//   b.y    range(0.3, 1)
+//   c.x    range(-0.9, 0.9)
+//   c.y    range(-1.5, -0.1)
+//   c.z    range(0.1, 1.5)
+//   d.xyz  direction
+// Values: 4
+vec4 case_conic_scaled(CaseInput i) {
+    ConicArc given = case_arc(i);
+    ConicArc arc = conic_scaled(given.u0, given.u1, given.u2, given.begin, given.end);
+    return vec4(arc.u1.x, arc.u2.y, arc.begin, arc.end);
+}
+
+// conic, start of the poles of a scaled arc
+//   a.x    range(-1, -0.2)
+//   a.y    range(0.3, 1)
+//   b.x    range(0.2, 1)
+//   b.y    range(0.3, 1)
+//   c.x    range(-0.9, 0.9)
+//   c.y    range(-1.5, -0.1)
+//   c.z    range(0.1, 1.5)
+//   d.xyz  direction
+// Values: 4
+vec4 case_conic_poles(CaseInput i) {
+    ConicArc given = case_arc(i);
+    QuarticPoles poles = conic_poles(conic_scaled(given.u0, given.u1, given.u2, 0.0, 0.0));
+    return vec4(poles.z1.x + poles.z2.x, poles.z1.y, poles.z2.y, 0.0);
+}
+
+// conic, angles under which known poles see an arc
+//   a.x    range(-1, -0.2)
+//   a.y    range(0.3, 1)
+//   b.x    range(0.2, 1)
+//   b.y    range(0.3, 1)
+//   c.x    range(-0.9, 0.9)
+//   c.y    range(-1.5, -0.1)
+//   c.z    range(0.1, 1.5)
+//   d.xyz  direction
+// Values: 2
+vec4 case_conic_with_poles(CaseInput i) {
+    QuarticPoles poles;
+    poles.z1 = vec2(i.a.x, i.a.y);
+    poles.z2 = vec2(i.b.x, i.b.y);
+    ConicArc arc = conic_with_poles(case_arc(i), poles);
+    return vec4(arc.sweep.x, arc.sweep.y, 0.0, 0.0);
+}
+
 // conic, poles polished
 //   a.x    range(-1, -0.2)
 //   a.y    range(0.3, 1)

@@ -99,6 +99,49 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     return vec3(select(seen, sum.x, 0.0), select(seen, sum.y, 0.0), select(seen, clamp(sum.z, 0.0, pi()), 0.0));
 }
 
+// The same of an ellipse that is all above the horizon: without arcs, from the axes of the cone of directions to it.
+//
+//   e        of ellipse_prepare
+//
+// The cone's axes are those of B = a a' + b b' - c c' (a, b: half axes, c: centre), whose eigenvalues are -nu < 0 <= mu1, mu2. Along the
+// axis of -nu the cone cuts the plane at distance 1 in an ellipse of half axes sqrt(mu / nu), and by symmetry the vector points along it:
+// pi |det(a, b, c)| / sqrt(nu P) long, P = (mu1 + nu)(mu2 + nu). Newton finds nu from above, where the cubic is convex; the
+// adjugate of B + nu, times c, is the axis, a sum whose terms all lie on c's side.
+// Degenerate: an ellipse without area, or seen from its plane, gives 0.
+// Error: next to the rim, at the share h of its reach, float loses a factor 1 / h.
+// Source: the form factor of an ellipse from above its centre; this project for the axes.
+vec3 ellipse_whole_irradiance_vector(Ellipse e) {
+    vec3 normal = cross(e.axis_a, e.axis_b);
+    vec3 across_a = cross(e.center, e.axis_a);
+    vec3 across_b = cross(e.center, e.axis_b);
+    real c2 = dot(e.center, e.center);
+    real det = dot(e.center, normal);
+    real det2 = det * det;
+    real t = dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b) - c2;
+    real s = dot(normal, normal) - dot(across_a, across_a) - dot(across_b, across_b);
+    real tolerance = 1.0e-7;
+    if (real_digits() > 24) {
+        tolerance = 1.0e-15;
+    }
+    real nu = c2;
+    mask moving = mask_all();  // a lane that stands still stays so, whatever its neighbours do
+    for (int i = 0; i < 24; i++) {
+        real step = (((nu + t) * nu + s) * nu - det2) / max((3.0 * nu + 2.0 * t) * nu + s, smallest_divisor());
+        real next = clamp(nu - step, 0.0, nu);
+        mask still_moving = moving && nu - next > tolerance * nu;
+        nu = select(moving, next, nu);
+        moving = still_moving;
+        if (!any_lane(moving)) {
+            break;
+        }
+    }
+    vec3 axis = e.center * (nu * nu) + (cross(e.axis_a, across_a) + cross(e.axis_b, across_b)) * nu + normal * det;
+    // |axis| = P |v.c| and axis.c = P (v.c)^2 with the unit axis v.
+    real length2 = max(dot(axis, axis), smallest_square());
+    real p = length2 / max(dot(axis, e.center), smallest_divisor());
+    return axis * (pi() * det * inversesqrt(max(length2 * nu * p, smallest_square())));
+}
+
 // A polygon about an ellipse: where its corners gather.
 //   ellipse    prepared
 //   turn       (cos, sin) of the t of the corner nearest to the lobe
@@ -282,15 +325,22 @@ real ellipse_gap(vec2 from_corner, vec2 to_corner) {
     return select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
 }
 
+// A corner, as a vector from the shading point.
+//
+//   gaps     sum of ellipse_gap to the corner before it and to the one after it
+//
+// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
+vec3 ellipse_corner_between(EllipseFan fan, vec2 here, real gaps) {
+    real radius = sqrt(0.5 * gaps);
+    Ellipse e = fan.ellipse;
+    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+
 // The corner between two others, as a vector from the shading point.
 //
 //   before, here, after  ellipse_corner of three neighbours
-//
-// Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 vec3 ellipse_pushed_corner(EllipseFan fan, vec2 before, vec2 here, vec2 after) {
-    real radius = sqrt(0.5 * (ellipse_gap(before, here) + ellipse_gap(here, after)));
-    Ellipse e = fan.ellipse;
-    return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+    return ellipse_corner_between(fan, here, ellipse_gap(before, here) + ellipse_gap(here, after));
 }
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.

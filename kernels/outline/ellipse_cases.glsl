@@ -14,6 +14,16 @@ vec4 case_ellipse_irradiance(CaseInput i) {
     return case_of_vec3(ellipse_irradiance_vector(ellipse_prepare(case_xyz(i.a), case_xyz(i.b), case_xyz(i.c))));
 }
 
+// ellipse, irradiance vector of one above the horizon
+//   a.xyz  vector(1, 5)
+//   b.xyz  vector(0.1, 2)
+//   c.xyz  vector(0.1, 2)
+// Values: 3
+// Bound: statistical
+vec4 case_ellipse_whole_irradiance(CaseInput i) {
+    return case_of_vec3(ellipse_whole_irradiance_vector(ellipse_prepare(case_xyz(i.a), case_xyz(i.b), case_xyz(i.c))));
+}
+
 // ellipse, corners of a polygon about it
 //   a.xyz  vector(1, 5)
 //   b.xyz  vector(0.1, 2)

@@ -9,6 +9,7 @@
 #include "reference/random_configurations.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
+#include "steradian/kernels.h"
 #include "steradian/phong.h"
 
 namespace steradian {
@@ -59,6 +60,37 @@ TEST(EllipseIrradiance, OfADiskOnTheAxisIsItsClosedForm) {
     const double upright = ellipse_irradiance({{0, 1, 0}, {0, 0, radius}, {radius, 0, 0}}, {}, {0, 0, 1});
     EXPECT_NEAR(upright, ellipse_irradiance({{0, 1, 0}, {0, 0, radius}, {radius, 0, 0}}, {}, {0, 0, -1}), 1e-12);
   }
+}
+
+// The cone's axes against the arcs; the share of the rim's distance that float loses is in what these ellipses may have.
+TEST(EllipseIrradiance, OfAWholeEllipseFollowsFromItsCone) {
+  Random random(3);
+  Kernels<double> k;
+  Kernels<float> kf;
+  double worst = 0, worst_float = 0;
+  int whole = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Ellipse e = random_round_light(random, random_direction(random));
+    const double rise = std::hypot(e.x.z, e.y.z);
+    if (e.center.z < rise) continue;
+    ++whole;
+    const auto in = [](auto kernels, Vec3d c, Vec3d a, Vec3d b) {
+      using V = typename std::decay_t<decltype(kernels)>::vec3;
+      const auto v = [](Vec3d d) { return V(d.x, d.y, d.z); };
+      return kernels.ellipse_prepare(v(c), v(a), v(b));
+    };
+    const auto expected = k.ellipse_irradiance_vector(in(k, e.center, e.x, e.y));
+    const auto value = k.ellipse_whole_irradiance_vector(in(k, e.center, e.x, e.y));
+    const auto value_float = kf.ellipse_whole_irradiance_vector(in(kf, e.center, e.x, e.y));
+    const double size = std::sqrt(dot(expected, expected).v);
+    const auto off = [&](double x, double y, double z) { return std::hypot(x - expected.x.v, y - expected.y.v, z - expected.z.v) / size; };
+    worst = std::max(worst, off(value.x.v, value.y.v, value.z.v));
+    worst_float = std::max(worst_float, off(value_float.x.v, value_float.y.v, value_float.z.v));
+  }
+  EXPECT_GT(whole, 500);
+  EXPECT_LT(worst, 1e-10);
+  EXPECT_LT(worst_float, 1e-5);
+  std::printf("%d ellipses, largest difference relative to the vector %.2e, in float %.2e\n", whole, worst, worst_float);
 }
 
 TEST(EllipseIrradiance, AgreesWithFinePolygonsAcrossTheHorizon) {

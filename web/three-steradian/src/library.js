@@ -660,9 +660,6 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        if (!moving) {
-            break;
-        }
         vec2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
         vec2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
         vec2 step1 = z1 - poles.z1;
@@ -670,13 +667,16 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
         poles.z1 = steradian_select(moving, z1, poles.z1);
         poles.z2 = steradian_select(moving, z2, poles.z2);
         moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!moving) {
+            break;
+        }
     }
     return poles;
 }
 float steradian_conic_sweep(vec2 z, float begin, float end) {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
-SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
+SteradianConicArc steradian_conic_scaled(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
     float least = 1.0e-12;
     float d0 = max(dot(u0, u0), steradian_smallest_divisor());
     float d4 = dot(u2, u2);
@@ -688,15 +688,28 @@ SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin
     arc.u2 = steradian_select(d4 > least * d0, u2, u0 * sqrt(least)) * ratio;
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
+    arc.z1 = vec2(0.0, 1.0);
+    arc.z2 = vec2(0.0, 1.0);
+    arc.sweep = vec2(0.0, 0.0);
+    return arc;
+}
+SteradianQuarticPoles steradian_conic_poles(SteradianConicArc arc) {
     float inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
     SteradianQuarticPoles poles = steradian_quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = steradian_conic_polish_poles(arc, poles);
+    return steradian_conic_polish_poles(arc, poles);
+}
+SteradianConicArc steradian_conic_with_poles(SteradianConicArc scaled, SteradianQuarticPoles poles) {
+    SteradianConicArc arc = scaled;
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
     arc.sweep = vec2(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
+}
+SteradianConicArc steradian_conic_prepare(vec3 u0, vec3 u1, vec3 u2, float begin, float end) {
+    SteradianConicArc arc = steradian_conic_scaled(u0, u1, u2, begin, end);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 struct SteradianConicNode {
     float tau;
@@ -831,6 +844,33 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     bool seen = dot(e.center, cross(e.axis_a, e.axis_b)) > least * size;
     return vec3(steradian_select(seen, sum.x, 0.0), steradian_select(seen, sum.y, 0.0), steradian_select(seen, clamp(sum.z, 0.0, steradian_pi()), 0.0));
 }
+vec3 steradian_ellipse_whole_irradiance_vector(SteradianEllipse e) {
+    vec3 normal = cross(e.axis_a, e.axis_b);
+    vec3 across_a = cross(e.center, e.axis_a);
+    vec3 across_b = cross(e.center, e.axis_b);
+    float c2 = dot(e.center, e.center);
+    float det = dot(e.center, normal);
+    float det2 = det * det;
+    float t = dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b) - c2;
+    float s = dot(normal, normal) - dot(across_a, across_a) - dot(across_b, across_b);
+    float tolerance = 1.0e-7;
+    float nu = c2;
+    bool moving = steradian_mask_all();  
+    for (int i = 0; i < 24; i++) {
+        float step = (((nu + t) * nu + s) * nu - det2) / max((3.0 * nu + 2.0 * t) * nu + s, steradian_smallest_divisor());
+        float next = clamp(nu - step, 0.0, nu);
+        bool still_moving = moving && nu - next > tolerance * nu;
+        nu = steradian_select(moving, next, nu);
+        moving = still_moving;
+        if (!moving) {
+            break;
+        }
+    }
+    vec3 axis = e.center * (nu * nu) + (cross(e.axis_a, across_a) + cross(e.axis_b, across_b)) * nu + normal * det;
+    float length2 = max(dot(axis, axis), steradian_smallest_square());
+    float p = length2 / max(dot(axis, e.center), steradian_smallest_divisor());
+    return axis * (steradian_pi() * det * inversesqrt(max(length2 * nu * p, steradian_smallest_square())));
+}
 struct SteradianEllipseFan {
     SteradianEllipse ellipse;
     vec2 turn;
@@ -963,10 +1003,13 @@ float steradian_ellipse_gap(vec2 from_corner, vec2 to_corner) {
     float sine = steradian_select(c > -0.856888753368947234 && s > 0.0, s, 0.515501371821464235);
     return steradian_select(angle < 1.0e-3, 1.0, angle / max(sine, 1.0e-4));
 }
-vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 here, vec2 after) {
-    float radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
+vec3 steradian_ellipse_corner_between(SteradianEllipseFan fan, vec2 here, float gaps) {
+    float radius = sqrt(0.5 * gaps);
     SteradianEllipse e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 here, vec2 after) {
+    return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
 vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
@@ -2282,7 +2325,7 @@ SteradianGgxView steradian_ggx_view(vec3 v, float ax, float ay) {
     view.masking = sqrt(dot(view.w, view.w)) / z;
     return view;
 }
-SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+SteradianConicArc steradian_ggx_edge_scaled(SteradianGgxView view, vec3 a, vec3 b) {
     vec3 chord = b - a;
     vec3 sum = a + b;
     float chord2 = dot(chord, chord);
@@ -2302,9 +2345,13 @@ SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
     float y = 1.0 / view.ay;
     vec3 u0 = view.v + base;
     vec3 u2 = view.v - base;
-    return steradian_conic_prepare(
+    return steradian_conic_scaled(
         vec3(u0.x * x, u0.y * y, u0.z), vec3(q.x * x, q.y * y, q.z) * 2.0, vec3(u2.x * x, u2.y * y, u2.z),
         steradian_select(side < 0.0, 0.0, -reach), steradian_select(side > 0.0, 0.0, reach));
+}
+SteradianConicArc steradian_ggx_edge(SteradianGgxView view, vec3 a, vec3 b) {
+    SteradianConicArc arc = steradian_ggx_edge_scaled(view, a, b);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 float steradian_ggx_unshadowed(SteradianGgxView view, vec3 e) {
     return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
@@ -2371,9 +2418,9 @@ SteradianGgxCubature steradian_ggx_cubature_add(SteradianGgxCubature c, vec3 u, 
     next.highest = steradian_select(counts, vec2(max(c.highest.x, g.x), max(c.highest.y, g.y)), c.highest);
     return next;
 }
-vec2 steradian_ggx_rule(float n, int j) {
+vec2 steradian_ggx_rule(float n, int j, int most) {
     vec2 r = steradian_gauss_legendre_node(1, j);
-    for (int k = 2; k <= 6; k++) {
+    for (int k = 2; k <= most; k++) {
         r = steradian_select(n > float(k) - 0.5, steradian_gauss_legendre_node(k, j), r);
     }
     return r;
@@ -2389,10 +2436,7 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
     bool wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (int j = 0; j < 4 + extra; j++) {
         bool present = n > float(j) + 0.5 && total > 0.0;
-        if (!present) {
-            break;
-        }
-        vec2 rule = steradian_ggx_rule(n, j);
+        vec2 rule = steradian_ggx_rule(n, j, 4 + extra);
         SteradianConicNode node = steradian_conic_node(edge, rule.x);
         vec3 u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         vec3 du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -2405,18 +2449,35 @@ SteradianGgxCubature steradian_ggx_cubature_edge(SteradianGgxCubature c, Steradi
             / (1.0 + max(rim_cosine, -0.9));  
         om = steradian_select(present, om, 0.0);
         next.centre_weight = next.centre_weight + om * steradian_select(wide, 0.04, steradian_select(fine, 0.111111111111111111, 0.25));
-        float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
-        float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
-        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if ((fine || wide) && present) {
-            share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
-            share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        int turns = 1;
+        if (fine && present) {
+            turns = 2;
         }
         if (wide && present) {
-            om = steradian_select(wide, om, 0.0);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (int k = 0; k < turns; k++) {
+            float share = steradian_select(wide, 0.139759864343780571, steradian_select(fine, 0.355051025721682190, 0.666666666666666667));
+            float share_weight = steradian_select(wide, 0.223103901083570916, steradian_select(fine, 0.512485826188421615, 0.75));
+            if (k == 1) {
+                share = steradian_select(wide, 0.416409567631083166, 0.844948974278317810);
+                share_weight = steradian_select(wide, 0.311826522975741250, steradian_select(fine, 0.376403062700467274, 0.0));
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = steradian_select(wide, 0.281356015149461949, 0.0);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = steradian_select(wide, 0.143713560791225886, 0.0);
+            }
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!(present && n > float(j) + 1.5)) {
+            break;
         }
     }
     return next;

@@ -658,9 +658,6 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
     let tolerance = 1.0e-6;
     var moving = arc.end > arc.begin;
     for (var i: i32 = 0; i < sweeps; i++) {
-        if (!moving) {
-            break;
-        }
         let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
         let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
         let step1 = z1 - poles.z1;
@@ -668,13 +665,16 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
         poles.z1 = select(poles.z1, z1, moving);
         poles.z2 = select(poles.z2, z2, moving);
         moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        if (!moving) {
+            break;
+        }
     }
     return poles;
 }
 fn steradian_conic_sweep(z: vec2f, begin: f32, end: f32) -> f32 {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
-fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
+fn steradian_conic_scaled(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
     let least = 1.0e-12;
     let d0 = max(dot(u0, u0), steradian_smallest_divisor());
     let d4 = dot(u2, u2);
@@ -686,15 +686,28 @@ fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32
     arc.u2 = select(u0 * sqrt(least), u2, d4 > least * d0) * ratio;
     arc.begin = begin / arc.scale;
     arc.end = end / arc.scale;
+    arc.z1 = vec2f(0.0, 1.0);
+    arc.z2 = vec2f(0.0, 1.0);
+    arc.sweep = vec2f(0.0, 0.0);
+    return arc;
+}
+fn steradian_conic_poles(arc: SteradianConicArc) -> SteradianQuarticPoles {
     let inverse = 1.0 / max(dot(arc.u2, arc.u2), steradian_smallest_divisor());
-    var poles = steradian_quartic_poles_approximate(
+    let poles = steradian_quartic_poles_approximate(
         dot(arc.u0, arc.u0) * inverse, 2.0 * dot(arc.u0, arc.u1) * inverse,
         (dot(arc.u1, arc.u1) + 2.0 * dot(arc.u0, arc.u2)) * inverse, 2.0 * dot(arc.u1, arc.u2) * inverse);
-    poles = steradian_conic_polish_poles(arc, poles);
+    return steradian_conic_polish_poles(arc, poles);
+}
+fn steradian_conic_with_poles(scaled: SteradianConicArc, poles: SteradianQuarticPoles) -> SteradianConicArc {
+    var arc = scaled;
     arc.z1 = poles.z1;
     arc.z2 = poles.z2;
     arc.sweep = vec2f(steradian_conic_sweep(arc.z1, arc.begin, arc.end), steradian_conic_sweep(arc.z2, arc.begin, arc.end));
     return arc;
+}
+fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
+    let arc = steradian_conic_scaled(u0, u1, u2, begin, end);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 struct SteradianConicNode {
     tau: f32,
@@ -829,6 +842,33 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     let seen = dot(e.center, cross(e.axis_a, e.axis_b)) > least * size;
     return vec3f(select(0.0, sum.x, seen), select(0.0, sum.y, seen), select(0.0, clamp(sum.z, 0.0, steradian_pi()), seen));
 }
+fn steradian_ellipse_whole_irradiance_vector(e: SteradianEllipse) -> vec3f {
+    let normal = cross(e.axis_a, e.axis_b);
+    let across_a = cross(e.center, e.axis_a);
+    let across_b = cross(e.center, e.axis_b);
+    let c2 = dot(e.center, e.center);
+    let det = dot(e.center, normal);
+    let det2 = det * det;
+    let t = dot(e.axis_a, e.axis_a) + dot(e.axis_b, e.axis_b) - c2;
+    let s = dot(normal, normal) - dot(across_a, across_a) - dot(across_b, across_b);
+    let tolerance = 1.0e-7;
+    var nu = c2;
+    var moving = steradian_mask_all();  
+    for (var i: i32 = 0; i < 24; i++) {
+        let step = (((nu + t) * nu + s) * nu - det2) / max((3.0 * nu + 2.0 * t) * nu + s, steradian_smallest_divisor());
+        let next = clamp(nu - step, 0.0, nu);
+        let still_moving = moving && nu - next > tolerance * nu;
+        nu = select(nu, next, moving);
+        moving = still_moving;
+        if (!moving) {
+            break;
+        }
+    }
+    let axis = e.center * (nu * nu) + (cross(e.axis_a, across_a) + cross(e.axis_b, across_b)) * nu + normal * det;
+    let length2 = max(dot(axis, axis), steradian_smallest_square());
+    let p = length2 / max(dot(axis, e.center), steradian_smallest_divisor());
+    return axis * (steradian_pi() * det * inverseSqrt(max(length2 * nu * p, steradian_smallest_square())));
+}
 struct SteradianEllipseFan {
     ellipse: SteradianEllipse,
     turn: vec2f,
@@ -961,10 +1001,13 @@ fn steradian_ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
     let sine = select(0.515501371821464235, s, c > -0.856888753368947234 && s > 0.0);
     return select(angle / max(sine, 1.0e-4), 1.0, angle < 1.0e-3);
 }
-fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
-    let radius = sqrt(0.5 * (steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after)));
+fn steradian_ellipse_corner_between(fan: SteradianEllipseFan, here: vec2f, gaps: f32) -> vec3f {
+    let radius = sqrt(0.5 * gaps);
     let e = fan.ellipse;
     return e.center + (e.axis_a * here.x + e.axis_b * here.y) * radius;
+}
+fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
+    return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
 fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
@@ -2280,7 +2323,7 @@ fn steradian_ggx_view(v: vec3f, ax: f32, ay: f32) -> SteradianGgxView {
     view.masking = sqrt(dot(view.w, view.w)) / z;
     return view;
 }
-fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+fn steradian_ggx_edge_scaled(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
     let chord = b - a;
     let sum = a + b;
     let chord2 = dot(chord, chord);
@@ -2300,9 +2343,13 @@ fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianCo
     let y = 1.0 / view.ay;
     let u0 = view.v + base;
     let u2 = view.v - base;
-    return steradian_conic_prepare(
+    return steradian_conic_scaled(
         vec3f(u0.x * x, u0.y * y, u0.z), vec3f(q.x * x, q.y * y, q.z) * 2.0, vec3f(u2.x * x, u2.y * y, u2.z),
         select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
+}
+fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
+    let arc = steradian_ggx_edge_scaled(view, a, b);
+    return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
 }
 fn steradian_ggx_unshadowed(view: SteradianGgxView, e: vec3f) -> f32 {
     return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
@@ -2369,9 +2416,9 @@ fn steradian_ggx_cubature_add(c: SteradianGgxCubature, u: vec3f, weight: f32) ->
     next.highest = select(c.highest, vec2f(max(c.highest.x, g.x), max(c.highest.y, g.y)), counts);
     return next;
 }
-fn steradian_ggx_rule(n: f32, j: i32) -> vec2f {
+fn steradian_ggx_rule(n: f32, j: i32, most: i32) -> vec2f {
     var r = steradian_gauss_legendre_node(1, j);
-    for (var k: i32 = 2; k <= 6; k++) {
+    for (var k: i32 = 2; k <= most; k++) {
         r = select(r, steradian_gauss_legendre_node(k, j), n > f32(k) - 0.5);
     }
     return r;
@@ -2387,10 +2434,7 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
     let wide = c.extent > 0.3 && max(c.view.ax, c.view.ay) > 0.08;
     for (var j: i32 = 0; j < 4 + extra; j++) {
         let present = n > f32(j) + 0.5 && total > 0.0;
-        if (!present) {
-            break;
-        }
-        let rule = steradian_ggx_rule(n, j);
+        let rule = steradian_ggx_rule(n, j, 4 + extra);
         let node = steradian_conic_node(edge, rule.x);
         let u = edge.u0 + (edge.u1 + edge.u2 * node.tau) * node.tau;
         let du = edge.u1 + edge.u2 * (2.0 * node.tau);
@@ -2403,18 +2447,35 @@ fn steradian_ggx_cubature_edge(c: SteradianGgxCubature, edge: SteradianConicArc,
             / (1.0 + max(rim_cosine, -0.9));  
         om = select(0.0, om, present);
         next.centre_weight = next.centre_weight + om * select(select(0.25, 0.111111111111111111, fine), 0.04, wide);
-        var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
-        var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
-        next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
-        if ((fine || wide) && present) {
-            share = select(0.844948974278317810, 0.416409567631083166, wide);
-            share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+        var turns: i32 = 1;
+        if (fine && present) {
+            turns = 2;
         }
         if (wide && present) {
-            om = select(0.0, om, wide);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.723156986361876117), om * 0.281356015149461949);
-            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, 0.942895803885482318), om * 0.143713560791225886);
+            turns = 4;
+        }
+        for (var k: i32 = 0; k < turns; k++) {
+            var share = select(select(0.666666666666666667, 0.355051025721682190, fine), 0.139759864343780571, wide);
+            var share_weight = select(select(0.75, 0.512485826188421615, fine), 0.223103901083570916, wide);
+            if (k == 1) {
+                share = select(0.844948974278317810, 0.416409567631083166, wide);
+                share_weight = select(select(0.0, 0.376403062700467274, fine), 0.311826522975741250, wide);
+            }
+            if (k == 2) {
+                share = 0.723156986361876117;
+                share_weight = select(0.0, 0.281356015149461949, wide);
+            }
+            if (k == 3) {
+                share = 0.942895803885482318;
+                share_weight = select(0.0, 0.143713560791225886, wide);
+            }
+            next = steradian_ggx_cubature_add(next, steradian_fan_place(c.centre, outward, rim_cosine, share), om * share_weight);
+            if (k + 1 == turns) {
+                break;
+            }
+        }
+        if (!(present && n > f32(j) + 1.5)) {
+            break;
         }
     }
     return next;
