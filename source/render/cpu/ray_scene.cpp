@@ -1,7 +1,9 @@
 #include "render/cpu/ray_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 
 #include "render/cpu/surface.h"
@@ -15,11 +17,10 @@ constexpr unsigned kCastsShadow = 2;
 constexpr unsigned kHasEdges = 4;
 constexpr unsigned kCutOut = 8;
 
-template <class T>
-void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, const T* data, std::size_t count) {
-  void* target = rtcSetNewGeometryBuffer(geometry, type, 0, format, item, count);
-  if (target == nullptr) throw Error("", "out of memory for " + std::to_string(count) + " triangles or vertices");
-  std::memcpy(target, data, item * count);
+void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, std::size_t count) {
+  void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, item, count);
+  if (buffer == nullptr) throw Error("", "out of memory for " + std::to_string(count) + " triangles or vertices");
+  return buffer;
 }
 
 const char* text_of(RTCError error) {
@@ -71,9 +72,25 @@ unsigned mask_of(const Mesh& mesh, const Scene& scene) {
   return kSeenByCamera | kCastsShadow | (cut_out ? kCutOut : kHasEdges);
 }
 
-template <class T>
-bool holds(RTCGeometry geometry, RTCBufferType type, const std::vector<T>& values) {
-  return std::memcmp(rtcGetGeometryBufferData(geometry, type, 0), values.data(), values.size() * sizeof(T)) == 0;
+bool holds(RTCGeometry geometry, const std::vector<std::uint32_t>& indices) {
+  return std::memcmp(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0), indices.data(),
+                     indices.size() * sizeof(std::uint32_t)) == 0;
+}
+
+// Embree takes what is below 1e-18 for nothing, areas times lengths of directions among it. In this unit, a power of two, the scene's size
+// is from 1 / 256 to 256 or so: every length is the same float but for its exponent. Steps of 2^16, so that what moves stays in its unit.
+float unit_of(const Scene& scene) {
+  float size = 0;
+  for (const Mesh& mesh : scene.meshes)
+    for (const Vec3f& p : mesh.positions) size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return size > 0 ? std::ldexp(1.0f, -16 * static_cast<int>(std::lround(std::ilogb(size) / 16.0))) : 1.0f;
+}
+
+// Of sixteen rays.
+void multiply(std::initializer_list<float*> numbers, float by) {
+  if (by == 1) return;
+  for (float* sixteen : numbers)
+    for (std::size_t i = 0; i < 16; ++i) sixteen[i] *= by;
 }
 
 }  // namespace
@@ -87,13 +104,26 @@ RayScene::RayScene(const Scene& scene, Lasts lasts) : device_(rtcNewDevice("")) 
   follow(scene);
 }
 
+void RayScene::put_vertices(RTCGeometry geometry, const Mesh& mesh) const {
+  auto* vertices = static_cast<Vec3f*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+  std::transform(mesh.positions.begin(), mesh.positions.end(), vertices, [&](Vec3f p) { return p * unit_; });
+}
+
+bool RayScene::has_vertices(RTCGeometry geometry, const Mesh& mesh) const {
+  return std::equal(mesh.positions.begin(), mesh.positions.end(),
+                    static_cast<const Vec3f*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)),
+                    [&](Vec3f p, Vec3f q) { return p * unit_ == q; });
+}
+
 void RayScene::make(unsigned number, const Mesh& mesh) {
   Part& part = parts_[number];
   const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owned(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
                                                                             &rtcReleaseGeometry);
   throw_noted_error(device_.get(), "making a mesh");
-  copy_buffer(owned.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.data(), mesh.positions.size());
-  copy_buffer(owned.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.data(), mesh.triangle_count());
+  new_buffer(owned.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.size());
+  put_vertices(owned.get(), mesh);
+  std::memcpy(new_buffer(owned.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangle_count()),
+              mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
   rtcAttachGeometryByID(rtc_.get(), owned.get(), number);
   part.geometry = owned.get();
   part.vertices = mesh.positions.size();
@@ -104,7 +134,7 @@ bool RayScene::put(unsigned number, const Mesh& mesh, const Scene& scene) {
   Part& part = parts_[number];
   const unsigned mask = mesh.indices.empty() ? 0 : mask_of(mesh, scene);
   const bool same_corners = part.geometry != nullptr && part.vertices == mesh.positions.size() && part.triangles == mesh.triangle_count() &&
-                            holds(part.geometry, RTC_BUFFER_TYPE_INDEX, mesh.indices);
+                            holds(part.geometry, mesh.indices);
   bool changed = part.mask != mask;
   if (part.geometry != nullptr && !same_corners) {
     rtcDetachGeometry(rtc_.get(), number);
@@ -114,9 +144,8 @@ bool RayScene::put(unsigned number, const Mesh& mesh, const Scene& scene) {
   if (mask != 0 && part.geometry == nullptr) {
     make(number, mesh);
     changed = true;
-  } else if (mask != 0 && !holds(part.geometry, RTC_BUFFER_TYPE_VERTEX, mesh.positions)) {
-    std::memcpy(rtcGetGeometryBufferData(part.geometry, RTC_BUFFER_TYPE_VERTEX, 0), mesh.positions.data(),
-                mesh.positions.size() * sizeof(Vec3f));
+  } else if (mask != 0 && !has_vertices(part.geometry, mesh)) {
+    put_vertices(part.geometry, mesh);
     rtcUpdateGeometryBuffer(part.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     changed = true;
   }
@@ -144,6 +173,7 @@ bool RayScene::put(unsigned number, const Mesh& mesh, const Scene& scene) {
 
 bool RayScene::follow(const Scene& scene) {
   bool any = parts_.empty(), edges = false;
+  unit_ = unit_of(scene);
   parts_.resize(std::max(parts_.size(), scene.meshes.size()));
   const Mesh nothing;
   for (unsigned i = 0; i < parts_.size(); ++i) {
@@ -164,29 +194,35 @@ void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16& r = rays.ray;
+  const auto numbers = {r.org_x, r.org_y, r.org_z, r.tnear, r.tfar};
+  multiply(numbers, unit_);
   rtcIntersect16(valid, rtc_.get(), &context, &rays);
+  multiply(numbers, 1 / unit_);
 }
 
 bool RayScene::intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  origin = origin * unit_;
   hit.ray = {origin.x,      origin.y, origin.z, 0.0f, direction.x, direction.y, direction.z, 0.0f, std::numeric_limits<float>::infinity(),
              kSeenByCamera, 0,        0};
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(rtc_.get(), &context, &hit);
+  hit.ray.tfar /= unit_;
   return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-namespace {
-
-bool blocked(RTCScene rtc, Vec3f from, Vec3f direction, float near, float far, unsigned mask = kCastsShadow) {
+bool RayScene::blocked(Vec3f from, Vec3f direction, float near, float far, unsigned mask) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay ray = {from.x, from.y, from.z, near, direction.x, direction.y, direction.z, 0.0f, far, mask, 0, 0};
-  rtcOccluded1(rtc, &context, &ray);
+  rtcOccluded1(rtc_.get(), &context, &ray);
   return ray.tfar < 0;  // Embree's sign of a hit
 }
+
+namespace {
 
 // How far the origin of a shadow ray keeps off its surface: a few roundings of its coordinates.
 float offset_of(Vec3f p) { return 1e-5f + 4e-6f * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
@@ -198,11 +234,11 @@ bool RayScene::occluded(Vec3f from, Vec3f to) const {
   const float distance = length(d);
   const float near = offset_of(from) + 1e-4f * std::min(distance, 1.0f), far = distance * (1.0f - 1e-4f) - offset_of(to);
   if (!(far > near)) return false;
-  return blocked(rtc_.get(), from, d / distance, near, far);
+  return blocked(from * unit_, d / distance, near * unit_, far * unit_, kCastsShadow);
 }
 
 bool RayScene::between(Vec3d from, Vec3d to, Casters casters) const {
-  return blocked(rtc_.get(), static_cast<Vec3f>(from), static_cast<Vec3f>(to - from), 0, 1,
+  return blocked(static_cast<Vec3f>(from) * unit_, static_cast<Vec3f>(to - from) * unit_, 0, 1,
                  casters == Casters::all          ? kCastsShadow
                  : casters == Casters::with_edges ? kHasEdges
                                                   : kCutOut);
@@ -232,7 +268,10 @@ std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked) con
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const auto numbers = {rays.org_x, rays.org_y, rays.org_z, rays.dir_x, rays.dir_y, rays.dir_z};
+  multiply(numbers, unit_);
   rtcOccluded16(valid, rtc_.get(), &context, &rays);
+  multiply(numbers, 1 / unit_);
   std::uint32_t result = 0;
   for (unsigned i = 0; i < 16; ++i)
     if (valid[i] != 0 && rays.tfar[i] < 0) result |= 1u << i;
@@ -240,7 +279,7 @@ std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked) con
 }
 
 bool RayScene::blocked_towards(Vec3d from, Vec3d direction) const {
-  return blocked(rtc_.get(), static_cast<Vec3f>(from), static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity());
+  return blocked(static_cast<Vec3f>(from) * unit_, static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity(), kCastsShadow);
 }
 
 }  // namespace steradian

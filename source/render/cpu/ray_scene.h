@@ -30,10 +30,10 @@ class RayScene {
   // After an Error it is of no scene.
   bool follow(const Scene& scene);
 
-  // Traces 16 neighbouring camera rays; valid[i] is -1 for a ray to trace, 0 for none. hit.geomID[i] is the mesh.
+  // Traces 16 neighbouring camera rays, of unit directions; valid[i] is -1 for a ray to trace, 0 for none. hit.geomID[i] is the mesh.
   void intersect(const int valid[16], RTCRayHit16& rays) const;
 
-  // One ray from anywhere. Returns false when nothing is hit.
+  // One ray from anywhere, in a unit direction. Returns false when nothing is hit.
   bool intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const;
 
   // Whether something stands between two points, near the ends included: a point on a surface is moved off it first
@@ -47,7 +47,7 @@ class RayScene {
   };
   std::uint32_t blocked_among(Sixteen& sixteen, std::uint32_t asked) const;
 
-  bool blocked_towards(Vec3d from, Vec3d direction) const;  // by any
+  bool blocked_towards(Vec3d from, Vec3d direction) const;  // by any; of length 1
 
   // The same from surface to surface, for rays that need not agree with the shadows of direct light: both ends are moved in
   // by a share of the distance.
@@ -64,6 +64,10 @@ class RayScene {
   };
   bool put(unsigned number, const Mesh& mesh, const Scene& scene);  // whether anything has changed
   void make(unsigned number, const Mesh& mesh);
+  void put_vertices(RTCGeometry geometry, const Mesh& mesh) const;
+  bool has_vertices(RTCGeometry geometry, const Mesh& mesh) const;
+  // From a point in Embree's unit.
+  bool blocked(Vec3f from, Vec3f direction, float near, float far, unsigned mask) const;
 
   struct Release {
     void operator()(RTCDevice device) const;
@@ -72,6 +76,7 @@ class RayScene {
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> rtc_;
   std::vector<Part> parts_;  // by mesh
+  float unit_ = 1;           // Embree's lengths are the scene's by this
 };
 
 }  // namespace steradian
