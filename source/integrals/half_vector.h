@@ -54,8 +54,7 @@ class HalfVector {
   }
   Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, edges_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
 
-  // A bias makes the elements better from far nearer on.
-  double least_distance2() const { return 30; }
+  double least_distance2() const { return kHalfVectorsLeastDistance2; }
   SmallLight<S> small_light(const vec3&) const {
     return {K().light_elements_half_vector_sharpness(lobe_.deviation(), view_.v.z), kAlongArcs.roundings, lobe_.bias()};
   }
@@ -71,12 +70,15 @@ class HalfVector {
   decltype(std::declval<Lobe>().nothing()) sum_;
 };
 
+// Which form of the cosine series serves an exponent: blinn_phong_arc_approximate's range.
+inline int cosine_series_range(double n) { return n < 2 ? 2 : n < 8 ? 1 : 0; }
+
 // In double by quadrature, else by the cosine series.
 template <class S>
 class BlinnPhongArcs {
  public:
   using K = Kernels<S>;
-  explicit BlinnPhongArcs(double n) : n_(n), range_(n < 2 ? 2 : n < 8 ? 1 : 0), series_(K().moment_series_prepare(n < 2 ? n + 1 : n - 1)) {}
+  explicit BlinnPhongArcs(double n) : n_(n), range_(cosine_series_range(n)), series_(K().moment_series_prepare(n < 2 ? n + 1 : n - 1)) {}
 
   Real<S> alpha_x() const { return K().blinn_phong_alpha(n_); }
   Real<S> alpha_y() const { return alpha_x(); }

@@ -4,8 +4,6 @@
 // cosine series, is the integral (kernels/lobe/lobe_product.glsl).
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "integrals/phong.h"
@@ -55,8 +53,10 @@ class MatchedLobe {
   }
 
   // The product itself, where the light is small: without the bias of one lobe in its place.
-  double least_distance2() const { return std::min(kAlongArcs.least_distance2, 4 * sharpness() * sharpness()); }
-  SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness()), kAlongArcs.roundings, bends_ ? kUnbiased : kSeriesBias}; }
+  double least_distance2() const { return least_distance2_of_power(exponents_, true); }
+  SmallLight<S> small_light(const vec3&) const {
+    return {Real<S>(sharpness_of_power(exponents_)), kAlongArcs.roundings, bends_ ? kUnbiased : kSeriesBias};
+  }
   Part<S> at(const vec3& u) const {
     K k;
     const Real<S> zero(0.0), c1 = dot(u, mirror_), c2 = dot(u, axis_);
@@ -65,8 +65,6 @@ class MatchedLobe {
   }
 
  private:
-  // As light_elements_sharpness has it, of the deviation 1 / sqrt(n1 + n2).
-  double sharpness() const { return 2.5 + std::sqrt(exponents_); }
   vec3 stretched(const vec3& u) const {
     K k;
     return k.polygon_direction(k.lobe_product_stretch(lobe_, u));

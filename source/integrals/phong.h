@@ -1,9 +1,6 @@
 // The Phong lobe's integral, by every method that is a sum over edges: the axial moment of the clipped outline.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "integrals/integrate.h"
 #include "steradian/phong.h"
 
@@ -108,11 +105,8 @@ class Phong {
   void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) { return {Kernels<S>().moment_phong_radiance(sum_, reversed), Real<S>(0.0)}; }
 
-  // t^3 / 8 below the bias, or below what the roundings are.
-  STERADIAN_INLINE double least_distance2() const {
-    return bias_ > 0 ? std::min(kAlongArcs.least_distance2, 4 * sharpness() * sharpness()) : kAlongArcs.least_distance2;
-  }
-  SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness()), kAlongArcs.roundings, bias_}; }
+  STERADIAN_INLINE double least_distance2() const { return least_distance2_of_power(exponent_, bias_ > 0); }
+  SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness_of_power(exponent_)), kAlongArcs.roundings, bias_}; }
   Part<S> at(const vec3& u) const {
     const auto in_front = dot(u, axis_) > Real<S>(0.0);
     const Real<S> lobe = Kernels<S>().phong_lobe(u, axis_, Real<S>(exponent_));
@@ -120,9 +114,6 @@ class Phong {
   }
 
  private:
-  // As light_elements_sharpness has it, of the deviation 1 / sqrt(n).
-  double sharpness() const { return 2.5 + std::sqrt(exponent_); }
-
   double exponent_, bias_;
   Share share_;
   vec3 axis_;

@@ -15,6 +15,9 @@
 // integrate chooses, lane by lane. Nothing of this costs more than a comparison where lights are large.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "steradian/kernels.h"
 
 STERADIAN_BEGIN_ISA
@@ -28,10 +31,20 @@ struct SmallLightLimits {
   double least_distance2;
 };
 inline constexpr SmallLightLimits kAlongEdges{2, 4000}, kTransformed{8, 2000}, kAlongArcs{128, 500};
+// Integrals along arcs of half vectors have a bias that makes the elements better from far nearer on.
+inline constexpr double kHalfVectorsLeastDistance2 = 30;
 
 // Bias of Phong's series, which are off by so much of the full lobe for each half of an edge (kernels/integral/moment_series.glsl): over a
 // light that is small against the lobe, by a share of the light. The numbers are t^3 / 8 where the elements' error is as large.
 inline constexpr double kUnbiased = 0, kSeriesBias = 1.0 / 64, kHighSeriesBias = 1.0 / 115, kBeckmannBias = 1.0 / 200;
+
+// Of a power n of a cosine: sharpness as light_elements_sharpness has it, of the deviation 1 / sqrt(n), and where t^3 / 8 comes
+// below the bias, or below what the roundings are.
+inline double sharpness_of_power(double n) { return 2.5 + std::sqrt(n); }
+inline double least_distance2_of_power(double n, bool biased) {
+  const double sharpness = sharpness_of_power(n);
+  return biased ? std::min(kAlongArcs.least_distance2, 4 * sharpness * sharpness) : kAlongArcs.least_distance2;
+}
 
 // What decides whether the elements serve.
 template <class S>

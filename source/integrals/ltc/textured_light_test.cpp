@@ -250,6 +250,22 @@ TEST(TexturedLight, ErrorsAreThoseOfTheTable) {
   std::printf("%s", textured_error_text(rows).c_str());
 }
 
+// Of the cosine-weighted light that a floor's point gets from a square light, the share that is red, and all of it: sums over its points.
+struct Shine {
+  double red, all;
+};
+Shine shine_at(const AreaLight& light, const std::vector<Image>& images, Vec3d p, int steps) {
+  Shine shine{};
+  for (int b = 0; b < steps; ++b)
+    for (int a = 0; a < steps; ++a) {
+      const Vec3d q{-1 + 2 * (a + 0.5) / steps, 1 - 2 * (b + 0.5) / steps, 1}, r = q - p;
+      const double weight = 1 / (dot(r, r) * dot(r, r));
+      shine.all += weight;
+      shine.red += weight * texture_radiance(*light.texture, images, q).x;
+    }
+  return shine;
+}
+
 // A floor under a light of which a corner of a sixteenth shines, and under one that is half black: against the sum over its points.
 TEST(TexturedLight, LitCornersAndHalvesOverAFloor) {
   for (const bool corner : {true, false}) {
@@ -263,15 +279,7 @@ TEST(TexturedLight, LitCornersAndHalvesOverAFloor) {
     for (int j = 0; j < 9; ++j)
       for (int i = 0; i < 9; ++i) {
         const Vec3d p{-2 + 0.5 * i, -2 + 0.5 * j, 0};
-        double lit = 0, all = 0;
-        constexpr int kSteps = 192;
-        for (int b = 0; b < kSteps; ++b)
-          for (int a = 0; a < kSteps; ++a) {
-            const Vec3d q{-1 + 2 * (a + 0.5) / kSteps, 1 - 2 * (b + 0.5) / kSteps, 1}, r = q - p;
-            const double weight = 1 / (dot(r, r) * dot(r, r));
-            all += weight;
-            lit += weight * texture_radiance(*light.texture, images, q).x;
-          }
+        const auto [lit, all] = shine_at(light, images, p, 192);
         const double value = static_cast<double>(textured.seen_by_diffuse({p, {0, 0, 1}, {0, 0, 1}}).x) * all;
         error += (value - lit) * (value - lit);
         signal += lit * lit;
@@ -290,15 +298,7 @@ TEST(TexturedLight, ColoursOfOneLuminance) {
   for (int j = 0; j < 9; ++j)
     for (int i = 0; i < 9; ++i) {
       const Vec3d p{-1 + 0.25 * i, -1 + 0.25 * j, 0.7};
-      double red = 0, all = 0;
-      constexpr int kSteps = 96;
-      for (int b = 0; b < kSteps; ++b)
-        for (int a = 0; a < kSteps; ++a) {
-          const Vec3d q{-1 + 2 * (a + 0.5) / kSteps, 1 - 2 * (b + 0.5) / kSteps, 1}, r = q - p;
-          const double weight = 1 / (dot(r, r) * dot(r, r));
-          all += weight;
-          red += weight * texture_radiance(*light.texture, images, q).x;
-        }
+      const auto [red, all] = shine_at(light, images, p, 96);
       const double off = static_cast<double>(textured.seen_by_diffuse({p, {0, 0, 1}, {0, 0, 1}}).x) - red / all;
       error += off * off;
       signal += red / all * (red / all);

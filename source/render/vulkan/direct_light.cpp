@@ -7,6 +7,7 @@
 #include "render/cpu/ltc_points.h"
 #include "render/vulkan/shaders.h"
 #include "scene/table_file.h"
+#include "shapes/small_light.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -265,24 +266,24 @@ bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) c
   return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
 }
 
-// Of a lobe's integral, in the light's mean square deviations: source/shapes/small_light.h.
-float DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
+// Of a lobe's integral, in the light's mean square deviations.
+double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
   if (pass.own != nullptr) return pass.own->least_distance2;
   switch (pass.shader) {
-    case kDiffuse: return light.kind == kPolygon ? 4000 : 500;
-    case kClosedForm: return 500;
-    case kHalfVector: return 30;
-    default: return 2000;
+    case kDiffuse: return light.kind == kPolygon ? integrals::kAlongEdges.least_distance2 : integrals::kAlongArcs.least_distance2;
+    case kClosedForm: return integrals::kAlongArcs.least_distance2;
+    case kHalfVector: return integrals::kHalfVectorsLeastDistance2;
+    default: return integrals::kTransformed.least_distance2;
   }
 }
 
 // Whether some point of a box may see the light as small, or be near its rim; others spare the shaders both.
 bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
-  const float least = least_distance2(light, pass);
+  const double least = least_distance2(light, pass);
   const Distances d = distances(light.middle, where.low, where.high);
   // Parts may be small from where all of the light is not: kNeverSmall.
-  const float small = shadowed ? std::min(least, 100.0f) : least;
+  const auto small = static_cast<float>(shadowed ? std::min(least, 100.0) : least);
   return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 

@@ -92,7 +92,7 @@ class DirectLight {
   void list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass);
   void list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
             const Tile::Shadowed* shadowed);
-  float least_distance2(const LightRecord& light, const Pass& pass) const;
+  double least_distance2(const LightRecord& light, const Pass& pass) const;
   void list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square);
   bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
   void list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const;

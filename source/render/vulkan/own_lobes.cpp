@@ -1,8 +1,9 @@
 #include "render/vulkan/own_lobes.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "integrals/half_vector.h"
+#include "shapes/small_light.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -18,43 +19,36 @@ Vec4Floats with(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
-// Which form of a series serves an exponent: kernels/integral/moment_cosine.glsl.
-int low_of(double n) { return n < 2 ? 2 : n < 8 ? 1 : 0; }
-
-// As source/integrals/phong.h and matched_lobe.h: of the deviation 1 / sqrt(n).
-float least_distance2_of_power(double n, bool biased) {
-  const double sharpness = 2.5 + std::sqrt(n);
-  return static_cast<float>(biased ? std::min(500.0, 4 * sharpness * sharpness) : 500.0);
-}
-
 OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::size_t first) {
   OwnLobes::Lobe lobe{m, method, static_cast<std::uint32_t>(first), 0, 0, 0, true, 0};
   switch (m.brdf) {
     case Brdf::phong:
       lobe.phong = phong_method({method, quality});
       lobe.form = m.foreshortening ? 1 : 0;
-      lobe.low = m.foreshortening ? low_of(m.exponent) : m.exponent < 1 ? 2 : 0;
+      lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
       lobe.by_points = m.foreshortening;
-      lobe.least_distance2 = least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
+      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
       break;
     case Brdf::lobe_product:
       lobe.phong = phong_method({Method::series, quality});
       lobe.form = 2;
       lobe.low = m.exponent + m.axis_exponent < 1 ? 3 : 0;  // the matched exponent is at least the sum
-      lobe.least_distance2 = least_distance2_of_power(m.exponent + m.axis_exponent, true);
+      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent + m.axis_exponent, true);
       break;
     case Brdf::beckmann:
     case Brdf::blinn_phong:
       lobe.form = m.brdf == Brdf::beckmann ? 1 : 0;
-      lobe.low = m.brdf == Brdf::beckmann ? 0 : low_of(m.exponent);
+      lobe.low = m.brdf == Brdf::beckmann ? 0 : integrals::cosine_series_range(m.exponent);
       lobe.by_points = false;
-      lobe.least_distance2 = 30;
+      lobe.least_distance2 = integrals::kHalfVectorsLeastDistance2;
       break;
     case Brdf::ggx:
       lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
-      lobe.least_distance2 = method == Method::half_vector ? 30 : method == Method::closed_form || method == Method::exact ? 500 : 2000;
+      lobe.least_distance2 = method == Method::half_vector                              ? integrals::kHalfVectorsLeastDistance2
+                             : method == Method::closed_form || method == Method::exact ? integrals::kAlongArcs.least_distance2
+                                                                                        : integrals::kTransformed.least_distance2;
       break;
-    default: lobe.least_distance2 = 2000; break;  // charlie
+    default: lobe.least_distance2 = integrals::kTransformed.least_distance2; break;  // charlie
   }
   return lobe;
 }

@@ -26,8 +26,8 @@ class OwnLobes {
     int form = 0;
     int phong = 0;
     int low = 0;
-    bool by_points;         // whether the CPU takes it point by point, with as many corners for round lights as `eval` has
-    float least_distance2;  // as DirectLight's
+    bool by_points;          // whether the CPU takes it point by point, with as many corners for round lights as `eval` has
+    double least_distance2;  // as DirectLight's
   };
 
   // The details of lights hold them from vector `first` on. The scene must stay.
