@@ -223,6 +223,15 @@ vec3 profiled_mean(Light light, Surface s, vec4 found, vec3 sent) {
     return light.r[8].xyz * (integral > 0.0 ? clamp(found.x + found.y / integral, found.z, found.w) : 0.0);
 }
 
+// The radiance that the lobe sees of an uneven light. Of what hides a part of it only the share counts that it takes of an even light's
+// radiance (shadow_shares.comp), as on the CPU.
+vec3 mean_of(Light light, Surface s, vec4 found, vec3 sent) {
+    return UNEVEN_LIGHTS == kProfileMean ? profiled_mean(light, s, found, sent) : found.xyz;
+}
+
+// Of a light in the lists: its own, its states', its means'.
+const uint kNumbers = 1u + uint(SHADOWED_LIGHTS) + (UNEVEN ? 1u : 0u);
+
 void main() {
     Entry entry = entry_here();
     Surface surface = surface_in(entry);
@@ -230,30 +239,29 @@ void main() {
     vec3 sum = vec3(0.0);
     uint i = 0u;
     do {
+        uint at = entry.first + kNumbers * i;
+        Light light = light_at(lists[at]);
+        vec4 found = vec4(0.0);
+        if (UNEVEN) found = means[lists[at + kNumbers - 1u] + slot_of_means()];
         if (SHADOWED) {
-            take_part(states[lists[entry.first + 2u * i + 1u] + entry.slot]);
-            Light light = light_at(lists[entry.first + 2u * i]);
+            take_part(states[lists[at + 1u] + entry.slot]);
             for (int turn = first_turn(); turn <= kLastTurn; turn++) {
                 turn_to(turn);
-                vec3 sent = light.r[0].xyz * sent_by(light, surface) * part.weight;
+                vec3 sent = sent_by(light, surface);
+                sent *= part.weight * (UNEVEN && turn == kLastTurn ? mean_of(light, surface, found, sent) : light.r[0].xyz);
                 if (part.whole > 0)
                     parts[part.whole - kPartSums + turn].xyz += sent;
                 else
                     sum += sent;
             }
-        } else if (UNEVEN) {
-            Light light = light_at(lists[entry.first + 2u * i]);
-            vec4 found = means[lists[entry.first + 2u * i + 1u] + slot_of_means()];
-            vec3 sent = sent_by(light, surface);
-            sum += sent * (UNEVEN_LIGHTS == kProfileMean ? profiled_mean(light, surface, found, sent) : found.xyz);
         } else {
-            Light light = light_at(lists[entry.first + i]);
-            sum += light.r[0].xyz * sent_by(light, surface);
+            vec3 sent = sent_by(light, surface);
+            sum += sent * (UNEVEN ? mean_of(light, surface, found, sent) : light.r[0].xyz);
         }
         ++i;
     } while (i < entry.count);
 
-    uint at = entry.tile * uint(kRadiance) + entry.slot;
-    radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
+    uint to = entry.tile * uint(kRadiance) + entry.slot;
+    radiance[to] = vec4(texelFetch(radiance_before, int(to)).xyz + sum, 0.0);
 }
 #endif

@@ -14,9 +14,6 @@ namespace steradian {
 class ShadowTaker {
  public:
   virtual ~ShadowTaker() = default;
-  // Whether it lights points by this light, which it then takes.
-  virtual bool lights(const PackLight& light) const = 0;
-
   // The side of a light that a slot sees, or null. It may be the same for all and stay, or be valid for sixteen calls.
   using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
   // Points before an area light, and what stands between.

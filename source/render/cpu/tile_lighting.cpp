@@ -117,13 +117,12 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
       plain.push_back(light);
       continue;
     }
-    const bool taken = taker != nullptr && taker->lights(*light);
-    shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts, taken ? taker : nullptr); });
+    shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts, taker); });
     if (work.shadow.is_plain()) {
       plain.push_back(light);
       continue;
     }
-    if (taken) {
+    if (taker != nullptr) {
       shadow_clock_.run([&] { taker->take(*light, work.shadow); });
       continue;
     }

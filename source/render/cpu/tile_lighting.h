@@ -37,7 +37,7 @@ class TileLighting {
   // ... of lights before which something may stand.
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
   // ... of those of them before which something does stand, and returns the others. Coats with a normal of their own are done with for
-  // good: they weigh nothing in the tile then. taker: where it is not null, some lights are its to add.
+  // good: they weigh nothing in the tile then. taker: where it is not null, they are its to add.
   std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker = nullptr);
   // What some points see of an area light. It stays until the thread asks for more.
   const TileShadow& find_at(const TilePoints& points, const PackLight& light);

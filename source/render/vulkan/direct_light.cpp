@@ -136,7 +136,7 @@ struct DirectLight::Pass {
 struct DirectLight::Work {
   struct Entry {
     std::uint32_t square, count, own;
-    std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states, of textured ones with its means
+    std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states, of uneven ones with its means
   };
   struct Key {
     std::size_t shader;
@@ -408,11 +408,14 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
   const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
-  if (shadowed != nullptr) return work.add(key, own, place, {number, shadowed->states});
-  if (!own.asks_for_mean(record)) return work.add(key, own, place, {number});
-  list_means(work, place, own, number);
-  work.add(key, own, place, {number, work.means});
-  work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
+  std::vector<std::uint32_t> numbers = {number};
+  if (shadowed != nullptr) numbers.push_back(shadowed->states);
+  if (own.asks_for_mean(record)) {
+    list_means(work, place, own, number);
+    numbers.push_back(work.means);
+    work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
+  }
+  work.add(key, own, place, numbers);
 }
 
 void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {

@@ -136,18 +136,19 @@ struct Frame::Parts {
     });
   }
 
-  // Adds what the shaders do not have: the light of those before which something stands, but what is left to the device, and of those that
-  // they do not know, which leave the list; and of the others that of some lobes, which leave the tile.
+  // Adds what the shaders do not have: the light of those that they do not know, and of those before which something stands, but what is
+  // left to the device, which leave the list; and of the others that of some lobes, which leave the tile.
   void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching, TileShadows& left) {
     left.clear();
     const bool own = tile.any_override && direct.own_lobes().has_all(tile);
     const bool all_lobes = DirectLight::has(method) && (own || !tile.any_override);
-    reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
     const auto unknown = std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) {
       return direct.has(*light) && !(own && light->profiled != nullptr);  // no shader finds what those lobes see of a profile
     });
-    if (unknown != reaching.end()) host.add(tile, {unknown, reaching.end()});
+    if (unknown != reaching.end())
+      host.has_shadows() ? host.add_shadowed(tile, {unknown, reaching.end()}) : host.add(tile, {unknown, reaching.end()});
     reaching.erase(unknown, reaching.end());
+    reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
 
     const bool diffuse = std::exchange(tile.any_diffuse, false), sheen = std::exchange(tile.any_sheen, false);
     const bool layers = DirectLight::has(method);

@@ -88,11 +88,6 @@ struct Writer {
 
 }  // namespace
 
-bool shaders_have(const PackLight& light) {
-  const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
-  return light.is_even() && (punctual == nullptr || punctual->profile == nullptr);
-}
-
 std::uint32_t LightRecords::add(const PackLight& light, std::ptrdiff_t details) {
   Record r{};
   LightRecord record;

@@ -11,9 +11,6 @@ namespace steradian::vulkan {
 
 using Vec4Floats = std::array<float, 4>;
 
-// Whether shaders light surfaces by it where something hides a part of it.
-bool shaders_have(const PackLight& light);
-
 // What is behind a light's number.
 struct LightRecord {
   int kind = 0;              // of shaders/layout.glsl

@@ -83,6 +83,40 @@ inline PunctualLight punctual(PunctualKind kind, Vec3d position, Vec3d direction
   return light;
 }
 
+inline const Polygon kSquare{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}};
+
+// A floor under a light, and triangles between them, here and there.
+inline Scene under_triangles(int count, const Shape& light = kSquare) {
+  Scene scene;
+  SurfaceMaterial floor;
+  floor.metallic = 0.3f;
+  floor.roughness = 0.4f;
+  floor.clearcoat = 0.5f;
+  floor.clearcoat_roughness = 0.2f;
+  floor.sheen_color = {0.2f, 0.3f, 0.1f};
+  scene.materials = {floor};
+  scene.meshes = {scene::quad_mesh({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 0), Mesh{}};
+  Mesh& triangles = scene.meshes[1];
+  for (int i = 0; i < count; ++i) {
+    const double turn = 2.399963 * i, away = 0.6 * std::sqrt((i + 0.5) / count);  // as seeds of a sunflower
+    for (int corner = 0; corner < 3; ++corner) {
+      const double angle = turn + 2.1 * corner;
+      triangles.indices.push_back(static_cast<std::uint32_t>(triangles.positions.size()));
+      triangles.positions.push_back({static_cast<float>(away * std::cos(turn) + 0.1 * std::cos(angle)),
+                                     static_cast<float>(1.5 + 0.1 * std::sin(3 * angle)),
+                                     static_cast<float>(away * std::sin(turn) + 0.1 * std::sin(angle))});
+      triangles.normals.push_back({0, 1, 0});
+    }
+  }
+  Camera camera;
+  camera.position = {0, 2.5, 5};
+  camera.z = normalized(Vec3d{0, 0.4, 1});
+  camera.y = {0, camera.z.z, -camera.z.y};
+  scene.cameras = {camera};
+  scene.area_lights = {light_of(light, {3, 2, 1}, true)};
+  return scene;
+}
+
 inline std::vector<std::string> warnings_of(const Scene& scene, RenderOptions options) {
   options.width = options.height = 32;
   RenderStats stats;

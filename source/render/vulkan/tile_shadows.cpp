@@ -134,8 +134,6 @@ void TileShadows::clear() {
   sides.clear();
 }
 
-bool TileShadows::lights(const PackLight& light) const { return shaders_have(light); }
-
 bool TileShadows::find(const Group& asked) {
   const shadow::EdgeArrays& edges = asked.edges;
   const shadow::LaneEdges all = edges.lane_edges();

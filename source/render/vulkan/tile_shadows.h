@@ -19,7 +19,6 @@ class TileShadows : public ShadowTaker {
  public:
   void clear();
 
-  bool lights(const PackLight& light) const override;
   bool find(const Group& group) override;
   void take(const PackLight& light, const TileShadow& shadow) override;
 
