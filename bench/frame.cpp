@@ -3,6 +3,7 @@
 //   frame/direct/METHOD/1080p   a floor that fills the picture under one quad light; diffuse for `exact`, with a GGX lobe
 //                               on top for the others. The lighting is the passes `direct` and `specular`.
 //   frame/gallery/METHOD/720p   the gallery's direct light without shadows
+//   frame/moved/METHOD/SIZE     the same after its polygons have moved, with what RenderCache keeps, and all that makes a picture ready
 //   frame/rays/arcade/1080p     primary rays of the colonnade alone
 //
 // On a Vulkan device the same, but for the rays, under vulkan/frame/...
@@ -24,6 +25,7 @@
 #include "render/cpu/gbuffer.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
+#include "steradian/render_cache.h"
 
 namespace steradian::bench {
 namespace {
@@ -48,6 +50,28 @@ Bench gallery(const Where& where, const std::string& name, const std::string& me
   frame->scene = load_scene(gallery_file()).scene;
   frame->options.method = method;
   return bench_of(name, frame);
+}
+
+Bench moved(const Where& where, const std::string& name, const std::string& method, int width, int height, int threads) {
+  struct Moved {
+    Scene scene;
+    RenderCache cache{};
+    double step = 0.01;
+  };
+  auto frame = frame_on(where, threads);
+  frame->options.method = method;
+  frame->options.width = width;
+  frame->options.height = height;
+  const auto moved = std::make_shared<Moved>(load_scene(gallery_file()).scene);
+  return {name, static_cast<std::size_t>(width) * static_cast<std::size_t>(height), name_of(active_simd()),
+          [frame, moved] {
+            for (AreaLight& light : moved->scene.area_lights)
+              if (auto* polygon = std::get_if<Polygon>(&light.shape))
+                for (Vec3d& vertex : polygon->vertices) vertex.x += moved->step;
+            moved->step = -moved->step;
+            keep(render(moved->scene, frame->options, moved->cache).pixels.front());
+          },
+          false};
 }
 
 struct Rays {
@@ -108,6 +132,10 @@ void add_frame(BenchList& list, const Where& where) {
   if (std::filesystem::exists(gallery_file()))
     for (const std::string method : {"ltc-compact", "ltc", "closed-form"})
       add_by("gallery/" + method + "/720p", [=](const std::string& name, int threads) { return gallery(where, name, method, threads); });
+  if (std::filesystem::exists(gallery_file()))
+    for (const auto& [size, width, height] : {std::tuple{"80x45", 80, 45}, {"720p", 1280, 720}})
+      add_by(std::string("moved/ltc-compact/") + size,
+             [=](const std::string& name, int threads) { return moved(where, name, "ltc-compact", width, height, threads); });
   if (on_cpu && std::filesystem::exists(arcade())) add(list, "frame/rays/arcade/1080p", rays);
 }
 

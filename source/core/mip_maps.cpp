@@ -81,15 +81,50 @@ Image coded(const LinearImage& from, ColorSpace space) {
 
 }  // namespace
 
-struct MipMaps::Levels {
+struct MipMaps::Pyramid {
   std::once_flag once;
   std::vector<Image> smaller;
+
+  const std::vector<Image>& below(const Image& whole, ColorSpace space) {
+    std::call_once(once, [&] {
+      LinearImage image{whole.width, whole.height, {}};
+      while (image.width > 1 || image.height > 1) {
+        image = image.rgba.empty() ? halved(whole.width, whole.height, [&](int x, int y) { return texel_of(whole, x, y, space); })
+                                   : halved(image.width, image.height, [&](int x, int y) { return texel_of(image, x, y); });
+        smaller.push_back(coded(image, space));
+      }
+    });
+    return smaller;
+  }
+};
+
+struct MipMaps::Levels {
+  std::shared_ptr<Pyramid> pyramid;
+  std::once_flag once;
   std::vector<const Image*> whole, all;
 };
 
 MipMaps::MipMaps(const std::vector<Image>& images) : images_(images), levels_(std::make_unique<Levels[]>(2 * images.size())) {
-  for (std::size_t i = 0; i < 2 * images.size(); ++i) levels_[i].whole = {&images[i / 2]};
+  for (std::size_t i = 0; i < 2 * images.size(); ++i) {
+    levels_[i].pyramid = std::make_shared<Pyramid>();
+    levels_[i].whole = {&images[i / 2]};
+  }
 }
+
+MipMaps::MipMaps(const std::vector<Image>& images, Pyramids& last) : MipMaps(images) {
+  Pyramids these;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const Fingerprint texels = fingerprint(std::span<const std::uint8_t>(images[i].rgba));
+    for (const ColorSpace space : {ColorSpace::linear, ColorSpace::srgb}) {
+      std::shared_ptr<Pyramid>& pyramid = levels_[2 * i + (space == ColorSpace::srgb ? 1 : 0)].pyramid;
+      const Pyramids::key_type key(texels, images[i].width, images[i].height, space);
+      if (const auto found = last.find(key); found != last.end()) pyramid = found->second;
+      pyramid = these.try_emplace(key, pyramid).first->second;
+    }
+  }
+  last = std::move(these);
+}
+
 MipMaps::~MipMaps() = default;
 
 MipMaps::Levels& MipMaps::of(const TextureUse& use) const {
@@ -98,18 +133,13 @@ MipMaps::Levels& MipMaps::of(const TextureUse& use) const {
 
 const std::vector<const Image*>& MipMaps::whole(const TextureUse& use) const { return of(use).whole; }
 
+const std::shared_ptr<MipMaps::Pyramid>& MipMaps::pyramid(const TextureUse& use) const { return of(use).pyramid; }
+
 const std::vector<const Image*>& MipMaps::levels(const TextureUse& use) const {
   Levels& levels = of(use);
   std::call_once(levels.once, [&] {
-    const Image& whole = *levels.whole.front();
-    LinearImage image{whole.width, whole.height, {}};
-    while (image.width > 1 || image.height > 1) {
-      image = image.rgba.empty() ? halved(whole.width, whole.height, [&](int x, int y) { return texel_of(whole, x, y, use.color_space); })
-                                 : halved(image.width, image.height, [&](int x, int y) { return texel_of(image, x, y); });
-      levels.smaller.push_back(coded(image, use.color_space));
-    }
-    levels.all.push_back(&whole);
-    for (const Image& smaller : levels.smaller) levels.all.push_back(&smaller);
+    levels.all = levels.whole;
+    for (const Image& smaller : levels.pyramid->below(*levels.whole.front(), use.color_space)) levels.all.push_back(&smaller);
   });
   return levels.all;
 }

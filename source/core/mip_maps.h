@@ -1,10 +1,13 @@
 // MipMaps: pictures at half, a quarter, ... of their size, so that a pixel that covers many texels shows their mean.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 #include <vector>
 
+#include "core/fingerprint.h"
 #include "steradian/texture.h"
 
 namespace steradian {
@@ -18,8 +21,15 @@ struct TextureFootprint {
 // The mean over the texels that the next larger picture has in its place, by area; in linear light.
 class MipMaps {
  public:
+  // The smaller pictures of one in a color space.
+  struct Pyramid;
+  // By the picture's texels, size and color space.
+  using Pyramids = std::map<std::tuple<Fingerprint, int, int, ColorSpace>, std::shared_ptr<Pyramid>>;
+
   // Nothing is computed before it is asked for. The images must outlive this.
   explicit MipMaps(const std::vector<Image>& images);
+  // The same, with those that are there already; the last ones become these.
+  MipMaps(const std::vector<Image>& images, Pyramids& last);
   ~MipMaps();
 
   const std::vector<Image>& images() const { return images_; }
@@ -27,6 +37,8 @@ class MipMaps {
   const std::vector<const Image*>& levels(const TextureUse& use) const;
   // The picture alone.
   const std::vector<const Image*>& whole(const TextureUse& use) const;
+  // The same object has been made of the same texels.
+  const std::shared_ptr<Pyramid>& pyramid(const TextureUse& use) const;
 
  private:
   struct Levels;

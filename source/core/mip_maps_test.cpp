@@ -35,6 +35,40 @@ float any(Random& random, double from, double to) { return static_cast<float>(ra
 
 }  // namespace
 
+// Scenes one after another: what has the same texels keeps its pyramid, and no other one.
+TEST(MipMaps, TheSameTexelsKeepTheirPyramid) {
+  const auto noise = [](int seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    return picture(20, 13, [&](int, int, int) { return random.uniform(0, 255.99); }).front();
+  };
+  const auto of = [](int image, ColorSpace space) {
+    TextureUse use = use_of(space);
+    use.image = image;
+    return use;
+  };
+  MipMaps::Pyramids kept;
+  const std::vector<Image> before = {noise(1), noise(2)};
+  const auto first = std::make_unique<const MipMaps>(before, kept);
+  const auto pyramid = first->pyramid(of(1, ColorSpace::srgb));
+  const Image* second_level = first->levels(of(1, ColorSpace::srgb))[1];
+  EXPECT_NE(pyramid, first->pyramid(of(1, ColorSpace::linear)));
+  EXPECT_NE(pyramid, first->pyramid(of(0, ColorSpace::srgb)));
+
+  std::vector<Image> after = {noise(2), noise(1), noise(2)};
+  after[1].rgba[17] ^= 1;
+  const MipMaps second(after, kept);
+  for (const int image : {0, 2}) EXPECT_EQ(second.pyramid(of(image, ColorSpace::srgb)), pyramid);
+  EXPECT_EQ(second.levels(of(0, ColorSpace::srgb))[0], &after[0]);
+  EXPECT_EQ(second.levels(of(0, ColorSpace::srgb))[1], second_level);
+  EXPECT_EQ(second_level->rgba, MipMaps(after).levels(of(0, ColorSpace::srgb))[1]->rgba);
+  EXPECT_NE(second.pyramid(of(1, ColorSpace::srgb)), first->pyramid(of(0, ColorSpace::srgb)));
+
+  std::vector<Image> turned = {noise(2)};
+  std::swap(turned[0].width, turned[0].height);
+  EXPECT_NE(MipMaps(turned, kept).pyramid(of(0, ColorSpace::srgb)), pyramid);
+  EXPECT_EQ(kept.size(), 2u);  // of the last scene alone
+}
+
 // Every texel of every level is the mean of what it stands for, by area, in linear light; stored in 8 bits, so half a code off.
 TEST(MipMaps, LevelsAreMeansByArea) {
   Random random(3);

@@ -21,7 +21,7 @@ Picture render_by(const Scene& scene, const RenderOptions& options, RenderCache*
   try {
     picture = vulkan::Frame(scene, options, nullptr, vulkan::SurfacesBy::automatic, vulkan::RaysBy::automatic, cache).render(stats);
   } catch (...) {  // what is lost is not asked again
-    if (cache != nullptr) cache->parts().device.reset();
+    if (cache != nullptr) cache->parts().on_device = {};
     throw;
   }
   if (state != nullptr) state->complete = options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);

@@ -10,14 +10,14 @@ constexpr float kLeastShare = 1e-3f;  // of the light from behind; less is black
 
 }  // namespace
 
-FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, std::shared_ptr<const RayScene> rays)
+FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts)
     : scene_(scene),
       options_(options),
       camera_(find_camera(scene, options.camera), options.width, options.height),
-      rays_(std::move(rays)),
+      rays_(parts.rays),
       environment_(prepare_environment()),
-      maps_(scene.images),
-      shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, &maps_,
+      maps_(parts.maps),
+      shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),
                camera_.steps(options.aa)},
       tiles_x_((options.width + kTileSide - 1) / kTileSide),
       tiles_y_((options.height + kTileSide - 1) / kTileSide) {}

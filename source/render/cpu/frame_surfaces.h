@@ -7,8 +7,7 @@
 #include "render/cpu/camera_rays.h"
 #include "render/cpu/gbuffer.h"
 #include "render/cpu/pass_clock.h"
-#include "core/mip_maps.h"
-#include "render/cpu/ray_scene.h"
+#include "render/cpu/scene_parts.h"
 #include "render/cpu/surface_pack.h"
 #include "render/environment/environment_light.h"
 #include "steradian/render.h"
@@ -20,7 +19,7 @@ inline constexpr int kMostLayers = 8;  // surfaces that light passes, one behind
 class FrameSurfaces {
  public:
   // Scene and options must stay.
-  FrameSurfaces(const Scene& scene, const RenderOptions& options, std::shared_ptr<const RayScene> rays);
+  FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts);
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int tiles_across() const { return tiles_x_; }
@@ -54,7 +53,7 @@ class FrameSurfaces {
   const std::shared_ptr<const RayScene> rays_;
   double environment_build_ms_ = 0;
   const std::unique_ptr<const environment::EnvironmentLight> environment_;
-  const MipMaps maps_;
+  const std::shared_ptr<const MipMaps> maps_;
   const Shading shading_;
   const int tiles_x_, tiles_y_;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, environment_clock_{"environment"};

@@ -43,7 +43,7 @@ class Renderer {
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
         parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
-        surfaces_(scene, options, parts_.rays),
+        surfaces_(scene, options, parts_),
         lights_(prepare_lights(scene, surfaces_.environment_spots())),
         many_lights_(prepare_many_lights()),
         lighting_(scene, options, method_, lights_, parts_, many_lights_.get()),

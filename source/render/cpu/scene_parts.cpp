@@ -3,7 +3,8 @@
 namespace steradian {
 SceneParts SceneParts::of(const Scene& scene, Sorted sorted) {
   return {std::make_shared<const RayScene>(scene),
-          sorted == Sorted::for_rays_and_edges ? std::make_shared<const ShadowEdges>(scene) : nullptr};
+          sorted == Sorted::for_rays_and_edges ? std::make_shared<const ShadowEdges>(scene) : nullptr,
+          std::make_shared<const MipMaps>(scene.images)};
 }
 
 SceneParts RenderCache::Parts::follow(const Scene& scene, Sorted sorted) {
@@ -19,7 +20,7 @@ SceneParts RenderCache::Parts::follow(const Scene& scene, Sorted sorted) {
     }
   }
   if (sorted == Sorted::for_rays_and_edges && shadows == nullptr) shadows = std::make_shared<const ShadowEdges>(scene);
-  return {rays, sorted == Sorted::for_rays_and_edges ? shadows : nullptr};
+  return {rays, sorted == Sorted::for_rays_and_edges ? shadows : nullptr, std::make_shared<const MipMaps>(scene.images, pyramids)};
 }
 
 RenderCache::RenderCache() : parts_(std::make_unique<Parts>()) {}

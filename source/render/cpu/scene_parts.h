@@ -1,9 +1,12 @@
-// SceneParts: what the meshes of a scene are sorted into for rays and shadows, whatever looks at them and shines on them.
+// SceneParts: what the meshes of a scene are sorted into for rays and shadows, and its pictures at smaller sizes, whatever looks at them
+// and shines on them.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "core/mip_maps.h"
 #include "render/cpu/ray_scene.h"
 #include "shadow/gather.h"
 #include "shadow/open_shaft.h"
@@ -12,7 +15,7 @@
 namespace steradian {
 
 namespace vulkan {
-class Device;
+struct KeptOnDevice;
 }
 
 // The edges that cast shadows, and the trees over them.
@@ -30,6 +33,7 @@ enum class Sorted { for_rays, for_rays_and_edges };
 struct SceneParts {
   std::shared_ptr<const RayScene> rays;
   std::shared_ptr<const ShadowEdges> shadows;  // null for rays alone
+  std::shared_ptr<const MipMaps> maps;         // of the scene's images, which must stay
 
   static SceneParts of(const Scene& scene, Sorted sorted);
 };
@@ -41,9 +45,8 @@ struct RenderCache::Parts {
 
   std::shared_ptr<RayScene> rays;
   std::shared_ptr<const ShadowEdges> shadows;
-
-  std::shared_ptr<const vulkan::Device> device;  // with its pipelines; of that name in the options
-  std::string device_name;
+  MipMaps::Pyramids pyramids;
+  std::pair<std::shared_ptr<vulkan::KeptOnDevice>, std::string> on_device;  // and the device's name in the options
 };
 
 }  // namespace steradian

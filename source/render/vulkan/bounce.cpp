@@ -118,31 +118,39 @@ Bounce::Bounce(const Device& device)
     : device_((check_buffers(device.info()), device)),
       tables_(ltc_compact_pack_tables()),
       lobe_program_(device, {bounce_lobes_shader()}, 3),
-      program_(device, bounce_shaders(), kBuffers) {
+      program_(device, bounce_shaders(), kBuffers),
+      texels_(device),
+      texel_lobes_(device, BufferUse::host_reads),
+      table_(device),
+      lights_(device),
+      masks_(device),
+      boxes_(device),
+      parameters_(device) {
+  for (std::size_t p = 0; p < kPlanes; ++p)
+    planes_.emplace_back(device, p == kDiffuseRows ? BufferUse::host_reads : BufferUse::host_writes);
   std::vector<float> nodes = tables_.matrix.nodes;
   nodes.insert(nodes.end(), tables_.magnitude.nodes.begin(), tables_.magnitude.nodes.end());
-  fitting(table_, nodes.size() * sizeof(float), "tables").write(nodes.data(), nodes.size() * sizeof(float));
+  table_.hold(nodes);
 }
 
-// One that holds so many bytes: made anew where it is too small, with room for half as much again, so that frames that follow find it.
-Buffer& Bounce::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const std::string& what, BufferUse use) {
+// Throws Error where so many bytes of something are more.
+std::size_t Bounce::most_of_buffer(std::size_t bytes, const std::string& what) const {
   const std::size_t most = device_.info().storage_buffer;
   if (bytes > most)
     throw Error("Vulkan device '" + device_.info().name + "'",
                 "has storage buffers of at most " + readable_bytes(most) + "; " + what + " takes " + readable_bytes(bytes),
                 "render a smaller picture with fewer --vpls, or use --backend cpu");
-  if (buffer == nullptr || buffer->bytes() < bytes) {
-    const std::size_t room = buffer == nullptr ? bytes : std::min(bytes + bytes / 2, most);
-    buffer.reset();
-    buffer = std::make_unique<Buffer>(device_, std::max<std::size_t>(room, 256), use);
-  }
-  return *buffer;
+  return most;
+}
+
+Buffer& Bounce::fitting(KeptBuffer& buffer, std::size_t bytes, const std::string& what) const {
+  return buffer.fit_with_room(bytes, most_of_buffer(bytes, what));
 }
 
 void Bounce::run(const std::vector<ComputeProgram::Dispatch>& dispatches, const std::vector<const char*>& names) {
   std::vector<const Buffer*> buffers;
-  for (const auto& plane : planes_) buffers.push_back(plane.get());
-  for (const auto* other : {&lights_, &masks_, &boxes_, &table_, &parameters_}) buffers.push_back(other->get());
+  for (const KeptBuffer& plane : planes_) buffers.push_back(&plane.get());
+  for (const KeptBuffer* other : {&lights_, &masks_, &boxes_, &table_, &parameters_}) buffers.push_back(&other->get());
   const std::vector<double> ms = program_.run(buffers, dispatches);
   for (std::size_t i = 0; i < ms.size(); ++i) times_[std::string("device: ") + names[i]] += ms[i];
 }
@@ -157,12 +165,12 @@ LobeArrays Bounce::lobes(const ShadowMap& map) {
     to.put(map.normal[i], map.alpha[i]);
     to.put(map.incoming[i], 0);
   });
-  fitting(texel_lobes_, count * kLobe * kVector, "virtual lights", BufferUse::host_reads);
+  fitting(texel_lobes_, count * kLobe * kVector, "virtual lights");
   const std::size_t pipeline = lobe_program_.pipeline(0, {tables_.matrix.size, tables_.magnitude.size});
-  const auto ms =
-      lobe_program_.run({texels_.get(), texel_lobes_.get(), table_.get()}, {threads(pipeline, count, static_cast<std::uint32_t>(count))});
+  const auto ms = lobe_program_.run({&texels_.get(), &texel_lobes_.get(), &table_.get()},
+                                    {threads(pipeline, count, static_cast<std::uint32_t>(count))});
   if (!ms.empty()) times_["device: virtual lights"] += ms.front();
-  const auto* from = static_cast<const float*>(texel_lobes_->mapped());
+  const auto* from = static_cast<const float*>(texel_lobes_.get().mapped());
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const float* l = from + i * kLobe * 4;
     result.x.put(i, {l[0], l[1], l[2]});
@@ -179,10 +187,9 @@ LobeArrays Bounce::lobes(const ShadowMap& map) {
 void Bounce::upload(const FrameSurfaces& s) {
   const auto width = static_cast<std::size_t>(s.raster.width), height = static_cast<std::size_t>(s.raster.height);
   float* to[kPlanes];
-  for (std::size_t p = 0; p < kPlanes; ++p) {
-    const BufferUse use = p == kDiffuseRows ? BufferUse::host_reads : BufferUse::host_writes;
-    to[p] = static_cast<float*>(fitting(planes_[p], width * height * kVector, "a picture's surfaces", use).mapped());
-  }
+  const std::size_t bytes = width * height * kVector;
+  most_of_buffer(bytes, "a picture's surfaces");
+  for (std::size_t p = 0; p < kPlanes; ++p) to[p] = static_cast<float*>(planes_[p].fit(bytes).mapped());
   tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t from = s.raster.at(static_cast<int>(x), static_cast<int>(y)), at = 4 * (y * width + x);
@@ -326,7 +333,7 @@ VectorArray Bounce::radiance(const FrameSurfaces& surfaces, const std::vector<Li
 
   start = Clock::now();
   VectorArray result(surfaces.raster.size());
-  const auto* from = static_cast<const float*>(planes_[kDiffuseRows]->mapped());
+  const auto* from = static_cast<const float*>(planes_[kDiffuseRows].get().mapped());
   tbb::parallel_for(0, layout.height, [&](int y) {
     for (int x = 0; x < layout.width; ++x) {
       const float* r = from + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.width) + static_cast<std::size_t>(x));

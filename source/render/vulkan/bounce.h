@@ -3,13 +3,13 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/cpu/ltc_points.h"
 #include "render/indirect/passes.h"
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/kept_buffer.h"
 
 namespace steradian::vulkan {
 
@@ -38,7 +38,8 @@ class Bounce final : public indirect::Passes {
   };
   enum Kernel : std::size_t { kBoxes, kCull, kLight, kFilter, kResolve };
 
-  Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const std::string& what, BufferUse use = BufferUse::host_writes);
+  std::size_t most_of_buffer(std::size_t bytes, const std::string& what) const;
+  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, const std::string& what) const;
   void upload(const indirect::FrameSurfaces& surfaces);
   void upload_lights(const std::vector<indirect::LightSet>& sets, const indirect::BounceSettings& settings, std::size_t first,
                      std::size_t count);
@@ -50,9 +51,9 @@ class Bounce final : public indirect::Passes {
   const Device& device_;
   const LtcPackTables tables_;
   ComputeProgram lobe_program_, program_;
-  std::unique_ptr<Buffer> texels_, texel_lobes_, table_;
-  std::unique_ptr<Buffer> planes_[kPlanes];
-  std::unique_ptr<Buffer> lights_, masks_, boxes_, parameters_;
+  KeptBuffer texels_, texel_lobes_, table_;
+  std::vector<KeptBuffer> planes_;  // by Plane
+  KeptBuffer lights_, masks_, boxes_, parameters_;
   std::vector<std::uint32_t> values_;  // of the parameters
   std::map<std::string, double> times_;
 };

@@ -43,7 +43,7 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
     if (form != BufferForm::storage) usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
     h.buffer = d.device.createBuffer({{}, bytes, usage});
     const auto needed = h.buffer.getMemoryRequirements();
-    h.memory = d.device.allocateMemory({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});
+    h.memory = d.allocate({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});
     h.buffer.bindMemory(*h.memory, 0);
     h.mapped = h.memory.mapMemory(0, bytes);
     if (form == BufferForm::storage) return;

@@ -160,4 +160,6 @@ Device::~Device() {
 
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
 
+std::size_t Device::allocations() const { return handles_->allocations; }
+
 }  // namespace steradian::vulkan

@@ -41,6 +41,8 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   // Warnings and errors of the validation layer so far.
   const std::vector<std::string>& validation_messages() const;
+  // Pieces of memory that were asked of it so far.
+  std::size_t allocations() const;
 
   struct Handles;  // handles.h, for this folder only
   const Handles& handles() const { return *handles_; }

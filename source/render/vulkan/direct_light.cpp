@@ -87,6 +87,11 @@ void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TileP
   for (std::size_t i = 0; i < kTilePixels; ++i) to[i] = {v.x[i], v.y[i], v.z[i], beside[i]};
 }
 
+// In bytes; texels count, too.
+std::size_t most_of_buffer(const DeviceInfo& device) {
+  return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * sizeof(Vec4Floats)});
+}
+
 // Squared distances of a point from a box.
 struct Distances {
   float nearest = 0, farthest = 0;
@@ -164,22 +169,33 @@ struct DirectLight::Work {
   }
 };
 
-DirectLight::DirectLight(const Device& device, const Scene& scene, const DirectMethod& method, const std::string& table,
+DirectLight::Kept::Kept(const Device& d)
+    : device(d),
+      tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
+      program(d,
+              {texture_means_shader(), profile_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(),
+               representative_point_shader(), sheen_shader(), ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(),
+               arcs_lobe_shader(), shadow_shares_shader()},
+              kBuffers, kTexels),
+      surfaces(d, BufferUse::host_writes, BufferForm::texels),
+      radiance(d, BufferUse::host_reads, BufferForm::texels),
+      tables(d, BufferUse::host_writes, BufferForm::texels),
+      details(d, BufferUse::host_writes, BufferForm::texels),
+      lights(d, BufferUse::host_writes, BufferForm::texels),
+      vertices(d, BufferUse::host_writes, BufferForm::texels),
+      lists(d, BufferUse::host_writes, BufferForm::texels),
+      means(d, BufferUse::host_writes, BufferForm::texels) {
+  surfaces.fit(tiles * bytes_of_planes(kPlanes));
+  radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
+}
+
+DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::string& table,
                          const std::vector<PackLight>& lights)
-    : device_(device),
+    : kept_(kept),
       method_(method),
       specular_shader_(shader_of(method)),
-      light_details_(lights, std::min({kLargestBuffer / sizeof(Vec4Floats), device.info().storage_buffer / sizeof(Vec4Floats),
-                                       device.info().texel_buffer}) -
-                                 OwnLobes::most_vectors(scene)),
-      own_lobes_(scene, method, light_details_.values().size()),
-      tiles_(
-          (check_device(device.info()), std::min(kTilesOfBatch, device.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
-      program_(device,
-               {texture_means_shader(), profile_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(),
-                representative_point_shader(), sheen_shader(), ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(),
-                arcs_lobe_shader(), shadow_shares_shader()},
-               kBuffers, kTexels) {
+      light_details_(lights, most_of_buffer(kept.device.info()) / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
+      own_lobes_(scene, method, light_details_.values().size()) {
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
   scene_vertices_ = records_.vertices.size();
@@ -190,9 +206,6 @@ DirectLight::DirectLight(const Device& device, const Scene& scene, const DirectM
   std::vector<float> nodes;
   for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
     nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());
-  const auto write = [&](std::unique_ptr<Buffer>& buffer, const void* data, std::size_t bytes) {
-    fitting(buffer, std::max(bytes, sizeof(Vec4Floats))).write(data, bytes);
-  };
   if (std::any_of(lights.begin(), lights.end(), [](const PackLight& light) { return light.textured != nullptr; })) {
     const LtcPackTables compact = ltc_compact_pack_tables();
     compact_first_ = static_cast<int>(nodes.size() / 4);
@@ -201,14 +214,11 @@ DirectLight::DirectLight(const Device& device, const Scene& scene, const DirectM
   }
   std::vector<Vec4Floats> details = light_details_.values();
   details.insert(details.end(), own_lobes_.values().begin(), own_lobes_.values().end());
-  write(details_, details.data(), details.size() * sizeof(Vec4Floats));
+  kept.details.hold(details);
   matrix_size_ = std::max(tables.matrix.size, 2);
   magnitude_size_ = std::max(tables.magnitude.size, 2);
   fresnel_table_ = tables.fresnel_matrix.size > 0;
-  write(tables_, nodes.data(), nodes.size() * sizeof(float));
-  fitting(surfaces_, tiles_ * bytes_of_planes(kPlanes));
-  radiance_ = std::make_unique<Buffer>(device, tiles_ * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats), BufferUse::host_reads,
-                                       BufferForm::texels);
+  kept.tables.hold(nodes);
 }
 
 bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
@@ -217,21 +227,17 @@ bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != 
 
 bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
 
-// The buffer, made anew where it is too small: room for half as much again, so that frames that follow find it.
-Buffer& DirectLight::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const {
-  const std::size_t most = std::min(kLargestBuffer, device_.info().texel_buffer * sizeof(Vec4Floats));
+Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes) const {
+  const std::size_t most = most_of_buffer(kept_.device.info());
   if (bytes > most)
     throw Error("Vulkan",
                 "the lights' lists take " + std::to_string(bytes) + " bytes, more than the " + std::to_string(most) + " of a buffer",
                 "use fewer --max-lights, or --backend cpu");
-  if (buffer == nullptr || buffer->bytes() < bytes)
-    buffer = std::make_unique<Buffer>(device_, buffer == nullptr ? bytes : std::min(bytes + bytes / 2, most), BufferUse::host_writes,
-                                      BufferForm::texels);
-  return *buffer;
+  return buffer.fit_with_room(bytes, most);
 }
 
 void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
-  Vec4Floats* planes = static_cast<Vec4Floats*>(surfaces_->mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
+  Vec4Floats* planes = static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
   put_vector(planes, kPosition, tile.position, tile.alpha_x);
   put_vector(planes, kNormal, tile.normal, tile.alpha_y);
   put_vector(planes, kView, tile.view, tile.fresnel_loss);
@@ -249,11 +255,12 @@ void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
 }
 
 void DirectLight::put_radiance(std::size_t place, const SurfaceTile& tile) {
-  put_vector(static_cast<Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance, tile.coat);
+  put_vector(static_cast<Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance,
+             tile.coat);
 }
 
 void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
-  const Vec4Floats* from = static_cast<const Vec4Floats*>(radiance_->mapped()) + place * static_cast<std::size_t>(kRadiance);
+  const Vec4Floats* from = static_cast<const Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance);
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     radiance.x[i] = from[i][0];
     radiance.y[i] = from[i][1];
@@ -441,7 +448,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
     run(tiles, middle, end, states, parts);
     return;
   }
-  fitting(means_, std::max(work.means * sizeof(Vec4Floats), sizeof(Vec4Floats)));
+  fitting(kept_.means, work.means * sizeof(Vec4Floats));
 
   std::vector<std::uint32_t> entries, numbers;
   std::vector<ComputeProgram::Dispatch> dispatches;
@@ -449,7 +456,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   for (const auto& [key, group] : work.groups) count += group.entries.size();
   const std::size_t after_entries = count * static_cast<std::size_t>(kEntry);
   for (const auto& [key, group] : work.groups) {
-    dispatches.push_back({program_.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
+    dispatches.push_back({kept_.program.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
                           static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
     for (const Work::Entry& entry : group.entries) {
       entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
@@ -458,21 +465,21 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   }
   entries.insert(entries.end(), numbers.begin(), numbers.end());
 
-  const auto write = [&](std::unique_ptr<Buffer>& buffer, const auto& values) {
+  const auto write = [&](KeptBuffer& buffer, const auto& values) {
     using Value = typename std::decay_t<decltype(values)>::value_type;
     const std::size_t bytes = values.size() * sizeof(Value);
-    Buffer& to = fitting(buffer, std::max<std::size_t>(bytes, sizeof(Vec4Floats)));
+    Buffer& to = fitting(buffer, bytes);
     to.write(values.data(), bytes);
+    return &to;
   };
-  write(lists_, entries);
-  write(lights_, records_.values);
-  write(vertices_, records_.vertices);
-
-  const Buffer* none = lists_.get();
+  const Buffer* lists = write(kept_.lists, entries);
+  const Buffer* lights = write(kept_.lights, records_.values);
+  const Buffer* vertices = write(kept_.vertices, records_.vertices);
+  const Buffer *radiance = &kept_.radiance.get(), *none = lists;
   const std::vector<double> ms =
-      program_.run({surfaces_.get(), tables_.get(), lights_.get(), vertices_.get(), radiance_.get(), radiance_.get(), lists_.get(),
-                    states != nullptr ? states : none, parts != nullptr ? parts : none, means_.get(), details_.get()},
-                   dispatches);
+      kept_.program.run({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, radiance, lists,
+                         states != nullptr ? states : none, parts != nullptr ? parts : none, &kept_.means.get(), &kept_.details.get()},
+                        dispatches);
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)
     if (i < ms.size()) times_[group.name] += ms[i++];

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "render/cpu/methods.h"
 #include "render/cpu/tile.h"
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/kept_buffer.h"
 #include "render/vulkan/light_records.h"
 #include "render/vulkan/light_details.h"
 #include "render/vulkan/own_lobes.h"
@@ -25,16 +25,24 @@ class DirectLight {
   // Whether the shaders have the lobes of metallic-roughness surfaces by this method; else only diffuse light and sheen.
   static bool has(const DirectMethod& method);
 
-  // table: as RenderOptions::table. The device, the scene and the lights must stay. Throws Error for a device that lacks something.
-  DirectLight(const Device& device, const Scene& scene, const DirectMethod& method, const std::string& table,
-              const std::vector<PackLight>& lights);
+  // What is on the device, for any number of pictures, one after another. The device must stay. Throws Error for one that lacks something.
+  struct Kept {
+    explicit Kept(const Device& device);
+    const Device& device;
+    const std::size_t tiles;  // of a batch
+    ComputeProgram program;
+    KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means;
+  };
+
+  // table: as RenderOptions::table. What is kept, the scene and the lights must stay.
+  DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
 
   // Whether the shaders have this light; without shadows.
   bool has(const PackLight& light) const;
   // The lobes of extras.steradian.
   const OwnLobes& own_lobes() const { return own_lobes_; }
 
-  std::size_t tiles_of_batch() const { return tiles_; }
+  std::size_t tiles_of_batch() const { return kept_.tiles; }
 
   // What the device needs of a tile, which is number `place` of the batch. Threads may put different places at the same time.
   void put(std::size_t place, const SurfaceTile& tile);
@@ -42,8 +50,8 @@ class DirectLight {
   void put_radiance(std::size_t place, const SurfaceTile& tile);
 
   // Where others than put may write: planes of shaders/layout.glsl.
-  Buffer& surfaces() { return *surfaces_; }
-  Buffer& radiance() { return *radiance_; }
+  Buffer& surfaces() { return kept_.surfaces.get(); }
+  Buffer& radiance() { return kept_.radiance.get(); }
 
   // What the passes go by: of each of a tile's squares of 16 x 16 pixels its surfaces and the lights that reach them.
   struct Square {
@@ -99,10 +107,10 @@ class DirectLight {
   std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                     const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
-  Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes) const;
+  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes) const;
   bool is_ltc() const;
 
-  const Device& device_;
+  Kept& kept_;
   const DirectMethod method_;
   std::size_t specular_shader_;
   const LightDetails light_details_;
@@ -112,9 +120,6 @@ class DirectLight {
   int most_edges_ = 0;  // of the scene's polygons, as far as there is space for them
   int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: of textured lights' means
   bool fresnel_table_ = false;
-  std::size_t tiles_;
-  ComputeProgram program_;
-  std::unique_ptr<Buffer> surfaces_, radiance_, lights_, vertices_, lists_, tables_, means_, details_;
   std::map<std::string, double> times_;
 };
 

@@ -16,10 +16,7 @@
 #include "render/cpu/methods.h"
 #include "render/cpu/tile_lighting.h"
 #include "render/indirect/pipeline.h"
-#include "render/vulkan/bounce.h"
-#include "render/vulkan/direct_light.h"
-#include "render/vulkan/raster_surfaces.h"
-#include "render/vulkan/shadows.h"
+#include "render/vulkan/kept_on_device.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -70,14 +67,20 @@ DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
   return choose_method(scene, options);
 }
 
-std::shared_ptr<const Device> device_of(const std::string& name, RenderCache* cache) {
-  if (cache != nullptr && cache->parts().device != nullptr && cache->parts().device_name == name) return cache->parts().device;
-  auto device = std::make_shared<const Device>(DeviceOptions{name, false});
-  if (cache != nullptr) {
-    cache->parts().device = device;
-    cache->parts().device_name = name;
+// The cache's, made anew where that is of another device.
+std::shared_ptr<KeptOnDevice> kept_of(std::shared_ptr<const Device> device, const std::string& name, RenderCache* cache) {
+  const auto make = [&] {
+    return std::make_shared<KeptOnDevice>(device != nullptr ? std::move(device)
+                                                            : std::make_shared<const Device>(DeviceOptions{name, false}));
+  };
+  if (cache == nullptr) return make();
+  auto& [kept, kept_name] = cache->parts().on_device;
+  if (kept == nullptr || (device != nullptr ? kept->device != device : kept_name != name)) {
+    kept.reset();
+    kept = make();
+    kept_name = name;
   }
-  return device;
+  return kept;
 }
 
 SceneParts parts_of(const Scene& scene, const RenderOptions& options, RenderCache* cache) {
@@ -105,21 +108,22 @@ struct Frame::Parts {
         options(o),
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
         method(chosen(s, o)),
-        device(d != nullptr ? std::move(d) : device_of(o.device, cache)),
+        kept(kept_of(std::move(d), o.device, cache)),
+        device(kept->device),
         parts(parts_of(s, o, cache)),
-        surfaces(s, o, parts.rays),
+        surfaces(s, o, parts),
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
-        direct(*device, s, method, o.table, lights),
+        direct(kept->direct, s, method, o.table, lights),
         rays_by_device(rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
-    if (has_bounce() && !bounce_on_host(o.indirect)) bounce = std::make_unique<Bounce>(*device);
+    if (has_bounce() && !bounce_on_host(o.indirect)) bounce = &made(kept->bounce, *device);
     kept_on_host = keeps_surfaces_on_host();
     if (by == SurfacesBy::device && !kept_on_host.empty())
       throw UsageError("--backend vulkan", "the device cannot find the surfaces (" + kept_on_host + ")");
     if (by == SurfacesBy::device || (by == SurfacesBy::automatic && kept_on_host.empty() && !device->info().software))
-      raster = std::make_unique<RasterSurfaces>(*device, s, surfaces.camera(), o, direct.tiles_of_batch(), host_adds());
+      raster.emplace(made(kept->raster, *device), s, *parts.maps, surfaces.camera(), o, direct.tiles_of_batch(), host_adds());
     build_ms = ms_since(start);
   }
 
@@ -227,7 +231,7 @@ struct Frame::Parts {
     const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
     if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows = std::make_unique<Shadows>(*device, parts, host, rays_by_device);
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, rays_by_device);
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t count =
           shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
@@ -275,7 +279,7 @@ struct Frame::Parts {
 
   Picture render() {
     Picture picture(options.width, options.height);
-    if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce.get());
+    if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce);
     const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch()), batches = (count + batch - 1) / batch;
     std::uint64_t done = 0;
     // A device that finds the surfaces draws all of the picture for each sample; rays begin where they are asked to.
@@ -341,6 +345,7 @@ struct Frame::Parts {
   const RenderOptions& options;
   const int threads;
   const DirectMethod method;
+  const std::shared_ptr<KeptOnDevice> kept;
   const std::shared_ptr<const Device> device;
   const SceneParts parts;
   FrameSurfaces surfaces;
@@ -350,10 +355,10 @@ struct Frame::Parts {
   DirectLight direct;
   const bool rays_by_device;
   std::string kept_on_host;
-  std::unique_ptr<Shadows> shadows;        // made when something needs it
-  std::vector<TileShadows> shadowed;       // by job
-  std::unique_ptr<RasterSurfaces> raster;  // null where the host finds the surfaces
-  std::unique_ptr<Bounce> bounce;
+  std::optional<Shadows> shadows;             // made when something needs it
+  std::vector<TileShadows> shadowed;          // by job
+  std::optional<RasterSurfaces> raster;       // none where the host finds the surfaces
+  Bounce* bounce = nullptr;                   // null without one, and where the host has it
   std::optional<indirect::Pipeline> bounced;  // of one frame
   tbb::task_arena arena;
   double build_ms = 0;

@@ -1,14 +1,11 @@
 // The CPU judges the device: whole frames, every method, all kinds of lights.
 #include "render/vulkan/frame.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "core/test_memory.h"
-#include "render/cpu/scene_parts.h"
-#include "render/vulkan/handles.h"
 #include "render/vulkan/test_frames.h"
 #include "steradian/error.h"
 
@@ -270,42 +267,5 @@ TEST_F(VulkanFrame, TenThousandFramesLeaveMemoryWhereItWas) {
 }
 
 TEST_F(VulkanFrame, FramesWithShadowsLeaveMemoryWhereItWas) { expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on); }
-
-// Pipelines take longer to make than pictures: a cache keeps the device that has them, and pictures are those without one.
-TEST_F(VulkanFrame, ACacheKeepsWhatPicturesAreMadeWith) {
-  Scene scene = scene_of("gallery");
-  RenderOptions options = small("ltc-compact");
-  options.width = 80;
-  options.height = 45;
-  options.backend = Backend::vulkan;
-  RenderCache cache;
-  const auto count = [&] {
-    std::size_t made = 0;
-    for (const auto& [key, pipelines] : cache.parts().device->handles().pipelines) made += pipelines.made.size();
-    return made;
-  };
-  using Clock = std::chrono::steady_clock;
-  const auto timed = [&](const char* what, auto make) {
-    const auto start = Clock::now();
-    Picture picture = make();
-    std::printf("%s: %.0f ms\n", what, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-    return picture;
-  };
-  timed("the first picture", [&] { return render(scene, options, cache); });
-  const std::size_t pipelines = count();
-  const Device* device = cache.parts().device.get();
-  EXPECT_GT(pipelines, 0u);
-  EXPECT_EQ(timed("the same again", [&] { return render(scene, options, cache); }).pixels, render(scene, options).pixels);
-  EXPECT_EQ(count(), pipelines);
-  auto& lamp = scene.area_lights.front();
-  if (auto* polygon = std::get_if<Polygon>(&lamp.shape))
-    for (auto& vertex : polygon->vertices) vertex = vertex + Vec3d{0.01, 0, 0};
-  const Picture moved = timed("a lamp moved", [&] { return render(scene, options, cache); });
-  EXPECT_EQ(moved.pixels, timed("without a cache", [&] { return render(scene, options); }).pixels);
-  EXPECT_EQ(cache.parts().device.get(), device);
-  options.device = "no such device";
-  EXPECT_THROW(render(scene, options, cache), Error);
-  EXPECT_EQ(cache.parts().device, nullptr);
-}
 
 }  // namespace steradian::vulkan

@@ -40,7 +40,13 @@ struct Device::Handles {
   // take longer to make than pictures.
   mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
   std::vector<std::string> messages;
+  mutable std::size_t allocations = 0;
   mutable bool hangs = false;  // work that it was given has not ended, and still uses what was made for it
+
+  vk::raii::DeviceMemory allocate(const vk::MemoryAllocateInfo& info) const {
+    ++allocations;
+    return device.allocateMemory(info);
+  }
 
   // For destructors: what a device that hangs may still use is left to it.
   template <class Made>

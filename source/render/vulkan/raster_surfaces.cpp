@@ -26,18 +26,26 @@ Vec3f vector(const Vec4Floats& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-RasterSurfaces::RasterSurfaces(const Device& device, const Scene& scene, const CameraRays& camera, const RenderOptions& options,
+RasterSurfaces::Kept::Kept(const Device& d)
+    : scene(d),
+      visibility(d),
+      view(d, BufferUse::host_writes, BufferForm::texels),
+      taken(d, BufferUse::host_reads),
+      program(d, {resolve_shader()}, kBuffers, kTexels) {
+  view.fit(kBytesOfView);
+}
+
+RasterSurfaces::RasterSurfaces(Kept& kept, const Scene& scene, const MipMaps& maps, const CameraRays& camera, const RenderOptions& options,
                                std::size_t tiles, bool taken)
-    : meshes_(scene),
+    : kept_(kept),
+      meshes_(scene),
       view_(camera, options.width, options.height),
       steps_(camera.steps(options.aa)),
       samples_(options.aa),
-      scene_(make_scene_buffers(device, scene, MipMaps(scene.images))),
-      visibility_(device, scene_, view_),
-      view_buffer_(device, kBytesOfView, BufferUse::host_writes, BufferForm::texels),
-      taken_(taken ? std::make_unique<Buffer>(device, tiles * static_cast<std::size_t>(kFoundPlanes * kSlots) * sizeof(Vec4Floats))
-                   : nullptr),
-      program_(device, {resolve_shader()}, kBuffers, kTexels) {}
+      taken_(taken) {
+  kept.scene.follow(scene, maps);
+  if (taken) kept.taken.fit(tiles * static_cast<std::size_t>(kFoundPlanes * kSlots) * sizeof(Vec4Floats));
+}
 
 void RasterSurfaces::write_view(PixelPlace place) {
   std::array<Vec4Floats, static_cast<std::size_t>(kViewVectors)> v;
@@ -49,20 +57,22 @@ void RasterSurfaces::write_view(PixelPlace place) {
   put(kViewStepRight, steps_.right, place.x);
   put(kViewStepDown, steps_.down, place.y);
   put(kViewForward, steps_.forward, 0);
-  view_buffer_.write(v.data(), kBytesOfView);
+  kept_.view.get().write(v.data(), kBytesOfView);
 }
 
 void RasterSurfaces::look(int sample) {
   const PixelPlace place = pixel_place(sample, samples_);
   write_view(place);
-  times_["triangles"] += visibility_.draw(place);
+  times_["triangles"] += kept_.visibility.draw(kept_.scene, view_, place);
 }
 
 void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& radiance) {
-  const std::vector<double> ms = program_.run({&scene_.vertices, &scene_.triangles, &scene_.materials, &view_buffer_, &scene_.texels,
-                                               &visibility_.seen(), &surfaces, &radiance, taken_ ? taken_.get() : &surfaces},
-                                              {{program_.pipeline(0, {taken_ ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
-                                                static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
+  const SceneBuffers& scene = kept_.scene;
+  const std::vector<double> ms =
+      kept_.program.run({&scene.vertices(), &scene.triangles(), &scene.materials(), &kept_.view.get(), &scene.texels(),
+                         &kept_.visibility.seen(), &surfaces, &radiance, taken_ ? &kept_.taken.get() : &surfaces},
+                        {{kept_.program.pipeline(0, {taken_ ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
+                          static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
   if (!ms.empty()) times_["surfaces"] += ms.front();
 }
 
@@ -86,7 +96,8 @@ void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, Dir
 }
 
 void RasterSurfaces::take(const Buffer& radiance, std::size_t place, SurfaceTile& tile) const {
-  const Vec4Floats* planes = static_cast<const Vec4Floats*>(taken_->mapped()) + place * static_cast<std::size_t>(kFoundPlanes * kSlots);
+  const Vec4Floats* planes =
+      static_cast<const Vec4Floats*>(kept_.taken.get().mapped()) + place * static_cast<std::size_t>(kFoundPlanes * kSlots);
   const Vec4Floats* shine = static_cast<const Vec4Floats*>(radiance.mapped()) + place * static_cast<std::size_t>(kRadiance);
   clear_kinds(tile);
   for (std::size_t i = 0; i < kTilePixels; ++i) {

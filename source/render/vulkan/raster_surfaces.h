@@ -14,10 +14,19 @@ namespace steradian::vulkan {
 
 class RasterSurfaces {
  public:
-  // Of a scene that nothing keeps on the host (what_keeps_on_host). Device and scene must stay. tiles: most of a find; taken: whether the
-  // host takes some.
-  RasterSurfaces(const Device& device, const Scene& scene, const CameraRays& camera, const RenderOptions& options, std::size_t tiles,
-                 bool taken);
+  // What is on the device, for any number of pictures, one after another. The device must stay.
+  struct Kept {
+    explicit Kept(const Device& device);
+    SceneBuffers scene;
+    Visibility visibility;
+    KeptBuffer view, taken;
+    ComputeProgram program;
+  };
+
+  // Of a scene that nothing keeps on the host (what_keeps_on_host). What is kept and the scene must stay. tiles: most of a find; taken:
+  // whether the host takes some.
+  RasterSurfaces(Kept& kept, const Scene& scene, const MipMaps& maps, const CameraRays& camera, const RenderOptions& options,
+                 std::size_t tiles, bool taken);
 
   // Looks through the places of a primary sample.
   void look(int sample);
@@ -38,15 +47,12 @@ class RasterSurfaces {
  private:
   void write_view(PixelPlace place);
 
+  Kept& kept_;
   const Scene& meshes_;
   const CameraView view_;
   const PixelSteps steps_;
   const int samples_;
-  const SceneBuffers scene_;
-  Visibility visibility_;
-  Buffer view_buffer_;
-  std::unique_ptr<Buffer> taken_;  // null: the host takes none
-  ComputeProgram program_;
+  const bool taken_;
   std::map<std::string, double> times_;
 };
 

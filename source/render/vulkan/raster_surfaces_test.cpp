@@ -37,7 +37,7 @@ struct Surfaces {
 };
 
 Surfaces by_cpu(const Scene& scene, const RenderOptions& o, int sample) {
-  FrameSurfaces frame(scene, o, std::make_shared<const RayScene>(scene));
+  FrameSurfaces frame(scene, o, SceneParts::of(scene, Sorted::for_rays));
   Surfaces s{std::vector<Pixel>(static_cast<std::size_t>(o.width * o.height)),
              std::vector<std::uint64_t>(static_cast<std::size_t>(o.width * o.height))};
   const auto tile = std::make_unique<SurfaceTile>();
@@ -62,10 +62,12 @@ Surfaces by_cpu(const Scene& scene, const RenderOptions& o, int sample) {
 
 std::vector<Pixel> by_device(const Device& device, const Scene& scene, const RenderOptions& o, int sample) {
   const CameraRays camera(find_camera(scene, ""), o.width, o.height);
-  const FrameSurfaces frame(scene, o, std::make_shared<const RayScene>(scene));  // its tiles
+  const FrameSurfaces frame(scene, o, SceneParts::of(scene, Sorted::for_rays));  // its tiles
   const int count = frame.tile_count();
   const auto tiles = static_cast<std::size_t>(count), slots = static_cast<std::size_t>(kSlots);
-  RasterSurfaces raster(device, scene, camera, o, tiles, true);
+  RasterSurfaces::Kept kept(device);
+  const MipMaps maps(scene.images);
+  RasterSurfaces raster(kept, scene, maps, camera, o, tiles, true);
   const auto tile = std::make_unique<SurfaceTile>();
   Buffer surfaces(device, tiles * slots * kPlanes * sizeof(Vec4Floats)), radiance(device, tiles * kRadiance * sizeof(Vec4Floats));
   raster.look(sample);

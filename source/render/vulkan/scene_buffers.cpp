@@ -36,29 +36,43 @@ std::size_t texels_of_pyramid(const Image& image) {
   return texels + texels / 2 + 64;
 }
 
-// Pictures with what stands behind their numbers.
+// The levels of the pictures that are used.
 class Levels {
  public:
-  Levels(const MipMaps& maps, std::vector<Vec4Floats>& records, std::vector<std::uint8_t>& texels)
-      : maps_(maps), records_(records), texels_(texels) {}
+  explicit Levels(const MipMaps& maps) : maps_(maps) {}
 
   // Number of the first of a use.
   std::size_t first(const TextureUse& use) {
-    const auto [at, is_new] = firsts_.try_emplace({use.image, use.color_space}, records_.size());
-    if (is_new)
-      for (const Image* level : maps_.levels(use)) {
-        const std::size_t texel = texels_.size() / 4;
-        records_.push_back({static_cast<float>(texel / kTexelRow), static_cast<float>(texel % kTexelRow), static_cast<float>(level->width),
-                            static_cast<float>(level->height)});
-        texels_.insert(texels_.end(), level->rgba.begin(), level->rgba.end());
-      }
+    const auto [at, is_new] = firsts_.try_emplace({use.image, use.color_space}, all_.size());
+    if (is_new) {
+      pyramids_.push_back(maps_.pyramid(use));
+      all_.insert(all_.end(), maps_.levels(use).begin(), maps_.levels(use).end());
+    }
     return at->second;
   }
 
+  // A vector for each: the first of its texels among all, its size.
+  std::vector<Vec4Floats> records() const {
+    std::vector<Vec4Floats> to;
+    std::size_t texel = 0;
+    for (const Image* level : all_) {
+      to.push_back({static_cast<float>(texel / kTexelRow), static_cast<float>(texel % kTexelRow), static_cast<float>(level->width),
+                    static_cast<float>(level->height)});
+      texel += level->rgba.size() / 4;
+    }
+    return to;
+  }
+  std::vector<std::uint8_t> texels() const {
+    std::vector<std::uint8_t> to;
+    for (const Image* level : all_) to.insert(to.end(), level->rgba.begin(), level->rgba.end());
+    return to;
+  }
+  const std::vector<std::shared_ptr<MipMaps::Pyramid>>& pyramids() const { return pyramids_; }
+
  private:
   const MipMaps& maps_;
-  std::vector<Vec4Floats>& records_;
-  std::vector<std::uint8_t>& texels_;
+  std::vector<const Image*> all_;
+  std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // of these
   std::map<std::pair<int, ColorSpace>, std::size_t> firsts_;
 };
 
@@ -119,17 +133,15 @@ std::string why_for_host(const Scene& scene, const Mesh& mesh) {
 // What buffers are made of.
 struct Contents {
   std::vector<Vec4Floats> vertices, triangles, materials;
-  std::vector<std::uint8_t> texels;
+  Levels pictures;
 
-  Contents(const Scene& scene, const MipMaps& maps) {
+  Contents(const Scene& scene, const MipMaps& maps) : pictures(maps) {
     // First codes, then the meshes' own vectors, then materials, then the levels that their textures have.
     const std::size_t first_material = kCodes + scene.meshes.size(), first_level = first_material + scene.materials.size() * kMaterial;
     for (std::size_t i = 0; i < 4 * kCodes; i += 4) {
       const auto code = [&](std::size_t k) { return linear_from_srgb8(static_cast<std::uint8_t>(i + k)); };
       materials.push_back({code(0), code(1), code(2), code(3)});
     }
-    std::vector<Vec4Floats> levels;
-    Levels pictures(maps, levels, texels);
     std::vector<Vec4Floats> records;
     for (const SurfaceMaterial& m : scene.materials) {
       add_factors(m, records);
@@ -147,18 +159,10 @@ struct Contents {
                              first + static_cast<float>(mesh.indices[i + 2]), number});
     }
     materials.insert(materials.end(), records.begin(), records.end());
+    const std::vector<Vec4Floats> levels = pictures.records();
     materials.insert(materials.end(), levels.begin(), levels.end());
   }
 };
-
-Buffer filled(const Device& device, const void* data, std::size_t bytes, BufferForm form) {
-  Buffer buffer(device, std::max<std::size_t>(bytes, sizeof(Vec4Floats)), BufferUse::host_writes, form);
-  if (bytes > 0) buffer.write(data, bytes);
-  return buffer;
-}
-Buffer filled(const Device& device, const std::vector<Vec4Floats>& values) {
-  return filled(device, values.data(), values.size() * sizeof(Vec4Floats), BufferForm::texels);
-}
 
 }  // namespace
 
@@ -188,10 +192,22 @@ std::vector<std::string> materials_for_host(const Scene& scene) {
   return said;
 }
 
-SceneBuffers make_scene_buffers(const Device& device, const Scene& scene, const MipMaps& maps) {
+SceneBuffers::SceneBuffers(const Device& d)
+    : vertices_(d, BufferUse::host_writes, BufferForm::texels),
+      triangles_(d, BufferUse::host_writes, BufferForm::texels),
+      materials_(d, BufferUse::host_writes, BufferForm::texels),
+      texels_(d, BufferUse::host_writes, BufferForm::colors) {}
+
+void SceneBuffers::follow(const Scene& scene, const MipMaps& maps) {
   const Contents c(scene, maps);
-  return {c.triangles.size(), filled(device, c.vertices), filled(device, c.triangles), filled(device, c.materials),
-          filled(device, c.texels.data(), c.texels.size(), BufferForm::colors)};
+  triangle_count_ = c.triangles.size();
+  vertices_.hold(c.vertices);
+  triangles_.hold(c.triangles);
+  materials_.hold(c.materials);
+  if (texels_.is_made() && pyramids_ == c.pictures.pyramids()) return;
+  pyramids_.clear();
+  texels_.hold(c.pictures.texels());
+  pyramids_ = c.pictures.pyramids();
 }
 
 }  // namespace steradian::vulkan

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mip_maps.h"
-#include "render/vulkan/buffer.h"
+#include "render/vulkan/kept_buffer.h"
 #include "steradian/scene.h"
 
 namespace steradian::vulkan {
@@ -15,12 +15,24 @@ std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device);
 // Those materials, a sentence each: tiles that show one are the host's.
 std::vector<std::string> materials_for_host(const Scene& scene);
 
-struct SceneBuffers {
-  std::size_t triangle_count = 0;
-  Buffer vertices, triangles, materials, texels;
-};
+class SceneBuffers {
+ public:
+  // The device must stay. Nothing is there yet.
+  explicit SceneBuffers(const Device& device);
 
-// Of a scene that nothing keeps on the host; computes the pyramids.
-SceneBuffers make_scene_buffers(const Device& device, const Scene& scene, const MipMaps& maps);
+  // Become those of a scene that nothing keeps on the host; what has changed of it is written. Computes pyramids that are not there.
+  void follow(const Scene& scene, const MipMaps& maps);
+
+  std::size_t triangle_count() const { return triangle_count_; }
+  const Buffer& vertices() const { return vertices_.get(); }
+  const Buffer& triangles() const { return triangles_.get(); }
+  const Buffer& materials() const { return materials_.get(); }
+  const Buffer& texels() const { return texels_.get(); }
+
+ private:
+  std::size_t triangle_count_ = 0;
+  KeptBuffer vertices_, triangles_, materials_, texels_;
+  std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // that the texels are of
+};
 
 }  // namespace steradian::vulkan

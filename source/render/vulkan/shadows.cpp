@@ -61,37 +61,40 @@ struct Shadows::Batch {
   Answer* answers = nullptr;  // by point
 };
 
-Shadows::Shadows(const Device& device, const SceneParts& parts, TileLighting& host, bool rays_by_device)
-    : device_(device), rays_(*parts.rays), host_(host), program_(device, shadow_shaders(), 4) {
-  const std::size_t most = most_of_buffer() / kVector;
-  if (!rays_by_device || least_of_hierarchy(parts.shadows->mesh) > most) return;
-  const auto hierarchy = ray_hierarchy(parts.shadows->mesh);
-  if (hierarchy.size() > most) return;
-  hierarchy_ = std::make_unique<Buffer>(device, hierarchy.size() * kVector, BufferUse::host_writes);
-  hierarchy_->write(hierarchy.data(), hierarchy.size() * kVector);
+Shadows::Kept::Kept(const Device& d)
+    : device(d), program(d, shadow_shaders(), 4), hierarchy(d), groups(d), answers(d, BufferUse::host_reads), parts(d), states(d) {}
+
+Shadows::Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, bool rays_by_device)
+    : kept_(kept), rays_(*parts.rays), host_(host) {
+  if (!rays_by_device) return;
+  if (kept.sorted.lock() != parts.shadows) {
+    kept.sorted.reset();
+    const std::size_t most = most_of_buffer() / kVector;
+    if (least_of_hierarchy(parts.shadows->mesh) > most) return;
+    const auto hierarchy = ray_hierarchy(parts.shadows->mesh);
+    if (hierarchy.size() > most) return;
+    kept.hierarchy.hold(hierarchy);
+    kept.sorted = parts.shadows;
+  }
+  hierarchy_ = &kept.hierarchy.get();
 }
 
-std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, device_.info().storage_buffer); }
+std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, kept_.device.info().storage_buffer); }
 
-Buffer& Shadows::fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const char* what) const {
+Buffer& Shadows::fitting(KeptBuffer& buffer, std::size_t bytes, const char* what) const {
   const std::size_t most = most_of_buffer();
   if (bytes > most)
     throw Error(
         "Vulkan",
         std::string(what) + " of one tile take " + readable_bytes(bytes) + ", more than the " + readable_bytes(most) + " of a buffer",
         "use --backend cpu");
-  const bool read = &buffer == &answers_;
-  if (buffer == nullptr || buffer->bytes() < bytes)
-    buffer =
-        std::make_unique<Buffer>(device_, buffer == nullptr ? std::max<std::size_t>(bytes, kVector) : std::min(bytes + bytes / 2, most),
-                                 read ? BufferUse::host_reads : BufferUse::host_writes);
-  return *buffer;
+  return buffer.fit_with_room(bytes, most);
 }
 
 void Shadows::upload(const Batch& batch) {
   constexpr std::size_t kHeader = static_cast<std::size_t>(kShadowHeader);
   const std::size_t headers = batch.all().group * kHeader;
-  auto* to = static_cast<std::uint32_t*>(fitting(groups_, (headers + batch.all().row) * kVector, "the edges before lights").mapped());
+  auto* to = static_cast<std::uint32_t*>(fitting(kept_.groups, (headers + batch.all().row) * kVector, "the edges before lights").mapped());
   std::size_t row = 0;
   for (const int space : kSpaces)
     for (std::size_t i = 0; i < batch.tiles.size(); ++i)
@@ -110,9 +113,9 @@ void Shadows::upload(const Batch& batch) {
 
 // Returns how many vectors the parts' records want.
 std::size_t Shadows::search(Batch& batch) {
-  AnswersHead head{0, 0, number(parts_->bytes() / kVector), 0};
+  AnswersHead head{0, 0, number(parts().bytes() / kVector), 0};
   const std::size_t count = batch.all().point;
-  Buffer& answers = fitting(answers_, sizeof head + count * sizeof(Answer), "points before lights");
+  Buffer& answers = fitting(kept_.answers, sizeof head + count * sizeof(Answer), "points before lights");
   answers.write(&head, sizeof head);
   batch.answers = reinterpret_cast<Answer*>(static_cast<char*>(answers.mapped()) + sizeof head);
   for (std::size_t i = 0; i < batch.tiles.size(); ++i)
@@ -125,13 +128,14 @@ std::size_t Shadows::search(Batch& batch) {
     for (const TileShadows& tile : batch.tiles)
       groups += number(
           static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return g.space == space; })));
-    if (groups > 0) dispatches.push_back({program_.pipeline(0, {space, space + kMorePieces}), groups, 1, first});
+    if (groups > 0) dispatches.push_back({kept_.program.pipeline(0, {space, space + kMorePieces}), groups, 1, first});
     first += groups;
   }
-  if (hierarchy_ && count > 0) dispatches.push_back({program_.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
+  if (hierarchy_ != nullptr && count > 0)
+    dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
   const std::vector<double> times =
-      program_.run({groups_.get(), parts_.get(), &answers, hierarchy_ ? hierarchy_.get() : &answers}, dispatches);
-  for (std::size_t i = 0; i < times.size(); ++i) (hierarchy_ && i + 1 == times.size() ? rays_time_ : time_) += times[i];
+      kept_.program.run({&kept_.groups.get(), &kept_.parts.get(), &answers, hierarchy_ != nullptr ? hierarchy_ : &answers}, dispatches);
+  for (std::size_t i = 0; i < times.size(); ++i) (hierarchy_ != nullptr && i + 1 == times.size() ? rays_time_ : time_) += times[i];
   std::memcpy(&head, answers.mapped(), sizeof head);
   return head.parts_used;
 }
@@ -193,9 +197,9 @@ void Shadows::ask_host(Batch& batch, const Each& each) {
 }
 
 void Shadows::write_states(Batch& batch, const Each& each) {
-  auto* states =
-      static_cast<std::uint32_t*>(fitting(states_, batch.all().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
-  auto* records = static_cast<Vec4Floats*>(parts_->mapped());
+  auto* states = static_cast<std::uint32_t*>(
+      fitting(kept_.states, batch.all().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
+  auto* records = static_cast<Vec4Floats*>(kept_.parts.get().mapped());
   each(batch.tiles.size(), [&](std::size_t i) {
     TileShadows& tile = batch.tiles[i];
     const Begin& begin = batch.begins[i];
@@ -228,10 +232,10 @@ std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
   bool asked = false;
   while (true) {
     Batch batch(tiles.first(count));
-    fitting(parts_, batch.all().point * kVectorsOfPart * kVector, "parts of lights");
+    fitting(kept_.parts, batch.all().point * kVectorsOfPart * kVector, "parts of lights");
     upload(batch);
     std::size_t wanted = search(batch);
-    if (!asked && wanted * kVector <= parts_->bytes()) {
+    if (!asked && wanted * kVector <= parts().bytes()) {
       ask_host(batch, each);
       asked = true;
     }
@@ -239,12 +243,12 @@ std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
       batch.begins[i].record = wanted;
       wanted += batch.tiles[i].records.size();
     }
-    if (wanted * kVector > parts_->bytes()) {
+    if (wanted * kVector > parts().bytes()) {
       // Once more, with more room or fewer tiles.
       if (wanted * kVector > kLargestBuffer && count > 1)
         count /= 2;
       else
-        fitting(parts_, wanted * kVector, "parts of lights");
+        fitting(kept_.parts, wanted * kVector, "parts of lights");
       continue;
     }
     trace(batch, each);

@@ -11,14 +11,24 @@
 #include "render/cpu/scene_parts.h"
 #include "render/cpu/tile_lighting.h"
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/kept_buffer.h"
 #include "render/vulkan/tile_shadows.h"
 
 namespace steradian::vulkan {
 
 class Shadows {
  public:
+  // What is on the device, for any number of pictures, one after another. The device must stay.
+  struct Kept {
+    explicit Kept(const Device& device);
+    const Device& device;
+    ComputeProgram program;
+    KeptBuffer hierarchy, groups, answers, parts, states;
+    std::weak_ptr<const ShadowEdges> sorted;  // what the hierarchy is of; none where it is of nothing
+  };
+
   // All must stay; parts: with edges. rays_by_device: not the host's.
-  Shadows(const Device& device, const SceneParts& parts, TileLighting& host, bool rays_by_device);
+  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, bool rays_by_device);
 
   // Finds what the first tiles need, as many as buffers have room for, and says how many those are: at least one. Throws Error where one is
   // too many. Calls each(count, work) for work in parallel.
@@ -26,8 +36,8 @@ class Shadows {
   std::size_t find(std::span<TileShadows> tiles, const Each& each);
 
   // Of the tiles of the last find(), light after light: kTilePixels states each; and the parts' records.
-  const Buffer& states() const { return *states_; }
-  const Buffer& parts() const { return *parts_; }
+  const Buffer& states() const { return kept_.states.get(); }
+  const Buffer& parts() const { return kept_.parts.get(); }
 
   // Milliseconds of the device so far.
   double time() const { return time_; }
@@ -43,16 +53,14 @@ class Shadows {
   void trace(Batch& batch, const Each& each);
   void ask_host(Batch& batch, const Each& each);
   void write_states(Batch& batch, const Each& each);
-  Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, const char* what) const;
+  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, const char* what) const;
 
   std::size_t most_of_buffer() const;  // bytes
 
-  const Device& device_;
+  Kept& kept_;
   const RayScene& rays_;
   TileLighting& host_;
-  ComputeProgram program_;
-  std::unique_ptr<Buffer> hierarchy_;  // null: the host's rays
-  std::unique_ptr<Buffer> groups_, answers_, parts_, states_;
+  const Buffer* hierarchy_ = nullptr;  // null: the host's rays
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;
 };

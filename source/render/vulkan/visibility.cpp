@@ -1,5 +1,7 @@
 #include "render/vulkan/visibility.h"
 
+#include <algorithm>
+
 #include "render/vulkan/buffer_handles.h"
 #include "render/vulkan/shaders.h"
 
@@ -33,10 +35,12 @@ struct Picture2d {
   vk::raii::ImageView view = nullptr;
 };
 
-Picture2d make_picture(const Device::Handles& d, const CameraView& size, vk::Format format, vk::ImageUsageFlags usage,
+vk::Extent2D extent_of(int width, int height) { return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}; }
+
+Picture2d make_picture(const Device::Handles& d, vk::Extent2D size, vk::Format format, vk::ImageUsageFlags usage,
                        vk::ImageAspectFlags aspect) {
   Picture2d p;
-  const vk::Extent3D extent(static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height), 1);
+  const vk::Extent3D extent(size, 1);
   p.image =
       d.device.createImage({{}, vk::ImageType::e2D, format, extent, 1, 1, vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage});
   const auto needed = p.image.getMemoryRequirements();
@@ -46,7 +50,7 @@ Picture2d make_picture(const Device::Handles& d, const CameraView& size, vk::For
          ((needed.memoryTypeBits >> type & 1u) == 0 || !(types.memoryTypes[type].propertyFlags & vk::MemoryPropertyFlagBits::eDeviceLocal)))
     ++type;
   if (type == types.memoryTypeCount) throw Error("Vulkan", "the device has no memory for pictures");
-  p.memory = d.device.allocateMemory({needed.size, type});
+  p.memory = d.allocate({needed.size, type});
   p.image.bindMemory(*p.memory, 0);
   p.view = d.device.createImageView({{}, *p.image, vk::ImageViewType::e2D, format, {}, {aspect, 0, 1, 0, 1}});
   return p;
@@ -85,15 +89,15 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {
   return d.createRenderPass({{}, attachments, subpass, dependencies});
 }
 
-vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, vk::PipelineLayout layout, vk::RenderPass pass, const CameraView& size) {
+vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, vk::PipelineLayout layout, vk::RenderPass pass) {
   const vk::raii::ShaderModule vertex = module_of(d, visibility_vertex_shader()), fragment = module_of(d, visibility_fragment_shader());
   const vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
                                                       {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main"}};
   const vk::PipelineVertexInputStateCreateInfo input;  // vertices come from buffers of texels
   const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
-  const vk::Viewport viewport(0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1);
-  const vk::Rect2D scissor({0, 0}, {static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height)});
-  const vk::PipelineViewportStateCreateInfo viewports({}, viewport, scissor);
+  const vk::PipelineViewportStateCreateInfo viewports({}, 1, nullptr, 1, nullptr);
+  const vk::DynamicState of_a_picture[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+  const vk::PipelineDynamicStateCreateInfo dynamic({}, of_a_picture);
   vk::PipelineRasterizationStateCreateInfo raster;  // both sides: rays hit both
   raster.lineWidth = 1;
   const vk::PipelineMultisampleStateCreateInfo samples;
@@ -102,7 +106,7 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, vk::PipelineLayout l
   blend.colorWriteMask = vk::ColorComponentFlagBits::eR;
   const vk::PipelineColorBlendStateCreateInfo blends({}, VK_FALSE, vk::LogicOp::eCopy, blend);
   return d.createGraphicsPipeline(
-      nullptr, {{}, stages, &input, &assembly, nullptr, &viewports, &raster, &samples, &depth, &blends, nullptr, layout, pass, 0});
+      nullptr, {{}, stages, &input, &assembly, nullptr, &viewports, &raster, &samples, &depth, &blends, &dynamic, layout, pass, 0});
 }
 
 }  // namespace
@@ -130,38 +134,21 @@ struct Visibility::Handles {
   vk::raii::QueryPool queries = nullptr;
 };
 
-Visibility::Visibility(const Device& device, const SceneBuffers& scene, const CameraView& view)
-    : device_(device),
-      scene_(scene),
-      view_(view),
-      seen_(device, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) * sizeof(std::uint32_t),
-            BufferUse::host_writes),
-      handles_(std::make_unique<Handles>()) {
+Visibility::Visibility(const Device& device) : device_(device), seen_(device), handles_(std::make_unique<Handles>()) {
   checked(device, "prepare to draw triangles", [&] {
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
-    using Usage = vk::ImageUsageFlagBits;
-    h.numbers = make_picture(d, view, kNumbers, Usage::eColorAttachment | Usage::eTransferSrc, vk::ImageAspectFlagBits::eColor);
-    h.depths = make_picture(d, view, kDepths, Usage::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth);
     h.pass = make_render_pass(d.device);
-    const vk::ImageView views[] = {*h.numbers.view, *h.depths.view};
-    h.frame = d.device.createFramebuffer(
-        {{}, *h.pass, views, static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height), 1});
-
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < 2; ++i)
       bindings.emplace_back(i, vk::DescriptorType::eUniformTexelBuffer, 1, vk::ShaderStageFlagBits::eVertex);
     h.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eVertex, 0, sizeof(Push));
     h.layout = d.device.createPipelineLayout({{}, *h.set_layout, push});
-    h.pipeline = make_pipeline(d.device, *h.layout, *h.pass, view);
+    h.pipeline = make_pipeline(d.device, *h.layout, *h.pass);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformTexelBuffer, 2);
     h.pool = d.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
     h.set = std::move(d.device.allocateDescriptorSets({*h.pool, *h.set_layout}).front());
-    const vk::BufferView buffers[] = {*scene.vertices.handles().texels, *scene.triangles.handles().texels};
-    for (std::uint32_t i = 0; i < 2; ++i)
-      d.device.updateDescriptorSets(
-          vk::WriteDescriptorSet(*h.set, i, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &buffers[i]), nullptr);
     h.commands = std::move(d.device.allocateCommandBuffers({*d.commands, vk::CommandBufferLevel::ePrimary, 1}).front());
     h.done = d.device.createFence({});
     if (device.info().timestamps) h.queries = d.device.createQueryPool({{}, vk::QueryType::eTimestamp, 2});
@@ -170,12 +157,38 @@ Visibility::Visibility(const Device& device, const SceneBuffers& scene, const Ca
 
 Visibility::~Visibility() { device_.handles().leave(handles_); }
 
-double Visibility::draw(PixelPlace place) {
+// Pictures that are as wide and as high as any so far: drawn to is a corner of them.
+void Visibility::fit(int width, int height) {
+  seen_.fit(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(std::uint32_t));
+  if (width <= width_ && height <= height_) return;
+  const Device::Handles& d = device_.handles();
+  Handles& h = *handles_;
+  using Usage = vk::ImageUsageFlagBits;
+  const int wide = std::max(width, width_), high = std::max(height, height_);
+  const vk::Extent2D size = extent_of(wide, high);
+  width_ = height_ = 0;
+  h.frame = nullptr;
+  h.numbers = Picture2d();
+  h.depths = Picture2d();
+  h.numbers = make_picture(d, size, kNumbers, Usage::eColorAttachment | Usage::eTransferSrc, vk::ImageAspectFlagBits::eColor);
+  h.depths = make_picture(d, size, kDepths, Usage::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth);
+  const vk::ImageView views[] = {*h.numbers.view, *h.depths.view};
+  h.frame = d.device.createFramebuffer({{}, *h.pass, views, size.width, size.height, 1});
+  width_ = wide;
+  height_ = high;
+}
+
+double Visibility::draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place) {
   return checked(device_, "draw triangles", [&] {
+    fit(view.width, view.height);
     const Handles& h = *handles_;
+    const vk::BufferView buffers[] = {*scene.vertices().handles().texels, *scene.triangles().handles().texels};
+    for (std::uint32_t i = 0; i < 2; ++i)
+      device_.handles().device.updateDescriptorSets(
+          vk::WriteDescriptorSet(*h.set, i, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &buffers[i]), nullptr);
     using Stage = vk::PipelineStageFlagBits;
     const bool timed = device_.info().timestamps;
-    const vk::Extent2D size(static_cast<std::uint32_t>(view_.width), static_cast<std::uint32_t>(view_.height));
+    const vk::Extent2D size = extent_of(view.width, view.height);
     h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (timed) {
       h.commands.resetQueryPool(*h.queries, 0, 2);
@@ -185,11 +198,13 @@ double Visibility::draw(PixelPlace place) {
     h.commands.beginRenderPass({*h.pass, *h.frame, {{0, 0}, size}, clear}, vk::SubpassContents::eInline);
     h.commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *h.pipeline);
     h.commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *h.layout, 0, *h.set, nullptr);
-    h.commands.pushConstants<Push>(*h.layout, vk::ShaderStageFlagBits::eVertex, 0, push_of(view_, place));
-    h.commands.draw(static_cast<std::uint32_t>(3 * scene_.triangle_count), 1, 0, 0);
+    h.commands.pushConstants<Push>(*h.layout, vk::ShaderStageFlagBits::eVertex, 0, push_of(view, place));
+    h.commands.setViewport(0, vk::Viewport(0, 0, static_cast<float>(view.width), static_cast<float>(view.height), 0, 1));
+    h.commands.setScissor(0, vk::Rect2D({0, 0}, size));
+    h.commands.draw(static_cast<std::uint32_t>(3 * scene.triangle_count()), 1, 0, 0);
     h.commands.endRenderPass();
     const vk::BufferImageCopy all(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {0, 0, 0}, {size.width, size.height, 1});
-    h.commands.copyImageToBuffer(*h.numbers.image, vk::ImageLayout::eTransferSrcOptimal, *seen_.handles().buffer, all);
+    h.commands.copyImageToBuffer(*h.numbers.image, vk::ImageLayout::eTransferSrcOptimal, *seen_.get().handles().buffer, all);
     const vk::MemoryBarrier copied(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eHostRead);
     h.commands.pipelineBarrier(Stage::eTransfer, Stage::eComputeShader | Stage::eHost, {}, copied, nullptr, nullptr);
     if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 1);

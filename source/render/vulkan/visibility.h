@@ -19,21 +19,22 @@ struct CameraView {
 
 class Visibility {
  public:
-  // The scene must stay.
-  Visibility(const Device& device, const SceneBuffers& scene, const CameraView& view);
+  // For any number of pictures. The device must stay.
+  explicit Visibility(const Device& device);
   ~Visibility();
 
   // Finds what is seen through one place of every pixel, and returns when it stands in seen(). Returns its milliseconds.
-  double draw(PixelPlace place);
+  double draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place);
   // By pixel, row by row: 0, or the triangle's number from 1.
-  const Buffer& seen() const { return seen_; }
+  const Buffer& seen() const { return seen_.get(); }
 
  private:
+  void fit(int width, int height);
+
   struct Handles;
   const Device& device_;
-  const SceneBuffers& scene_;
-  const CameraView view_;
-  Buffer seen_;
+  KeptBuffer seen_;
+  int width_ = 0, height_ = 0;  // that there is room for
   std::unique_ptr<Handles> handles_;
 };
 

@@ -1,0 +1,32 @@
+// KeptOnDevice: what pictures are made with on a Vulkan device, kept from one to the next: pipelines (the device's), programs, buffers. A
+// picture of the same size of a scene that has not changed finds all that it needs there.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "render/vulkan/bounce.h"
+#include "render/vulkan/direct_light.h"
+#include "render/vulkan/raster_surfaces.h"
+#include "render/vulkan/shadows.h"
+
+namespace steradian::vulkan {
+
+// Made when something needs it.
+template <class Made>
+Made& made(std::unique_ptr<Made>& it, const Device& device) {
+  if (it == nullptr) it = std::make_unique<Made>(device);
+  return *it;
+}
+
+struct KeptOnDevice {
+  explicit KeptOnDevice(std::shared_ptr<const Device> d) : device(std::move(d)), direct(*device) {}
+
+  const std::shared_ptr<const Device> device;
+  DirectLight::Kept direct;
+  std::unique_ptr<Shadows::Kept> shadows;
+  std::unique_ptr<RasterSurfaces::Kept> raster;
+  std::unique_ptr<Bounce> bounce;
+};
+
+}  // namespace steradian::vulkan
