@@ -25,7 +25,7 @@ enum class RaysBy { automatic, host, device };
 class Frame {
  public:
   // Scene and options must stay. surfaces: `device` is a UsageError where something keeps the host at it. device: null for the one that the
-  // options name. cache: keeps what is sorted, and that device with its pipelines, for the next frame; null: nothing is kept. Throws
+  // options name. cache: keeps what is sorted, and what is on that device, for the next frame; null: nothing is kept. Throws
   // UsageError for what runs on the host alone, and for options that this back end does not have yet; Error where there is no such device.
   Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
         SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr);

@@ -89,8 +89,7 @@ TEST_F(KeptOnVulkan, AMovedCameraOrLampAsksForNoMemory) {
 }
 
 TEST_F(KeptOnVulkan, NorDoTheirShadows) {
-  expect_nothing_asked_for(
-      {device(), scene_of("room"), tiny("ltc-compact", steradian::Shadows::on), SurfacesBy::host, RaysBy::device});
+  expect_nothing_asked_for({device(), scene_of("room"), tiny("ltc-compact", steradian::Shadows::on), SurfacesBy::host, RaysBy::device});
 }
 
 TEST_F(KeptOnVulkan, NorDoSurfacesByRaster) {
@@ -151,8 +150,10 @@ TEST_F(KeptOnVulkan, WhatHasNotChangedIsNotWrittenAgain) {
     bool changes;  // when a lamp moves, with the mesh that shows it
   };
   const SceneBuffers& scene = p.kept().raster->scene;
-  const Part parts[] = {{"tables", p.kept().direct.tables.get(), false}, {"vertices", scene.vertices(), true},
-                        {"triangles", scene.triangles(), false},         {"materials", scene.materials(), false},
+  const Part parts[] = {{"tables", p.kept().direct.tables.get(), false},
+                        {"vertices", scene.vertices(), true},
+                        {"triangles", scene.triangles(), false},
+                        {"materials", scene.materials(), false},
                         {"texels", scene.texels(), false}};
   const auto mark = [](const Buffer& buffer) -> char& { return static_cast<char*>(buffer.mapped())[0]; };
   for (const bool lamp : {false, true}) {
