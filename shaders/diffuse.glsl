@@ -19,14 +19,6 @@ vec3 polygon_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     return polygon_irradiance_vector(walk, seen.reversed);
 }
 
-// As ellipse_irradiance_vector of an ellipse that is all above the horizon.
-vec3 whole_ellipse_vector(Ellipse front) {
-    Ellipse back = front;
-    back.axis_a = -front.axis_a;
-    back.axis_b = -front.axis_b;
-    return conic_vector(ellipse_arc(front, -1.0, 1.0)) + conic_vector(ellipse_arc(back, -1.0, 1.0));
-}
-
 // Irradiance vector of radiance 1 in the frame; its z is the irradiance, in [0, pi].
 vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     vec3 e;
@@ -41,7 +33,7 @@ vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     } else if (BALLS) {
         e = capsule_irradiance_vector(capsule_between(light.r[2].xyz, light.r[2].xyz, light.r[2].w, frame, p));
     } else if (UNCUT) {
-        e = whole_ellipse_vector(ellipse_in(light, frame, p));
+        e = ellipse_whole_irradiance_vector(ellipse_in(light, frame, p));
     } else {
         e = ellipse_irradiance_vector(ellipse_in(light, frame, p));
     }

@@ -5,6 +5,7 @@
 // closed_form.comp, half_vector.comp and representative_point.comp, of lobes of extras.steradian phong_lobe.comp and arcs_lobe.comp define
 // which, as LOBE; texture_means.comp is what they ask before.
 // Drivers compile all that a shader holds for each of its pipelines.
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "layout.glsl"
 #include "shadow_layout.glsl"
 
@@ -52,8 +53,8 @@ layout(binding = 1) uniform samplerBuffer tables;
 layout(binding = 2) uniform samplerBuffer lights;
 layout(binding = 3) uniform samplerBuffer vertices;
 layout(binding = 4) uniform samplerBuffer radiance_before;  // the same buffer as `radiance`: every thread reads what it alone writes
-layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
-layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
+layout(binding = 5) uniform usamplerBuffer lists;
+layout(std430, binding = 6) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 7) readonly buffer States { uint states[]; };
 layout(std430, binding = 8) buffer Parts { vec4 parts[]; };
 layout(std430, binding = 9) buffer Means { vec4 means[]; };
@@ -240,11 +241,11 @@ void main() {
     uint i = 0u;
     do {
         uint at = entry.first + kNumbers * i;
-        Light light = light_at(lists[at]);
+        Light light = light_at(listed(at));
         vec4 found = vec4(0.0);
-        if (UNEVEN) found = means[lists[at + kNumbers - 1u] + slot_of_means()];
+        if (UNEVEN) found = means[listed(at + kNumbers - 1u) + slot_of_means()];
         if (SHADOWED) {
-            take_part(states[lists[at + 1u] + entry.slot]);
+            take_part(states[listed(at + 1u) + entry.slot]);
             for (int turn = first_turn(); turn <= kLastTurn; turn++) {
                 turn_to(turn);
                 vec3 sent = sent_by(light, surface);

@@ -17,9 +17,11 @@ struct Light {
     vec4 r[kRecord];
 };
 
+//   number   in common (entry.glsl)
 Light light_at(uint number) {
     Light light;
-    for (int i = 0; i < kRecord; i++) light.r[i] = texelFetch(lights, int(number) * kRecord + i);
+    int first = int(in_common(number)) * kRecord;
+    for (int i = 0; i < kRecord; i++) light.r[i] = texelFetch(lights, first + i);
     return light;
 }
 

@@ -16,13 +16,14 @@ void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
         EllipseFan fan = ellipse_fan_concentrated(ellipse_in(light, frame, p), axis, width);
         if (!CAREFUL) fan.near = false;  // the host knows that no point of the tile is near the rim
         if (fan.near) corner_count = CORNER_SPACE;
-        vec2 before = ellipse_corner(fan, -1, corner_count);
         vec2 here = ellipse_corner(fan, 0, corner_count);
+        float gap_before = ellipse_gap(ellipse_corner(fan, -1, corner_count), here);
         for (int i = 0; i < corner_count; i++) {
             vec2 after = ellipse_corner(fan, i + 1, corner_count);
-            corners[i] = polygon_direction(ellipse_pushed_corner(fan, before, here, after));
-            before = here;
+            float gap = ellipse_gap(here, after);
+            corners[i] = polygon_direction(ellipse_corner_between(fan, here, gap_before + gap));
             here = after;
+            gap_before = gap;
         }
     }
 }
@@ -39,6 +40,7 @@ struct Place {
     bool joined;
 };
 
+//   i        counted by the turns of the walk, from 0
 Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     Place place;
     if (by_pieces()) {
@@ -46,7 +48,10 @@ Place outline_place(Light light, mat3 frame, vec3 p, int i) {
         place.direction = polygon_direction(transform_transposed(frame, v.xyz));
         place.joined = v.w > 0.5;
     } else if (KIND == kPolygon) {
-        vec4 v = texelFetch(vertices, int(light.r[0].w) + i);
+        uint at = uint(light.r[0].w) + uint(i);
+        // Walks in pieces go on where the edges of each thread have had space.
+        if (!CHUNKED) at = in_common(at);
+        vec4 v = texelFetch(vertices, int(at));
         place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
         place.joined = v.w > 0.5;
     } else {

@@ -221,7 +221,7 @@ void main() {
         lobe.factors.x = max(sheen.x, max(sheen.y, sheen.z));
     }
     bool reflects = dot(normal.xyz, normal.xyz) > 0.25 && lobe.factors.x + lobe.factors.y > 0.0 && dot(n, v) > 0.0;
-    Light light = light_at(lists[entry.first]);
+    Light light = light_at(listed(entry.first));
     vec4 mean = vec4(0.0);
     if (reflects && see(light, position.xyz).lit) {
         lobe.frame = OF_LOBE == 0 || OF_LOBE == 3 ? frame_from_normal(n) : frame_from_normal_and_view(n, tangent.xyz);
@@ -233,5 +233,5 @@ void main() {
         if (OF_LOBE == 3) lobe.charlie = charlie_prepare(lobe.view, alpha.x);
         mean = mean_seen(profiled_light_at(int(light.r[kWhereDetails].w)), lobe);
     }
-    means[lists[entry.first + 1u] + slot_of_means()] = mean;
+    means[listed(entry.first + 1u) + slot_of_means()] = mean;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 #include "layout.glsl"
 #include "shadow_layout.glsl"
@@ -9,8 +10,8 @@
 // As direct.glsl's.
 layout(local_size_x = 64) in;
 layout(binding = 4) uniform samplerBuffer radiance_before;
-layout(std430, binding = 5) writeonly buffer Radiance { vec4 radiance[]; };
-layout(std430, binding = 6) readonly buffer Lists { uint lists[]; };
+layout(binding = 5) uniform usamplerBuffer lists;
+layout(std430, binding = 6) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 7) readonly buffer States { uint states[]; };
 layout(std430, binding = 8) readonly buffer Parts { vec4 parts[]; };
 layout(push_constant) uniform Push { uint first_entry; };
@@ -24,7 +25,7 @@ void main() {
     Entry entry = entry_here();
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < entry.count; i++) {
-        uint state = states[lists[entry.first + 2u * i + 1u] + entry.slot];
+        uint state = states[listed(entry.first + 2u * i + 1u) + entry.slot];
         if (state < uint(kSeesPart)) continue;
         int record = int(state) - kSeesPart;
         int ahead = int(parts[record + 3].w);

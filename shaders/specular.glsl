@@ -139,7 +139,15 @@ vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView 
 }
 
 #if LOBE != LOBE_REPRESENTATIVE_POINT
-ConicArc arcs[ARC_SPACE];
+// Of the arcs that two walks want, what is dear to find: the rest of an arc costs less than to keep it.
+vec4 poles[ARC_SPACE];
+void keep_poles(int i, QuarticPoles of) { poles[i] = vec4(of.z1, of.z2); }
+QuarticPoles kept_poles(int i) {
+    QuarticPoles kept;
+    kept.z1 = poles[i].xy;
+    kept.z2 = poles[i].zw;
+    return kept;
+}
 
 // An edge's share of E.
 #if LOBE == LOBE_CLOSED_FORM
@@ -169,21 +177,32 @@ vec2 by_arcs_uncut(Light light, mat3 frame, vec3 p, GgxView view) {
     int i = 0;
     do {
         Place place = outline_place(light, frame, p, i + 1);
-        ConicArc arc = ggx_edge(view, place.joined ? previous : place.direction, place.direction);
-        e += vector_of(view, arc);
-        if (!DRAFT) arcs[i] = arc;
+        ConicArc arc = ggx_edge_scaled(view, place.joined ? previous : place.direction, place.direction);
+        QuarticPoles found = conic_poles(arc);
+        e += vector_of(view, conic_with_poles(arc, found));
+        if (!DRAFT && !EXACT) keep_poles(i, found);
         previous = place.direction;
         ++i;
     } while (i < count);
     if (EXACT) return vec2(ggx_unshadowed(view, e), 0.0);
     if (DRAFT) return ggx_draft(view, e, SMITH, 1.0);
     GgxCubature c = ggx_cubature_begin(view, e, SMITH, 1.0);
+    previous = outline_place(light, frame, p, 0).direction;
     i = 0;
     do {
-        c = ggx_cubature_edge(c, arcs[i], EXTRA_NODES);
+        Place place = outline_place(light, frame, p, i + 1);
+        ConicArc arc = ggx_edge_scaled(view, place.joined ? previous : place.direction, place.direction);
+        c = ggx_cubature_edge(c, conic_with_poles(arc, kept_poles(i)), EXTRA_NODES);
+        previous = place.direction;
         ++i;
     } while (i < count);
     return ggx_cubature_finish(c);
+}
+
+ConicArc edge_scaled(GgxView view, int i) {
+    bool there = i < edge_count;
+    vec3 begin = there ? edge_begins[i] : vec3(0.0, 0.0, 1.0);
+    return ggx_edge_scaled(view, begin, there ? edge_ends[i] : begin);
 }
 
 // Two walks over the edges: of their vectors' sum, and of the cubature about it. Edges that have no space together are walked
@@ -214,15 +233,23 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
         return ggx_cubature_finish(c);
     }
     walk = fill_edges(walk, light, seen, frame, p);
-    for (int i = 0; i < edge_count; i++) {
-        ConicArc arc = ggx_edge(view, edge_begins[i], edge_ends[i]);
-        e += vector_of(view, arc);
-        if (!DRAFT) arcs[i] = arc;
-    }
+    // An edge that there is not has no length: so no loop has to ask first whether there is one.
+    int i = 0;
+    do {
+        ConicArc arc = edge_scaled(view, i);
+        QuarticPoles found = conic_poles(arc);
+        e += vector_of(view, conic_with_poles(arc, found));
+        if (!DRAFT && !EXACT) keep_poles(i, found);
+        ++i;
+    } while (i < edge_count);
     if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
     if (DRAFT) return ggx_draft(view, e, SMITH, facing);
     GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
-    for (int i = 0; i < edge_count; i++) c = ggx_cubature_edge(c, arcs[i], EXTRA_NODES);
+    i = 0;
+    do {
+        c = ggx_cubature_edge(c, conic_with_poles(edge_scaled(view, i), kept_poles(i)), EXTRA_NODES);
+        ++i;
+    } while (i < edge_count);
     return ggx_cubature_finish(c);
 }
 #else

@@ -167,8 +167,8 @@ void main() {
     }
     bool reflects = dot(normal.xyz, normal.xyz) > 0.25 && weight.x + weight.y + weight.z > 0.0 && (OF_LOBE == 0 || dot(n, v) > 0.0);
     // One light: llvmpipe ends a thread's loops after 65,535 turns in all.
-    Light light = light_at(lists[entry.first]);
+    Light light = light_at(listed(entry.first));
     vec3 mean = vec3(0.0);
     if (reflects && see(light, position.xyz).lit) mean = mean_seen(light, position.xyz, n, v, alpha);
-    means[lists[entry.first + 1u] + slot_of_means()] = vec4(mean, 0.0);
+    means[listed(entry.first + 1u) + slot_of_means()] = vec4(mean, 0.0);
 }

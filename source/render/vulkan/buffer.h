@@ -12,7 +12,7 @@ namespace steradian::vulkan {
 enum class BufferUse { host_writes, host_reads };
 
 // How shaders see it: as a storage buffer, or also as texels of four floats or four bytes (0 to 1), which devices fetch in one go.
-enum class BufferForm { storage, texels, colors };
+enum class BufferForm { storage, texels, colors, numbers };
 
 class Buffer {
  public:

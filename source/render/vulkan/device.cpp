@@ -77,7 +77,10 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
                 properties.limits.maxViewportDimensions[1], properties.limits.maxImageDimension2D});
   info.storage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
   info.texel_buffer = properties.limits.maxTexelBufferElements;
-  info.subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
+  const auto& subgroups = chain.get<vk::PhysicalDeviceSubgroupProperties>();
+  info.subgroup = subgroups.subgroupSize;
+  info.broadcasts = static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eBallot) &&
+                    static_cast<bool>(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute);
   info.timestamps = device.getQueueFamilyProperties()[queue_family].timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
   return info;
 }

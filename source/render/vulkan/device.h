@@ -22,6 +22,7 @@ struct DeviceInfo {
   std::size_t texel_buffer = 0;    // texels of the largest buffer of them
   unsigned subgroup = 0;           // threads that run in step
   bool timestamps = false;         // of compute work
+  bool broadcasts = false;         // threads that run in step tell each other a value
 };
 
 // Every device of Vulkan 1.2 or later with a compute queue, real ones before software. Empty where there is no loader.

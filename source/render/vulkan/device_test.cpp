@@ -69,6 +69,8 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
     EXPECT_NE(std::string(e.what()).find("128 MiB"), std::string::npos) << e.what();
   }
   info.storage_buffer = std::size_t{128} << 20;
+  EXPECT_THROW(check_device(info), Error) << "without ballots";
+  info.broadcasts = true;
   EXPECT_NO_THROW(check_device(info));
 }
 

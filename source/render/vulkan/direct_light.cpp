@@ -15,7 +15,7 @@ namespace {
 
 #include "shaders/layout.glsl"
 
-constexpr std::size_t kTexels = 5, kBuffers = 6;                // as bound in run
+constexpr std::size_t kTexels = 6, kBuffers = 5;                // as bound in run
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
@@ -88,8 +88,9 @@ void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TileP
 }
 
 // In bytes; texels count, too.
-std::size_t most_of_buffer(const DeviceInfo& device) {
-  return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * sizeof(Vec4Floats)});
+std::size_t most_of_buffer(const DeviceInfo& device, BufferForm form = BufferForm::texels) {
+  const std::size_t texel = form == BufferForm::numbers ? sizeof(std::uint32_t) : sizeof(Vec4Floats);
+  return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * texel});
 }
 
 // Squared distances of a point from a box.
@@ -115,6 +116,7 @@ void check_device(const DeviceInfo& device) {
   const std::string who = "Vulkan device '" + device.name + "'";
   if (device.storage_buffer < kLargestBuffer)
     throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
+  if (!device.broadcasts) throw Error(who, "has no subgroup ballots in compute shaders", "choose another --device, or --backend cpu");
 }
 
 struct DirectLight::Pass {
@@ -183,7 +185,7 @@ DirectLight::Kept::Kept(const Device& d)
       details(d, BufferUse::host_writes, BufferForm::texels),
       lights(d, BufferUse::host_writes, BufferForm::texels),
       vertices(d, BufferUse::host_writes, BufferForm::texels),
-      lists(d, BufferUse::host_writes, BufferForm::texels),
+      lists(d, BufferUse::host_writes, BufferForm::numbers),
       means(d, BufferUse::host_writes, BufferForm::texels) {
   surfaces.fit(tiles * bytes_of_planes(kPlanes));
   radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
@@ -227,8 +229,8 @@ bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != 
 
 bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
 
-Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes) const {
-  const std::size_t most = most_of_buffer(kept_.device.info());
+Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form) const {
+  const std::size_t most = most_of_buffer(kept_.device.info(), form);
   if (bytes > most)
     throw Error("Vulkan",
                 "the lights' lists take " + std::to_string(bytes) + " bytes, more than the " + std::to_string(most) + " of a buffer",
@@ -468,7 +470,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   const auto write = [&](KeptBuffer& buffer, const auto& values) {
     using Value = typename std::decay_t<decltype(values)>::value_type;
     const std::size_t bytes = values.size() * sizeof(Value);
-    Buffer& to = fitting(buffer, bytes);
+    Buffer& to = fitting(buffer, bytes, std::is_same_v<Value, std::uint32_t> ? BufferForm::numbers : BufferForm::texels);
     to.write(values.data(), bytes);
     return &to;
   };
@@ -477,7 +479,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   const Buffer* vertices = write(kept_.vertices, records_.vertices);
   const Buffer *radiance = &kept_.radiance.get(), *none = lists;
   const std::vector<double> ms =
-      kept_.program.run({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, radiance, lists,
+      kept_.program.run({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance,
                          states != nullptr ? states : none, parts != nullptr ? parts : none, &kept_.means.get(), &kept_.details.get()},
                         dispatches);
   std::size_t i = 0;
