@@ -23,6 +23,7 @@ NAME, EXT_IMPORT, EXT_INST, TYPE_FLOAT, TYPE_VECTOR, TYPE_MATRIX, TYPE_POINTER =
 LABEL, LOOP_MERGE, BRANCH, BRANCH_CONDITIONAL, SWITCH = 248, 246, 249, 250, 251
 LOAD, STORE, FUNCTION, VARIABLE = 61, 62, 54, 59
 FLOAT_OPS = {127, 129, 131, 133, 136, 140, 141, 142, 146}  # negate, add, subtract, multiply, divide, remainder, modulo, scalings
+IMAGE_FETCH = 95  # of a buffer of texels
 DOT, MATRIX_TIMES = 148, {143, 144, 145, 146, 147}
 INTEGER_OPS = set(range(126, 140)) - FLOAT_OPS | set(range(194, 206))
 COMPARE_OPS = set(range(164, 192)) | {169}
@@ -45,6 +46,15 @@ PIPELINES = [
     ("representative_point", "a polygon", {0: 0, 5: 0, 11: 4}, "a pixel and a light", 0),
     ("texture_means", "GGX", {0: 0, 4: 1, 13: 64}, "a pixel and a light", None),
     ("sheen", "a polygon", {0: 0, 5: 0}, "a pixel and a light", 0),
+    ("profile_means", "GGX", {0: 0, 4: 1}, "a node of a cell", 11),
+    ("phong_lobe", "a polygon, series", {0: 0, 4: 2, 5: 0, 11: 4, 21: 4}, "a pixel and a light", 0),
+    ("phong_lobe", "a polygon, series, high", {0: 0, 4: 2, 5: 0, 11: 4, 21: 5}, "a pixel and a light", 0),
+    ("arcs_lobe", "a polygon, Blinn-Phong", {0: 0, 4: 2, 5: 0, 11: 4}, "a pixel and a light", 0),
+    ("arcs_lobe", "a polygon, Beckmann", {0: 0, 4: 2, 5: 0, 11: 4, 20: 1}, "a pixel and a light", 0),
+    ("shadow_parts", "", {}, "a point and a light", None),
+    ("shadow_rays", "", {}, "a box, and a triangle in it", 1),
+    ("shadow_rays", "", {}, "a triangle", 2),
+    ("shadow_shares", "", {}, "a pixel and a light", 0),
     ("phong", "series", {0: 4, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),
     ("phong", "series, high", {0: 5, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),
     ("phong", "ellipsoid", {0: 3, 1: 500, 3: 4, 4: 10}, "a point and an edge", 1),
@@ -57,6 +67,7 @@ PIPELINES = [
     ("plane_arcs", "arcs", {}, "a pixel and a blocker", 5),
     ("plane_arcs", "arcs, quadrature", {}, "a node", 21),
     ("bounce_lobes", "", {0: 64, 1: 64}, "a virtual light", None),
+    ("bounce_boxes", "", {}, "a pixel or a box", 0),
     ("bounce_cull", "", {}, "a tile and a light", 1),
     ("bounce_light", "LTC, diffuse receivers", {0: 64, 1: 64, 2: 0, 3: 0, 4: 0}, "a pair", 1),
     ("bounce_light", "LTC", {0: 64, 1: 64, 2: 0, 3: 1, 4: 0}, "a pair", 1),
@@ -64,6 +75,7 @@ PIPELINES = [
     ("bounce_light", "GGX", {0: 64, 1: 64, 2: 1, 3: 1, 4: 0}, "a pair", 1),
     ("bounce_filter", "", {}, "a pixel and a tap", 0),
     ("bounce_resolve", "", {0: 64, 1: 64}, "a pixel", None),
+    ("resolve", "", {}, "a pixel", None),
 ]
 
 
@@ -129,6 +141,8 @@ def count(words):
         elif opcode == EXT_INST and operands[2] in imports:
             found.add("special" if operands[3] in SPECIAL else "float", n)
         elif opcode == LOAD and pointee.get(type_of.get(operands[2]), (0, 0))[0] in (STORAGE_BUFFER, UNIFORM):
+            found.add("loads", n)
+        elif opcode == IMAGE_FETCH:
             found.add("loads", n)
         elif opcode == STORE and pointee.get(type_of.get(operands[0]), (0, 0))[0] in (STORAGE_BUFFER, UNIFORM):
             found.add("stores")
