@@ -60,8 +60,3 @@ const int kPartHeader = 4;
 // Of a round light counts what share of the polygon's radiance the part sends. Before the polygon's record stand what arrives of the part,
 // of the polygon and of the light itself, sums over the lobes.
 const int kPartSums = 3;
-
-// The hierarchy of triangles, vectors of four uints: nodes in the order of a walk, then three corners of each triangle.
-//   0  least coordinates of a node's box; kLeafSizes times where the triangles of a leaf begin, and their number
-//   1  greatest coordinates; number of the node past all that is below this one
-const int kLeafSizes = 8;

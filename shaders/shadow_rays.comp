@@ -3,6 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
+#include "ray_layout.glsl"
 #include "shadow_layout.glsl"
 
 layout(local_size_x = 64) in;
@@ -13,7 +14,7 @@ layout(std430, binding = 2) buffer Answers {
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };
 layout(push_constant) uniform Push { uint count; };
 
-#include "shadow_hierarchy.glsl"
+#include "ray_hierarchy.glsl"
 
 void main() {
     uint number = gl_GlobalInvocationID.x;

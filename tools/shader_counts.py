@@ -66,6 +66,7 @@ PIPELINES = [
     ("plane_cuts", "edges", {}, "a pixel and a blocker", 27),
     ("plane_arcs", "arcs", {}, "a pixel and a blocker", 5),
     ("plane_arcs", "arcs, quadrature", {}, "a node", 21),
+    ("bounce_rays", "", {}, "a ray, a box and a triangle", 1),
     ("bounce_lobes", "", {0: 64, 1: 64}, "a virtual light", None),
     ("bounce_boxes", "", {}, "a pixel or a box", 0),
     ("bounce_cull", "", {}, "a tile and a light", 1),

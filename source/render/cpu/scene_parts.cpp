@@ -12,10 +12,14 @@ SceneParts RenderCache::Parts::follow(const Scene& scene, Sorted sorted) {
     rays = std::make_shared<RayScene>(scene, RayScene::Lasts::many_scenes);
   } else {
     try {
-      if (rays->follow(scene)) shadows.reset();
+      if (rays->follow(scene)) {
+        shadows.reset();
+        device_rays.reset();
+      }
     } catch (...) {  // what it is half way to is of no use
       rays.reset();
       shadows.reset();
+      device_rays.reset();
       throw;
     }
   }

@@ -16,7 +16,8 @@ namespace steradian {
 
 namespace vulkan {
 struct KeptOnDevice;
-}
+class SceneRays;
+}  // namespace vulkan
 
 // The edges that cast shadows, and the trees over them.
 struct ShadowEdges {
@@ -47,6 +48,7 @@ struct RenderCache::Parts {
   std::shared_ptr<const ShadowEdges> shadows;
   MipMaps::Pyramids pyramids;
   std::pair<std::shared_ptr<vulkan::KeptOnDevice>, std::string> on_device;  // and the device's name in the options
+  std::shared_ptr<const vulkan::SceneRays> device_rays;
 };
 
 }  // namespace steradian

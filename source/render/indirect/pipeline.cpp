@@ -140,7 +140,8 @@ void Pipeline::add_to(Picture& picture) {
 
 void Pipeline::add_sum(Picture& picture) {
   const IndirectOptions& o = options_.indirect;
-  const ShadowMap map = timed("shadow map", [&] { return make_shadow_map(scene_, rays_, o.virtual_lights); });
+  const ShadowMap map = timed(
+      "shadow map", [&] { return make_shadow_map(scene_, rays_, o.virtual_lights, device_ != nullptr ? device_->first_hits() : nullptr); });
   const LobeArrays lobes = timed("virtual lights", [&] {
     if (device_ != nullptr) return device_->lobes(map);
     LobeArrays result(map.alpha.size());

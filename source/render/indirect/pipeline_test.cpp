@@ -68,6 +68,48 @@ TEST(IndirectShadowMap, AreaLightsCarryTheirPowerIntoAClosedBox) {
   }
 }
 
+// Single rays in rounds of some rows, which leave every third open.
+class SomeHits final : public FirstHits {
+ public:
+  explicit SomeHits(const RayScene& scene) : scene_(scene) {}
+  std::size_t most() const override { return 700; }
+  MapRay* rays(std::size_t count) override {
+    rays_.assign(count, {});
+    return rays_.data();
+  }
+  void find(std::size_t count) override {
+    ++rounds;
+    EXPECT_TRUE(count <= most() || count == 4 * 256) << count;  // a row may be longer
+  }
+  FirstHit hit(std::size_t ray) const override {
+    if (ray % 3 == 0) return {FirstHit::kUnknown, 0};
+    RTCRayHit hit;
+    if (!scene_.intersect(rays_[ray].origin, rays_[ray].direction, hit)) return {};
+    return {hit.hit.geomID, hit.hit.primID};
+  }
+  int rounds = 0;
+
+ private:
+  const RayScene& scene_;
+  std::vector<MapRay> rays_;
+};
+
+TEST(IndirectShadowMap, IsTheSameByHitsFoundElsewhere) {
+  const Scene scene = mixed_corner();
+  const RayScene rays(scene);
+  for (const int count : {1 << 12, 1 << 16}) {
+    SomeHits hits(rays);
+    const ShadowMap map = make_shadow_map(scene, rays, count), other = make_shadow_map(scene, rays, count, &hits);
+    EXPECT_EQ(hits.rounds, count == 1 << 12 ? 8 : 64);  // of two rows of 256, of one of 1024
+    ASSERT_EQ(map.count, other.count);
+    int unlike = 0;
+    for (std::size_t i = 0; i < map.count; ++i)
+      unlike += !(length(map.position[i] - other.position[i]) < 1e-5f && map.column[i] == other.column[i] && map.row[i] == other.row[i] &&
+                  length(map.flux[i] - other.flux[i]) <= 1e-5f * length(map.flux[i]));
+    EXPECT_EQ(unlike, 0) << count;
+  }
+}
+
 // A lid over the light gets the share of its power that their form factor says: directions go by the cosine, places evenly.
 TEST(IndirectShadowMap, AreaLightsSendALidItsFormFactor) {
   Scene scene = lamp_scene(true);

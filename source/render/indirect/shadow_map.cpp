@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "core/float_mode.h"
 #include "render/cpu/surface.h"
@@ -193,15 +194,20 @@ Vec3d section(const LightRay& r, Vec3d step, Vec3d normal, double along) {
   return e * (0.5 * along);
 }
 
-Texel shade(const Scene& scene, const LightRay& r, const RTCRayHit16& packet, int k) {
+// What a ray meets: a triangle's place, by the weights of its second and third corner, and how far away.
+struct Place {
+  unsigned mesh = 0, triangle = 0;
+  float u = 0, v = 0, distance = 0;
+};
+
+Texel shade(const Scene& scene, const LightRay& r, const Place& place) {
   Texel texel;
   const Vec3d unit = normalized(r.direction);
   texel.incoming = static_cast<Vec3f>(-unit);
-  texel.surface =
-      surface_at(scene, scene.meshes[packet.hit.geomID[k]], packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k], texel.incoming);
+  texel.surface = surface_at(scene, scene.meshes[place.mesh], place.triangle, place.u, place.v, texel.incoming);
   const Surface& s = texel.surface;
   const Vec3d n = static_cast<Vec3d>(s.normal);
-  const double distance = static_cast<double>(packet.ray.tfar[k]);
+  const double distance = static_cast<double>(place.distance);
   Vec3d flux = r.flux;
   if (std::isfinite(r.range) && r.range > 0) flux = flux * std::clamp(1 - std::pow(distance / r.range, 4), 0.0, 1.0);
   texel.flux = static_cast<Vec3f>(flux);
@@ -225,32 +231,68 @@ Texel shade(const Scene& scene, const LightRay& r, const RTCRayHit16& packet, in
   return texel;
 }
 
-// A block of 4 x 4 texels.
-void trace_block(const Scene& scene, const RayScene& rays, const Emitter& emitter, int x, int y, int side, Texel* texels) {
+MapRay map_ray(const LightRay& r) {
+  if (!weighs(static_cast<Vec3f>(r.flux))) return {};
+  return {static_cast<Vec3f>(r.origin), 1e-4f, static_cast<Vec3f>(normalized(r.direction))};
+}
+bool is_ray(const MapRay& r) { return dot(r.direction, r.direction) > 0; }
+
+// Where a ray meets a triangle's plane, and the place next to it in the triangle: what found the triangle may have rounded.
+Place place_on(const Scene& scene, FirstHit hit, const MapRay& ray) {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const auto corner = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[3 * hit.triangle + c]]); };
+  const Vec3d p0 = corner(0), e1 = corner(1) - p0, e2 = corner(2) - p0;
+  const Vec3d from = static_cast<Vec3d>(ray.origin) - p0, direction = static_cast<Vec3d>(ray.direction);
+  const Vec3d across = cross(direction, e2), q = cross(from, e1);
+  const double determinant = dot(e1, across);
+  if (determinant == 0) return {hit.mesh, hit.triangle, 0, 0, static_cast<float>(-dot(from, direction))};
+  const double u = std::clamp(dot(from, across) / determinant, 0.0, 1.0), v = std::clamp(dot(direction, q) / determinant, 0.0, 1.0);
+  const double sum = std::max(1.0, u + v);
+  return {hit.mesh, hit.triangle, static_cast<float>(u / sum), static_cast<float>(v / sum), static_cast<float>(dot(e2, q) / determinant)};
+}
+
+constexpr int kBlock = 16;  // texels, 4 x 4
+
+// Blocks side by side in a light's grid.
+struct BlockRow {
+  const Emitter* emitter;
+  int side, y;
+  std::size_t first;  // texel of the map
+  std::size_t size() const { return 4 * static_cast<std::size_t>(side); }
+};
+
+LightRay light_ray(const BlockRow& row, int block, int k) { return row.emitter->ray(4 * block + k % 4, row.y + k / 4, row.side); }
+
+// What the rays of a block meet; hits: what of that is known, null for nothing. Whether ray k meets something is bit k.
+unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kBlock], const FirstHit* hits, Place (&places)[kBlock]) {
   alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[16];
-  LightRay light_rays[16];
-  for (int k = 0; k < 16; ++k) {
-    const int i = x + k % 4, j = y + k / 4;
-    const LightRay r = light_rays[k] = emitter.ray(i, j, side);
-    const auto o = static_cast<Vec3f>(r.origin), d = static_cast<Vec3f>(normalized(r.direction));
-    packet.ray.org_x[k] = o.x, packet.ray.org_y[k] = o.y, packet.ray.org_z[k] = o.z;
-    packet.ray.dir_x[k] = d.x, packet.ray.dir_y[k] = d.y, packet.ray.dir_z[k] = d.z;
-    packet.ray.tnear[k] = 1e-4f;
+  alignas(64) int valid[kBlock];
+  bool any = false;
+  unsigned met = 0;
+  for (int k = 0; k < kBlock; ++k) {
+    const MapRay& r = of[k];
+    packet.ray.org_x[k] = r.origin.x, packet.ray.org_y[k] = r.origin.y, packet.ray.org_z[k] = r.origin.z;
+    packet.ray.dir_x[k] = r.direction.x, packet.ray.dir_y[k] = r.direction.y, packet.ray.dir_z[k] = r.direction.z;
+    packet.ray.tnear[k] = r.begin;
     packet.ray.tfar[k] = std::numeric_limits<float>::infinity();
     packet.ray.time[k] = 0;
     packet.ray.mask[k] = kCastsShadow;
     packet.ray.id[k] = packet.ray.flags[k] = 0;
     packet.hit.geomID[k] = packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-    valid[k] = weighs(static_cast<Vec3f>(r.flux)) ? -1 : 0;
+    const bool ask = is_ray(r) && (hits == nullptr || hits[k].mesh == FirstHit::kUnknown);
+    valid[k] = ask ? -1 : 0;
+    any |= ask;
+    if (ask || !is_ray(r) || hits[k].mesh == FirstHit::kNothing) continue;
+    places[k] = place_on(scene, hits[k], r);
+    met |= 1u << k;
   }
-  rays.intersect(valid, packet);
-  for (int k = 0; k < 16; ++k) {
-    Texel& texel = texels[k];
-    if (valid[k] != 0 && packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID) texel = shade(scene, light_rays[k], packet, k);
-    texel.column = static_cast<std::uint16_t>(x + k % 4);
-    texel.row = static_cast<std::uint16_t>(y + k / 4);
+  if (any) rays.intersect(valid, packet);
+  for (int k = 0; k < kBlock; ++k) {
+    if (valid[k] == 0 || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+    places[k] = {packet.hit.geomID[k], packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k], packet.ray.tfar[k]};
+    met |= 1u << k;
   }
+  return met;
 }
 
 void put(ShadowMap& map, std::size_t n, const Texel& t) {
@@ -286,23 +328,52 @@ void ShadowMap::resize(std::size_t size) {
   row.resize(size);
 }
 
-ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count) {
+ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, FirstHits* hits) {
   const std::vector<Emitter> emitters = emitters_of(scene);
   double power = 0;
   for (const Emitter& e : emitters) power += e.power;
   ShadowMap map;
+  std::vector<BlockRow> rows;
+  std::size_t texels = 0;
   for (const Emitter& emitter : emitters) {
     // Multiples of eight, so that the grid falls into 64 sets of one size.
     const int side = 8 * std::clamp(static_cast<int>(std::lround(std::sqrt(count * emitter.power / power) / 8)), 1, 512);
-    const std::size_t begin = map.count;
-    map.resize(begin + static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-    tbb::parallel_for(0, side / 4, [&](int by) {
+    for (int y = 0; y < side; y += 4, texels += rows.back().size()) rows.push_back({&emitter, side, y, texels});
+  }
+  map.resize(texels);
+  for (std::size_t begin = 0, end = rows.size(); begin < rows.size(); begin = std::exchange(end, rows.size())) {
+    const std::size_t first = rows[begin].first;
+    if (hits != nullptr) {
+      std::size_t size = rows[begin].size();
+      for (end = begin + 1; end < rows.size() && size + rows[end].size() <= hits->most(); ++end) size += rows[end].size();
+      MapRay* to = hits->rays(size);
+      tbb::parallel_for(begin, end, [&](std::size_t r) {
+        for (std::size_t i = 0; i < rows[r].size(); ++i)
+          to[rows[r].first - first + i] = map_ray(light_ray(rows[r], static_cast<int>(i) / kBlock, static_cast<int>(i) % kBlock));
+      });
+      hits->find(size);
+    }
+    tbb::parallel_for(begin, end, [&](std::size_t r) {
       const FlushDenormals flush;
-      for (int bx = 0; bx < side / 4; ++bx) {
-        Texel texels[16];
-        trace_block(scene, rays, emitter, 4 * bx, 4 * by, side, texels);
-        const std::size_t first = begin + static_cast<std::size_t>(16 * (by * (side / 4) + bx));
-        for (std::size_t k = 0; k < 16; ++k) put(map, first + k, texels[k]);
+      const BlockRow& row = rows[r];
+      for (int block = 0; block < row.side / 4; ++block) {
+        const std::size_t texel = row.first + static_cast<std::size_t>(kBlock * block);
+        LightRay light_rays[kBlock];
+        MapRay asked[kBlock];
+        FirstHit known[kBlock];
+        Place places[kBlock];
+        for (int k = 0; k < kBlock; ++k) {
+          asked[k] = map_ray(light_rays[k] = light_ray(row, block, k));
+          if (hits != nullptr) known[k] = hits->hit(texel - first + static_cast<std::size_t>(k));
+        }
+        const unsigned met = meet(scene, rays, asked, hits != nullptr ? known : nullptr, places);
+        for (int k = 0; k < kBlock; ++k) {
+          Texel t;
+          if ((met >> k & 1) != 0) t = shade(scene, light_rays[k], places[k]);
+          t.column = static_cast<std::uint16_t>(4 * block + k % 4);
+          t.row = static_cast<std::uint16_t>(row.y + k / 4);
+          put(map, texel + static_cast<std::size_t>(k), t);
+        }
       }
     });
   }

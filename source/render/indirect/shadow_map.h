@@ -25,11 +25,39 @@ struct ShadowMap {
   void resize(std::size_t size);  // all arrays, and the count
 };
 
+// A ray of a texel, as floats.
+struct MapRay {
+  Vec3f origin;
+  float begin = 0;  // how far on
+  Vec3f direction;  // unit; 0: none
+  float unused = 0;
+};
+
+// The triangle that it meets first.
+struct FirstHit {
+  static constexpr std::uint32_t kNothing = ~0u, kUnknown = ~1u;
+  std::uint32_t mesh = kNothing, triangle = 0;
+};
+
+// What finds those in the place of RayScene, a round of rays at a time.
+class FirstHits {
+ public:
+  virtual ~FirstHits() = default;
+  virtual std::size_t most() const = 0;  // of a round
+  // Room for a round's rays.
+  virtual MapRay* rays(std::size_t count) = 0;
+  virtual void find(std::size_t count) = 0;
+  // What it has found last; from any thread.
+  virtual FirstHit hit(std::size_t ray) const = 0;
+};
+
 // About `count` texels, shared among the lights by their power. The same arrays at any number of threads.
 //
 // Spot lights: a perspective grid over the cone. Directional: a parallel one over the scene. Point lights: a grid of equal
 // solid angles. Area lights: rays from points spread over the surface, their directions a cosine-weighted grid; the
 // area of such a texel is that of a point light's, moved back by the light's size.
-ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count);
+//
+// hits: null for the rays' own; they answer, too, what hits leaves unknown.
+ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, FirstHits* hits = nullptr);
 
 }  // namespace steradian::indirect

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <utility>
 
 #include "core/budget.h"
 #include "render/indirect/filter.h"
@@ -131,6 +132,14 @@ Bounce::Bounce(const Device& device)
   std::vector<float> nodes = tables_.matrix.nodes;
   nodes.insert(nodes.end(), tables_.magnitude.nodes.begin(), tables_.magnitude.nodes.end());
   table_.hold(nodes);
+}
+
+void Bounce::find_first_hits_by(std::shared_ptr<const SceneRays> rays) {
+  if (rays == nullptr) {
+    first_hits_.reset();
+  } else if (first_hits_ == nullptr || first_hits_->scene() != rays.get()) {
+    first_hits_ = std::make_unique<FirstHits>(std::move(rays));
+  }
 }
 
 // Throws Error where so many bytes of something are more.
@@ -346,6 +355,8 @@ VectorArray Bounce::radiance(const FrameSurfaces& surfaces, const std::vector<Li
 
 std::vector<PassTime> Bounce::take_times() {
   std::vector<PassTime> result;
+  if (first_hits_ != nullptr)
+    if (const double ms = first_hits_->take_time(); ms > 0) result.push_back({"device: shadow map", ms});
   for (const char* name :
        {"upload", "device: virtual lights", "device: cull", "device: light", "device: filter", "device: resolve", "download"})
     if (const auto found = times_.find(name); found != times_.end()) result.push_back({name, found->second});

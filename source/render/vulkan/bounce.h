@@ -1,5 +1,5 @@
-// The bounce on a device: the lobes of virtual lights, then culling, lighting, filter and resolve (shaders/bounce_*.comp). The shadow map,
-// ranges and sets of virtual lights are the host's.
+// The bounce on a device: what the shadow map's rays meet, the lobes of virtual lights, then culling, lighting, filter and resolve
+// (shaders/bounce_*.comp). What is where the rays end, ranges and sets of virtual lights are the host's.
 #pragma once
 
 #include <map>
@@ -9,6 +9,7 @@
 #include "render/cpu/ltc_points.h"
 #include "render/indirect/passes.h"
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/first_hits.h"
 #include "render/vulkan/kept_buffer.h"
 
 namespace steradian::vulkan {
@@ -18,6 +19,9 @@ class Bounce final : public indirect::Passes {
   // Buffers and pipelines stay for any number of frames. The device must stay. Throws Error for what it lacks.
   explicit Bounce(const Device& device);
 
+  // Null where the host's rays make the shadow map, as they do until this is called.
+  void find_first_hits_by(std::shared_ptr<const SceneRays> rays);
+  FirstHits* first_hits() override { return first_hits_.get(); }
   indirect::LobeArrays lobes(const indirect::ShadowMap& map) override;
   indirect::VectorArray radiance(const indirect::FrameSurfaces& surfaces, const std::vector<indirect::LightSet>& sets,
                                  const indirect::Layout& layout, const indirect::BounceSettings& settings) override;
@@ -50,6 +54,7 @@ class Bounce final : public indirect::Passes {
 
   const Device& device_;
   const LtcPackTables tables_;
+  std::unique_ptr<FirstHits> first_hits_;
   ComputeProgram lobe_program_, program_;
   KeptBuffer texels_, texel_lobes_, table_;
   std::vector<KeptBuffer> planes_;  // by Plane

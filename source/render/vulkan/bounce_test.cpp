@@ -12,6 +12,7 @@
 #include "render/vulkan/frame.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "steradian/render_cache.h"
 
 namespace steradian::vulkan {
 namespace {
@@ -38,11 +39,11 @@ class VulkanBounce : public ::testing::Test {
 
 // The bound is what the back end promises. Rounding moves halves by 1e-6 of them, and with it that share of the pairs over the threshold by
 // which chance keeps them: what one weighs is a few hundredths of a pixel's light.
-void expect_same(const std::string& name, const Scene& scene, RenderOptions options) {
+void expect_same(const std::string& name, const Scene& scene, RenderOptions options, RaysBy rays = RaysBy::automatic) {
   options.backend = Backend::cpu;
   const std::vector<Vec3f> cpu = render(scene, options).layers.at("indirect");
   options.backend = Backend::vulkan;
-  const std::vector<Vec3f> device = render(scene, options).layers.at("indirect");
+  const std::vector<Vec3f> device = Frame(scene, options, nullptr, SurfacesBy::automatic, rays).render().layers.at("indirect");
   double squares = 0, errors = 0, largest = 0;
   for (std::size_t i = 0; i < cpu.size(); ++i) {
     const Vec3f off = device[i] - cpu[i];
@@ -64,6 +65,37 @@ TEST_F(VulkanBounce, LightsTheProjectsScenesAsTheCpu) {
     const Scene scene = scene_of(name);
     expect_same(std::string(name) + ", ltc", scene, small(IndirectMode::ltc, 1 << 12));
     expect_same(std::string(name) + ", ggx", scene, small(IndirectMode::ggx, 1 << 12));
+  }
+}
+
+TEST_F(VulkanBounce, LightsByAMapOfTheDevicesRaysAsTheCpu) {
+  for (const char* name : {"ring", "gallery", "hall"})
+    expect_same(std::string(name) + ", own rays", scene_of(name), small(IndirectMode::ltc, 1 << 12), RaysBy::device);
+}
+
+// Something stands before the wall in which holes could be.
+TEST_F(VulkanBounce, LeavesTheMapBehindCutOutsToTheHost) {
+  Scene scene = indirect::mixed_corner();
+  scene.materials.push_back(indirect::plastic(0.5f, 0.5f));
+  scene.materials.back().alpha_mode = AlphaMode::mask;
+  scene.meshes.push_back(scene::quad_mesh({-0.2f, 1, 1}, {0.2f, 1, 1}, {0.2f, 1.6f, 1}, {-0.2f, 1.6f, 1}, 2));
+  RenderOptions options = small(IndirectMode::ltc, 1 << 10);
+  expect_same("behind a cut-out", scene, options, RaysBy::device);
+}
+
+// Rays that a cache keeps are those of the scene that is drawn.
+TEST_F(VulkanBounce, KeepsTheRaysOfAScene) {
+  RenderOptions options = small(IndirectMode::ltc, 1 << 10);
+  options.backend = Backend::vulkan;
+  Scene scene = indirect::mixed_corner();
+  RenderCache cache;
+  const auto draw = [&](RenderCache* kept) {
+    return Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device, kept).render().layers.at("indirect");
+  };
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(draw(&cache) == draw(nullptr)) << k;
+    if (k == 1)
+      for (Vec3f& p : scene.meshes[1].positions) p.z += 0.4f;
   }
 }
 
@@ -98,10 +130,11 @@ TEST_F(VulkanBounce, SaysWhatItsPassesTook) {
   const Scene scene = indirect::mixed_corner();
   options.width = options.height = 32;
   options.backend = Backend::vulkan;
-  Frame frame(scene, options);
+  Frame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device);
   RenderStats stats;
   for (int i = 0; i < 2; ++i) frame.render(&stats);
-  for (const char* name : {"indirect: device: cull", "indirect: device: light", "indirect: device: resolve"})
+  for (const char* name :
+       {"indirect: device: shadow map", "indirect: device: cull", "indirect: device: light", "indirect: device: resolve"})
     EXPECT_TRUE(std::any_of(stats.passes.begin(), stats.passes.end(), [&](const PassTime& p) { return p.name == name && p.ms > 0; }))
         << name;
 }
@@ -111,7 +144,7 @@ TEST_F(VulkanBounce, AHundredFramesLeaveMemoryWhereItWas) {
   const Scene scene = indirect::mixed_corner();
   options.width = options.height = 16;
   options.backend = Backend::vulkan;
-  Frame frame(scene, options);
+  Frame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device);
   for (int i = 0; i < 30; ++i) frame.render();
   const double before = test::resident_mib();
   for (int i = 0; i < 100; ++i) frame.render();
@@ -130,7 +163,7 @@ TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {
     RenderOptions options = small(mode, 1 << 10);
     options.backend = Backend::vulkan;
     options.width = options.height = 32;
-    Frame(scene, options, validated).render();
+    Frame(scene, options, validated, SurfacesBy::automatic, RaysBy::device).render();
   }
   EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
 }

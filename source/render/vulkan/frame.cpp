@@ -88,6 +88,14 @@ SceneParts parts_of(const Scene& scene, const RenderOptions& options, RenderCach
   return cache != nullptr ? cache->parts().follow(scene, sorted) : SceneParts::of(scene, sorted);
 }
 
+// Null where they take more than a buffer.
+std::shared_ptr<const SceneRays> rays_of(const Scene& scene, const std::shared_ptr<const Device>& device, RenderCache* cache) {
+  if (cache == nullptr) return SceneRays::of(device, scene);
+  auto& kept = cache->parts().device_rays;
+  if (kept == nullptr || &kept->device() != device.get()) kept = SceneRays::of(device, scene);
+  return kept;
+}
+
 // What is seen through one primary sample of a tile, past as many surfaces as `layer` says.
 struct Job {
   int tile;
@@ -115,10 +123,15 @@ struct Frame::Parts {
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
         direct(kept->direct, s, method, o.table, lights),
-        rays_by_device(rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
-    if (has_bounce() && !bounce_on_host(o.indirect)) bounce = &made(kept->bounce, *device);
+    const bool bounces = has_bounce() && !bounce_on_host(o.indirect), maps = bounces && all_cast_exactly(s);
+    if ((maps || host.has_shadows()) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)))
+      device_rays = rays_of(s, device, cache);
+    if (bounces) {
+      bounce = &made(kept->bounce, *device);
+      bounce->find_first_hits_by(maps ? device_rays : nullptr);
+    }
     kept_on_host = keeps_surfaces_on_host();
     if (by == SurfacesBy::device && !kept_on_host.empty())
       throw UsageError("--backend vulkan", "the device cannot find the surfaces (" + kept_on_host + ")");
@@ -231,7 +244,7 @@ struct Frame::Parts {
     const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
     if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, rays_by_device);
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get());
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t count =
           shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
@@ -353,7 +366,7 @@ struct Frame::Parts {
   std::vector<const PackLight*> light_pointers;
   TileLighting host;
   DirectLight direct;
-  const bool rays_by_device;
+  std::shared_ptr<const SceneRays> device_rays;  // null: the host's
   std::string kept_on_host;
   std::optional<Shadows> shadows;             // made when something needs it
   std::vector<TileShadows> shadowed;          // by job

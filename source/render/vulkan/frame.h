@@ -17,8 +17,8 @@ bool runs_on_host_alone(const Scene& scene, const RenderOptions& options);
 // it.
 enum class SurfacesBy { automatic, host, device };
 
-// Who finds whether the ways to the visible parts of lights are free. automatic: the device, unless it is software, slower at that than
-// the host.
+// Who finds whether the ways to the visible parts of lights are free, and what the rays of the bounce's shadow map meet. automatic: the
+// device, unless it is software, slower at that than the host.
 enum class RaysBy { automatic, host, device };
 
 // Buffers and pipelines are made once, for any number of frames of a scene.

@@ -9,7 +9,7 @@
 namespace steradian::vulkan {
 namespace {
 
-#include "shaders/shadow_layout.glsl"
+#include "shaders/ray_layout.glsl"
 
 using shadow::Box;
 using shadow::coordinate;
@@ -28,10 +28,10 @@ double half_area(const Box& b) {
 
 class Builder {
  public:
-  explicit Builder(const shadow::EdgeMesh& mesh) {
-    for (const auto& t : mesh.triangles) {
-      Triangle triangle;
-      for (std::size_t c = 0; c < 3; ++c) triangle.box.add(triangle.corners[c] = mesh.vertices[t[c]]);
+  explicit Builder(const std::vector<RayTriangle>& triangles) {
+    for (const RayTriangle& t : triangles) {
+      Triangle triangle{t, {}, {}};
+      for (const Vec3d& corner : t.corners) triangle.box.add(corner);
       triangle.middle = (triangle.box.low + triangle.box.high) * 0.5;
       all_.add(triangle.box);
       triangles_.push_back(triangle);
@@ -49,13 +49,13 @@ class Builder {
       if (leaf != 0) leaf += static_cast<std::uint32_t>(2 * nodes * static_cast<std::size_t>(kLeafSizes));
     }
     for (const Triangle& t : triangles_)
-      for (const Vec3d& v : t.corners) vectors_.push_back(vector(v, 0));
+      for (const Vec3d& v : t.of.corners) vectors_.push_back(vector(v, t.of.number));
     return std::move(vectors_);
   }
 
  private:
   struct Triangle {
-    std::array<Vec3d, 3> corners;
+    RayTriangle of;
     Box box;
     Vec3d middle;
   };
@@ -136,10 +136,10 @@ class Builder {
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(const shadow::EdgeMesh& mesh) { return Builder(mesh).vectors(); }
+std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(const std::vector<RayTriangle>& triangles) { return Builder(triangles).vectors(); }
 
-std::size_t least_of_hierarchy(const shadow::EdgeMesh& mesh) {
-  const std::size_t triangles = mesh.triangles.size(), leaves = std::max<std::size_t>((triangles + kLeaf - 1) / kLeaf, 1);
+std::size_t least_of_hierarchy(std::size_t triangles) {
+  const std::size_t leaves = std::max<std::size_t>((triangles + kLeaf - 1) / kLeaf, 1);
   return 3 * triangles + 2 * (2 * leaves - 1);
 }
 

@@ -11,6 +11,7 @@
 #include "paths.h"
 #include "render/cpu/ray_scene.h"
 #include "render/vulkan/compute_program.h"
+#include "render/vulkan/scene_rays.h"
 #include "render/vulkan/shaders.h"
 #include "shadow/triangle_rays.h"
 #include "steradian/load_scene.h"
@@ -28,18 +29,17 @@ struct Way {
 enum class Found { free, blocked, not_known };
 
 // By shaders/shadow_rays.comp.
-std::vector<Found> found_by_device(const shadow::EdgeMesh& mesh, const std::vector<Way>& ways) {
+std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& ways) {
   struct Answer {
     Vec3f from;
     std::uint32_t asked;
     Vec3f along;
     std::uint32_t sees;
   };
-  const Device device(DeviceOptions{});
+  const auto rays = SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene);
+  const Device& device = rays->device();
+  const Buffer& hierarchy = rays->hierarchy();
   ComputeProgram program(device, shadow_shaders(), 4);
-  const auto vectors = ray_hierarchy(mesh);
-  Buffer hierarchy(device, vectors.size() * sizeof vectors[0]);
-  hierarchy.write(vectors.data(), hierarchy.bytes());
   std::vector<Answer> answers(ways.size() + 1);  // the first half of the first one is the head
   Buffer buffer(device, answers.size() * sizeof answers[0]);
   char* at = static_cast<char*>(buffer.mapped()) + sizeof answers[0] / 2;
@@ -50,7 +50,7 @@ std::vector<Found> found_by_device(const shadow::EdgeMesh& mesh, const std::vect
   const auto count = static_cast<std::uint32_t>(ways.size());
   const std::vector<double> ms =
       program.run({&hierarchy, &hierarchy, &buffer, &hierarchy}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
-  if (!ms.empty()) std::printf("%zu triangles, %zu vectors: %.2f us a ray\n", mesh.triangles.size(), vectors.size(), 1e3 * ms[0] / count);
+  if (!ms.empty()) std::printf("%zu triangles, %zu bytes: %.2f us a ray\n", scene.triangle_count(), hierarchy.bytes(), 1e3 * ms[0] / count);
   std::vector<Found> found;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const Answer& answer = reinterpret_cast<const Answer*>(at)[i];
@@ -125,7 +125,7 @@ void expect_same(const std::string& name, const Scene& scene) {
   const RayScene embree(scene);
   const shadow::TriangleRays exact(mesh);
   const std::vector<Way> ways = random_ways(mesh, 20000);
-  const std::vector<Found> found = found_by_device(mesh, ways);
+  const std::vector<Found> found = found_by_device(scene, ways);
   const double size = size_of(mesh);
   Random random(13);
   std::size_t blocked = 0, unlike_embree = 0, unlike_exact = 0, embree_unlike_exact = 0, certain = 0;
@@ -187,7 +187,7 @@ TEST_F(VulkanRays, DoNotLeakBetweenTriangles) {
       const Vec3d through = mesh.vertices[e.v0] * (1 - t) + mesh.vertices[e.v1] * t;
       ways.push_back({static_cast<Vec3f>(from), static_cast<Vec3f>((through - from) * 2.0)});
     }
-  const std::vector<Found> found = found_by_device(mesh, ways);
+  const std::vector<Found> found = found_by_device(scene, ways);
   std::size_t leaks = 0, of_embree = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const Vec3d from = static_cast<Vec3d>(ways[i].from);
@@ -208,7 +208,7 @@ TEST_F(VulkanRays, SayWhereAWalkDoesNotEnd) {
       const float z = static_cast<float>(i) / static_cast<float>(count);
       for (const Vec3f v : {Vec3f{-1, -1, z}, Vec3f{1, 1, z}, Vec3f{1, 1, z + 1e-3f}}) corners.push_back(v);
     }
-    const std::vector<Found> found = found_by_device(shadow::build_edges(of_triangles(corners)), {past, beside});
+    const std::vector<Found> found = found_by_device(of_triangles(corners), {past, beside});
     EXPECT_EQ(found[0], count > 1000 ? Found::not_known : Found::free) << count;
     EXPECT_EQ(found[1], Found::free) << count;
   }

@@ -46,6 +46,9 @@ constexpr std::uint32_t kShadowRays[] =
 constexpr std::uint32_t kShadowShares[] =
 #include "shadow_shares.comp.inc"
     ;
+constexpr std::uint32_t kBounceRays[] =
+#include "bounce_rays.comp.inc"
+    ;
 constexpr std::uint32_t kBounceLobes[] =
 #include "bounce_lobes.comp.inc"
     ;
@@ -90,6 +93,7 @@ std::span<const std::uint32_t> phong_lobe_shader() { return kPhongLobe; }
 std::span<const std::uint32_t> arcs_lobe_shader() { return kArcsLobe; }
 std::vector<std::span<const std::uint32_t>> shadow_shaders() { return {kShadowParts, kShadowRays}; }
 std::span<const std::uint32_t> shadow_shares_shader() { return kShadowShares; }
+std::span<const std::uint32_t> bounce_rays_shader() { return kBounceRays; }
 std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
 std::vector<std::span<const std::uint32_t>> bounce_shaders() {
   return {kBounceBoxes, kBounceCull, kBounceLight, kBounceFilter, kBounceResolve};

@@ -26,7 +26,8 @@ std::vector<std::span<const std::uint32_t>> shadow_shaders();
 // What arrives of round lights that something hides in part.
 std::span<const std::uint32_t> shadow_shares_shader();
 
-// Of the bounce: lobes of virtual lights; boxes, culling, lighting, filter, resolve.
+// Of the bounce: what rays of the shadow map meet; lobes of virtual lights; boxes, culling, lighting, filter, resolve.
+std::span<const std::uint32_t> bounce_rays_shader();
 std::span<const std::uint32_t> bounce_lobes_shader();
 std::vector<std::span<const std::uint32_t>> bounce_shaders();
 std::span<const std::uint32_t> visibility_vertex_shader();

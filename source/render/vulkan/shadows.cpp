@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "core/budget.h"
-#include "render/vulkan/ray_hierarchy.h"
 #include "render/vulkan/shaders.h"
 #include "steradian/error.h"
 
@@ -62,22 +61,10 @@ struct Shadows::Batch {
 };
 
 Shadows::Kept::Kept(const Device& d)
-    : device(d), program(d, shadow_shaders(), 4), hierarchy(d), groups(d), answers(d, BufferUse::host_reads), parts(d), states(d) {}
+    : device(d), program(d, shadow_shaders(), 4), groups(d), answers(d, BufferUse::host_reads), parts(d), states(d) {}
 
-Shadows::Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, bool rays_by_device)
-    : kept_(kept), rays_(*parts.rays), host_(host) {
-  if (!rays_by_device) return;
-  if (kept.sorted.lock() != parts.shadows) {
-    kept.sorted.reset();
-    const std::size_t most = most_of_buffer() / kVector;
-    if (least_of_hierarchy(parts.shadows->mesh) > most) return;
-    const auto hierarchy = ray_hierarchy(parts.shadows->mesh);
-    if (hierarchy.size() > most) return;
-    kept.hierarchy.hold(hierarchy);
-    kept.sorted = parts.shadows;
-  }
-  hierarchy_ = &kept.hierarchy.get();
-}
+Shadows::Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays)
+    : kept_(kept), rays_(*parts.rays), device_rays_(rays), host_(host) {}
 
 std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, kept_.device.info().storage_buffer); }
 
@@ -131,11 +118,11 @@ std::size_t Shadows::search(Batch& batch) {
     if (groups > 0) dispatches.push_back({kept_.program.pipeline(0, {space, space + kMorePieces}), groups, 1, first});
     first += groups;
   }
-  if (hierarchy_ != nullptr && count > 0)
+  if (device_rays_ != nullptr && count > 0)
     dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
-  const std::vector<double> times =
-      kept_.program.run({&kept_.groups.get(), &kept_.parts.get(), &answers, hierarchy_ != nullptr ? hierarchy_ : &answers}, dispatches);
-  for (std::size_t i = 0; i < times.size(); ++i) (hierarchy_ != nullptr && i + 1 == times.size() ? rays_time_ : time_) += times[i];
+  const std::vector<double> times = kept_.program.run(
+      {&kept_.groups.get(), &kept_.parts.get(), &answers, device_rays_ != nullptr ? &device_rays_->hierarchy() : &answers}, dispatches);
+  for (std::size_t i = 0; i < times.size(); ++i) (device_rays_ != nullptr && i + 1 == times.size() ? rays_time_ : time_) += times[i];
   std::memcpy(&head, answers.mapped(), sizeof head);
   return head.parts_used;
 }

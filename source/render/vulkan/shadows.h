@@ -12,6 +12,7 @@
 #include "render/cpu/tile_lighting.h"
 #include "render/vulkan/compute_program.h"
 #include "render/vulkan/kept_buffer.h"
+#include "render/vulkan/scene_rays.h"
 #include "render/vulkan/tile_shadows.h"
 
 namespace steradian::vulkan {
@@ -23,12 +24,11 @@ class Shadows {
     explicit Kept(const Device& device);
     const Device& device;
     ComputeProgram program;
-    KeptBuffer hierarchy, groups, answers, parts, states;
-    std::weak_ptr<const ShadowEdges> sorted;  // what the hierarchy is of; none where it is of nothing
+    KeptBuffer groups, answers, parts, states;
   };
 
-  // All must stay; parts: with edges. rays_by_device: not the host's.
-  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, bool rays_by_device);
+  // All must stay; parts: with edges. rays: null for the host's.
+  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays);
 
   // Finds what the first tiles need, as many as buffers have room for, and says how many those are: at least one. Throws Error where one is
   // too many. Calls each(count, work) for work in parallel.
@@ -59,8 +59,8 @@ class Shadows {
 
   Kept& kept_;
   const RayScene& rays_;
+  const SceneRays* const device_rays_;  // null: the host's
   TileLighting& host_;
-  const Buffer* hierarchy_ = nullptr;  // null: the host's rays
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;
 };

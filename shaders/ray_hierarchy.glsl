@@ -1,8 +1,8 @@
-// Whether triangles stand in a ray's way, from a hierarchy of boxes in a buffer (source/render/vulkan/ray_hierarchy.h). The walk needs no
+// Which triangles stand in a ray's way, from a hierarchy of boxes in a buffer (source/render/vulkan/ray_hierarchy.h). The walk needs no
 // stack: nodes stand in the order of a walk through all of them, and each knows where to go on past what is below it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// A way from a point along a vector, to its end.
+// From a point along a vector; places on it are in lengths of that.
 struct Ray {
     vec3 origin;
     vec3 along;
@@ -27,16 +27,16 @@ Ray ray_of(vec3 origin, vec3 along) {
     return ray;
 }
 
-// Never false where the way meets the box. T. Ize, "Robust BVH Ray Traversal", Journal of Computer Graphics Techniques 2(2), 2013: a
-// difference, a reciprocal of 2.5 units in the last place and a product are off by less than 4e-7 of themselves, and so is its end by less
-// than twice that of its beginning.
-bool meets_box(Ray ray, vec3 low, vec3 high) {
+// Never false where the ray meets the box between two places. T. Ize, "Robust BVH Ray Traversal", Journal of Computer Graphics Techniques
+// 2(2), 2013: a difference, a reciprocal of 2.5 units in the last place and a product are off by less than 4e-7 of themselves, and so is
+// its end by less than twice that of its beginning.
+bool meets_box(Ray ray, float first, float last, vec3 low, vec3 high) {
     vec3 a = (low - ray.origin) * ray.inverse;
     vec3 b = (high - ray.origin) * ray.inverse;
     vec3 near = min(a, b);
     vec3 far = max(a, b);
-    float begin = max(max(near.x, near.y), max(near.z, 0.0));
-    float end = min(min(far.x, far.y), min(far.z, 1.0));
+    float begin = max(max(near.x, near.y), max(near.z, first));
+    float end = min(min(far.x, far.y), min(far.z, last));
     return begin <= end * 1.000001;
 }
 
@@ -51,8 +51,8 @@ float twice_area(vec2 a, vec2 b) {
 
 // S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013: seen along the
 // ray, which of the corners' sides pass it on the left? Neighbours see the same corners, so they agree about the side between them, and
-// one of them is hit; a ray through a side hits both. A triangle seen edge-on is not hit: those around it are.
-bool meets_triangle(Ray ray, vec3 v0, vec3 v1, vec3 v2) {
+// one of them is hit; a ray through a side hits both. A triangle seen edge-on is not hit: those around it are. place: where, if it is hit.
+bool meets_triangle(Ray ray, float first, float last, vec3 v0, vec3 v1, vec3 v2, out float place) {
     vec3 a = to_axis(v0 - ray.origin, ray.axis);
     vec3 b = to_axis(v1 - ray.origin, ray.axis);
     vec3 c = to_axis(v2 - ray.origin, ray.axis);
@@ -66,17 +66,47 @@ bool meets_triangle(Ray ray, vec3 v0, vec3 v1, vec3 v2) {
     float at = dot(weights, vec3(a.z, b.z, c.z)) * ray.shear.z;
     float size = abs(sum);
     at = sum < 0.0 ? -at : at;
-    return (left || right) && size > 0.0 && at >= 0.0 && at <= size;
+    place = at / size;
+    return (left || right) && size > 0.0 && at >= first * size && at <= last * size;
+}
+
+// Software devices end a thread's loops after 65,535 turns in all, silently: a node takes one, a triangle another, and a leaf's loop that
+// ends one more. This many nodes keep below that, and whoever is not at the end did not finish.
+const int kMostNodes = 10000;
+
+const float kFarthest = 3.0e38;
+
+// The number from 1 of the triangle that a ray meets first, from a place on.
+uint first_along(Ray ray, float first) {
+    uint end = hierarchy[1].w;
+    uint node = 0u;
+    uint met = uint(kMeetsNothing);
+    float last = kFarthest;
+    for (int turn = 0; turn < kMostNodes && node < end; turn++) {
+        uvec4 low = hierarchy[2u * node];
+        uvec4 high = hierarchy[2u * node + 1u];
+        bool meets = meets_box(ray, first, last, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
+        node = meets ? node + 1u : high.w;
+        uint begin = low.w / uint(kLeafSizes);
+        uint past = meets ? begin + 3u * (low.w % uint(kLeafSizes)) : begin;
+        for (uint t = begin; t < past; t += 3u) {
+            uvec4 corner = hierarchy[t];
+            float place;
+            if (meets_triangle(ray, first, last, uintBitsToFloat(corner.xyz), uintBitsToFloat(hierarchy[t + 1u].xyz),
+                               uintBitsToFloat(hierarchy[t + 2u].xyz), place)) {
+                last = place;
+                met = corner.w + 1u;
+            }
+        }
+    }
+    return node >= end ? met : uint(kHostFinds);
 }
 
 const int kFree = 0;
 const int kBlocked = 1;
 const int kNotKnown = 2;  // the walk took too many turns
 
-// Software devices end a thread's loops after 65,535 turns in all, silently: a node takes one, a triangle another, and a leaf's loop that
-// ends one more. This many nodes keep below that, and whoever is not at the end did not finish.
-const int kMostNodes = 10000;
-
+// Whether anything stands between a ray's beginning and the end of its vector.
 int way_along(Ray ray) {
     uint end = hierarchy[1].w;
     uint node = 0u;
@@ -84,13 +114,14 @@ int way_along(Ray ray) {
     for (int turn = 0; turn < kMostNodes && node < end && !blocked; turn++) {
         uvec4 low = hierarchy[2u * node];
         uvec4 high = hierarchy[2u * node + 1u];
-        bool meets = meets_box(ray, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
+        bool meets = meets_box(ray, 0.0, 1.0, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
         node = meets ? node + 1u : high.w;
         uint first = low.w / uint(kLeafSizes);
         uint last = meets ? first + 3u * (low.w % uint(kLeafSizes)) : first;
         for (uint t = first; t < last; t += 3u) {
-            blocked = blocked || meets_triangle(ray, uintBitsToFloat(hierarchy[t].xyz), uintBitsToFloat(hierarchy[t + 1u].xyz),
-                                                uintBitsToFloat(hierarchy[t + 2u].xyz));
+            float place;
+            blocked = blocked || meets_triangle(ray, 0.0, 1.0, uintBitsToFloat(hierarchy[t].xyz), uintBitsToFloat(hierarchy[t + 1u].xyz),
+                                                uintBitsToFloat(hierarchy[t + 2u].xyz), place);
         }
     }
     return blocked ? kBlocked : node >= end ? kFree : kNotKnown;
