@@ -13,7 +13,6 @@ const int kTangent = 6;     // weight of the coat
 const int kCoatNormal = 7;  // alpha of the coat
 const int kSheen = 8;       // its alpha
 const int kPlanes = 9;
-const int kFoundPlanes = 7;  // of what the device has found: it has no coats and no sheen
 
 // Lights: kRecord vectors of four each, as shaders/lights.glsl reads them.
 const int kRecord = 9;
@@ -47,7 +46,9 @@ const int kRadiance = 1088;  // kSlots + kGroupsOfTile * kBounds
 const int kAnySurface = 1;
 const int kAnyDiffuse = 2;
 const int kAnySpecular = 4;
-const int kAnyForHost = 8;  // what the device does not find: the tile is the host's
+const int kAnySheen = 8;
+const int kAnyCoat = 16;
+const int kAnyForHost = 32;  // what the device does not find: the tile is the host's
 
 // Textured lights: light_textures.glsl.
 const int kTextureHead = 7;

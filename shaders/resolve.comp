@@ -11,17 +11,24 @@ layout(binding = 1) uniform samplerBuffer triangles;  // numbers of three vertic
 layout(binding = 2) uniform samplerBuffer materials;  // and what they name
 layout(binding = 3) uniform samplerBuffer view;
 layout(binding = 4) uniform samplerBuffer texels;
-layout(std430, binding = 5) readonly buffer Seen { uint seen[]; };
-layout(std430, binding = 6) writeonly buffer Surfaces { vec4 surfaces[]; };
-layout(std430, binding = 7) writeonly buffer Radiance { vec4 radiance[]; };
-layout(std430, binding = 8) writeonly buffer Taken { vec4 taken[]; };  // the same surfaces, for the host
+layout(binding = 5) uniform samplerBuffer tables;
+layout(std430, binding = 6) readonly buffer Seen { uint seen[]; };
+layout(std430, binding = 7) writeonly buffer Surfaces { vec4 surfaces[]; };
+layout(std430, binding = 8) writeonly buffer Radiance { vec4 radiance[]; };
+layout(std430, binding = 9) writeonly buffer Taken { vec4 taken[]; };  // the same surfaces, for the host
 layout(constant_id = 0) const int kTaken = 0;                          // whether it wants them
+layout(constant_id = 1) const int kLayers = 0;                         // whether some surface may have what layers.glsl is about
 layout(push_constant) uniform Push { uint first_tile; };
 
 #include "prelude/prelude.glsl"
 #include "math/constants.glsl"
 #include "math/frame.glsl"
+#include "math/inverse_trig.glsl"
+#include "outline/polygon.glsl"
+#include "lobe/microfacet.glsl"
+#include "integral/ltc.glsl"
 #include "textures.glsl"
+#include "tables.glsl"
 
 float square_of(vec3 a) { return dot(a, a); }
 bool has_direction(vec3 a) { return square_of(a) > 1.0e-30 && square_of(a) < 1.0e30; }
@@ -63,11 +70,22 @@ vec4 texture_of(int use, Coordinates c) {
     return sample_texture(use, f);
 }
 
+float alpha_of(float roughness) { return clamp(roughness * roughness, 1.0e-4, 1.0); }
+
 // A surface that is seen is seen from above: surface.cpp's turned_to.
 vec3 turned_to(vec3 n, vec3 to_view, float facing) {
     float least = min(0.01, 0.5 * facing);
     float c = dot(n, to_view);
     return c >= least ? n : unit(n + to_view * (least - c));
+}
+
+// The normal that a map shows; `up` where there is none, and where it points below the surface.
+vec3 bent_normal(int use, Coordinates c, vec3 x, vec3 y, vec3 up) {
+    if (texelFetch(materials, use).x < 0.0) return up;
+    vec3 map = 2.0 * texture_of(use, c).xyz - 1.0;
+    float scale = texelFetch(materials, use + 2).z;
+    vec3 bent = x * (map.x * scale) + y * (map.y * scale) + up * map.z;
+    return has_direction(bent) && map.z > 0.0 ? unit(bent) : up;
 }
 
 struct Surface {
@@ -81,7 +99,12 @@ struct Surface {
     vec3 f0;
     vec3 f90;
     float fresnel_loss;
-    float alpha;
+    vec2 alpha;
+    vec3 sheen;
+    float sheen_alpha;
+    vec3 coat_normal;
+    float coat;
+    float coat_alpha;
     float mesh;  // its number from 1
     bool found;
     bool for_host;
@@ -89,8 +112,10 @@ struct Surface {
 
 void put(uint tile, uint slot, int plane, vec3 v, float beside) {
     surfaces[tile * uint(kPlanes * kSlots) + uint(plane * kSlots) + slot] = vec4(v, beside);
-    if (kTaken != 0) taken[tile * uint(kFoundPlanes * kSlots) + uint(plane * kSlots) + slot] = vec4(v, beside);
+    if (kTaken != 0) taken[tile * uint(kPlanes * kSlots) + uint(plane * kSlots) + slot] = vec4(v, beside);
 }
+
+#include "layers.glsl"
 
 Surface surface_of(uint triangle, vec3 direction) {
     Surface s;
@@ -148,8 +173,22 @@ Surface surface_of(uint triangle, vec3 direction) {
     }
 
     // What surface_at does, in its order.
+    s.sheen = vec3(0.0);
+    s.sheen_alpha = s.coat_alpha = 1.0;
+    s.coat = 0.0;
+    vec4 rest = texelFetch(materials, material + kMaterialRest);
+    int flags = int(rest.w);
     vec3 base = texelFetch(materials, material + kMaterialBase).xyz * texture_of(uses + kUse * kUseBase, c).xyz;
     if (mesh.z > 0.5) base *= blended(at, kVertexColor).xyz;
+    if (kLayers != 0 && (flags & kUnlit) != 0) {
+        s.normal = s.coat_normal = up * side;
+        s.tangent = frame_from_normal(up)[0];
+        s.emission = base;
+        s.albedo = s.f0 = s.f90 = vec3(0.0);
+        s.fresnel_loss = 0.0;
+        s.alpha = vec2(1.0);
+        return s;
+    }
     vec4 emission = texelFetch(materials, material + kMaterialEmission);
     s.emission = side > 0.0 || emission.w > 0.5 ? emission.xyz * texture_of(uses + kUse * kUseEmission, c).xyz : vec3(0.0);
 
@@ -164,14 +203,16 @@ Surface surface_of(uint triangle, vec3 direction) {
         }
     }
     vec3 y = cross(up, x) * handed;
-    vec3 normal = up;
-    if (texelFetch(materials, uses + kUse * kUseNormal).x >= 0.0) {
-        vec3 map = 2.0 * texture_of(uses + kUse * kUseNormal, c).xyz - 1.0;
-        float scale = texelFetch(materials, uses + kUse * kUseNormal + 2).z;
-        vec3 bent = x * (map.x * scale) + y * (map.y * scale) + up * map.z;
-        if (has_direction(bent) && map.z > 0.0) normal = unit(bent);
+    s.normal = turned_to(bent_normal(uses + kUse * kUseNormal, c, x, y, up) * side, s.view, abs(towards));
+
+    vec3 rough_metal = texture_of(uses + kUse * kUseMetallicRoughness, c).xyz;
+    float metallic = clamp(rest.x * rough_metal.z, 0.0, 1.0);
+    s.alpha = vec2(alpha_of(rest.y * rough_metal.y));
+    if (kLayers != 0) {
+        s.coat_normal = turned_to(bent_normal(uses + kUse * kUseCoatNormal, c, x, y, up) * side, s.view, abs(towards));
+        vec2 brushed = brush(s, material, c);
+        x = x * brushed.x + y * brushed.y;
     }
-    s.normal = turned_to(normal * side, s.view, abs(towards));
     vec3 along = x - s.normal * dot(s.normal, x);
     if (dot(along, along) > 1.0e-10) {
         along = unit(along);
@@ -180,11 +221,6 @@ Surface surface_of(uint triangle, vec3 direction) {
         s.tangent = frame_from_normal(s.normal)[0];
     }
 
-    vec4 rest = texelFetch(materials, material + kMaterialRest);
-    vec3 rough_metal = texture_of(uses + kUse * kUseMetallicRoughness, c).xyz;
-    float metallic = clamp(rest.x * rough_metal.z, 0.0, 1.0);
-    float roughness = rest.y * rough_metal.y;
-    s.alpha = clamp(roughness * roughness, 1.0e-4, 1.0);
     vec4 colored = texelFetch(materials, material + kMaterialSpecularColor);
     float specular = colored.w * texture_of(uses + kUse * kUseSpecular, c).w;
     colored.xyz *= texture_of(uses + kUse * kUseSpecularColor, c).xyz;
@@ -194,6 +230,11 @@ Surface surface_of(uint triangle, vec3 direction) {
     s.fresnel_loss = largest < 1.0 ? (specular - largest) / (1.0 - largest) : 0.0;
     s.f0 = mix(dielectric, base, metallic);
     s.f90 = mix(vec3(specular), vec3(1.0), metallic);
+    if (kLayers != 0) {
+        if ((flags & kScatters) != 0) scatter_between_facets(s);
+        add_sheen(s, material, c);
+        add_coat(s, material, c);
+    }
     return s;
 }
 
@@ -226,16 +267,22 @@ void main() {
 
     int kinds = s.for_host ? kAnyForHost : 0;
     if (s.found) {
-        put(tile, slot, kPosition, s.position, s.alpha);
-        put(tile, slot, kNormal, s.normal, s.alpha);
+        put(tile, slot, kPosition, s.position, s.alpha.x);
+        put(tile, slot, kNormal, s.normal, s.alpha.y);
         put(tile, slot, kView, s.view, s.fresnel_loss);
         put(tile, slot, kAlbedo, s.albedo, s.geometric.x);
         put(tile, slot, kF0, s.f0, s.geometric.y);
         put(tile, slot, kF90, s.f90, s.geometric.z);
-        put(tile, slot, kTangent, s.tangent, 0.0);
+        put(tile, slot, kTangent, s.tangent, s.coat);
+        if (kLayers != 0) {
+            put(tile, slot, kCoatNormal, s.coat_normal, s.coat_alpha);
+            put(tile, slot, kSheen, s.sheen, s.sheen_alpha);
+        }
         kinds = kAnySurface;
         if (any(greaterThan(s.albedo, vec3(0.0)))) kinds |= kAnyDiffuse;
         if (any(greaterThan(max(s.f0, s.f90), vec3(0.0)))) kinds |= kAnySpecular;
+        if (any(greaterThan(s.sheen, vec3(0.0)))) kinds |= kAnySheen;
+        if (s.coat > 0.0) kinds |= kAnyCoat;
     } else {
         put(tile, slot, kNormal, vec3(0.0), 0.0);
     }

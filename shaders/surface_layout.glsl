@@ -28,8 +28,12 @@ const int kForHost = 4;
 const int kMaterialBase = 0;           // rgba
 const int kMaterialEmission = 1;       // rgb, 1 where both sides emit
 const int kMaterialSpecularColor = 2;  // rgb, specular
-const int kMaterialRest = 3;           // metallic, roughness, F0 of its index
-const int kMaterialTextures = 4;
+const int kMaterialRest = 3;           // metallic, roughness, F0 of its index, kUnlit and kScatters
+const int kMaterialSheen = 4;          // rgb, roughness
+const int kMaterialCoat = 5;           // weight, roughness; strength of anisotropy, its rotation
+const int kMaterialTextures = 6;
+const int kUnlit = 1;
+const int kScatters = 2;  // light between its facets
 
 // Uses of textures, kUse vectors each: number of its first level (below 0: none), how many levels, flags, set of coordinates; the
 // transform's numbers 0 to 3; 4 and 5 of them, scale.
@@ -39,9 +43,15 @@ const int kUseNormal = 2;
 const int kUseEmission = 3;
 const int kUseSpecular = 4;
 const int kUseSpecularColor = 5;
-const int kUses = 6;
+const int kUseSheen = 6;
+const int kUseSheenRoughness = 7;
+const int kUseCoat = 8;
+const int kUseCoatRoughness = 9;
+const int kUseCoatNormal = 10;
+const int kUseAnisotropy = 11;
+const int kUses = 12;
 const int kUse = 3;
-const int kMaterial = 22;  // kMaterialTextures + kUses * kUse
+const int kMaterial = 42;  // kMaterialTextures + kUses * kUse
 
 // Flags: how u is wrapped (0 repeats, 1 mirrors, 2 stays at the edge), four times how v is, and these.
 const int kNearest = 16;
@@ -49,3 +59,5 @@ const int kSrgb = 32;
 
 // Levels: one vector each: number of its first texel over kTexelRow, what is left of that, width, height.
 const int kTexelRow = 65536;
+
+// Tables: the sizes of GGX's shapes and magnitudes and of Charlie's, then their nodes, one vector each, in that order.

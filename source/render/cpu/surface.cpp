@@ -163,14 +163,13 @@ Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
   return c >= least ? n : unit(n + view * (least - c));
 }
 
-// Of the light that a mesh is the shape of; null: it is none, or one of even radiance.
+}  // namespace
+
 const LightEmission* emission_of(const Scene& scene, const Mesh& mesh) {
   if (!mesh.is_light_shape || mesh.triangle_lights.empty() || mesh.triangle_lights.front() < 0) return nullptr;
   const auto& emission = scene.area_lights[static_cast<std::size_t>(mesh.triangle_lights.front())].emission;
   return emission ? &*emission : nullptr;
 }
-
-}  // namespace
 
 SurfaceKind kind_of(const Scene& scene, const Mesh& mesh) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];

@@ -56,6 +56,9 @@ struct SurfaceFootprint {
 SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned triangle, Vec3f direction, float distance,
                               const PixelSteps& steps);
 
+// Of the light that a mesh is the shape of; null: it is none, or one of even radiance.
+const LightEmission* emission_of(const Scene& scene, const Mesh& mesh);
+
 // `view` points to the viewer, unit.
 Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view,
                    const SurfaceFootprint& footprint = {});

@@ -238,8 +238,12 @@ Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm f
   return buffer.fit_with_room(bytes, most);
 }
 
+Vec4Floats* DirectLight::planes_of(std::size_t place) {
+  return static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
+}
+
 void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
-  Vec4Floats* planes = static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
+  Vec4Floats* planes = planes_of(place);
   put_vector(planes, kPosition, tile.position, tile.alpha_x);
   put_vector(planes, kNormal, tile.normal, tile.alpha_y);
   put_vector(planes, kView, tile.view, tile.fresnel_loss);
@@ -259,6 +263,11 @@ void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
 void DirectLight::put_radiance(std::size_t place, const SurfaceTile& tile) {
   put_vector(static_cast<Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance,
              tile.coat);
+}
+
+void DirectLight::put_what_is_left(std::size_t place, const SurfaceTile& tile) {
+  if (tile.any_coat) put_vector(planes_of(place), kTangent, tile.tangent, tile.coat);
+  put_radiance(place, tile);
 }
 
 void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {

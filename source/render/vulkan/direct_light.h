@@ -46,8 +46,8 @@ class DirectLight {
 
   // What the device needs of a tile, which is number `place` of the batch. Threads may put different places at the same time.
   void put(std::size_t place, const SurfaceTile& tile);
-  // ... where the device has its surfaces already.
-  void put_radiance(std::size_t place, const SurfaceTile& tile);
+  // ... where the device has its surfaces already: their radiance, and which coats the host has not lit (TileLighting::add_hidden).
+  void put_what_is_left(std::size_t place, const SurfaceTile& tile);
 
   // Where others than put may write: planes of shaders/layout.glsl.
   Buffer& surfaces() { return kept_.surfaces.get(); }
@@ -95,6 +95,8 @@ class DirectLight {
  private:
   struct Pass;
   struct Work;
+  Vec4Floats* planes_of(std::size_t place);
+  void put_radiance(std::size_t place, const SurfaceTile& tile);
   static bool is_cut(const Tile& tile, const PackLight& light);
   bool brings_diffuse(const Square& square, const PackLight& light) const;
   void list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass);

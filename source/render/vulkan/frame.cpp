@@ -226,7 +226,7 @@ struct Frame::Parts {
         direct.find_squares(tile, tiles[i]);
         direct.list_lights(tiles[i]);
       });
-      upload_clock.run([&] { found ? direct.put_radiance(i, tile) : direct.put(i, tile); });
+      upload_clock.run([&] { found ? direct.put_what_is_left(i, tile) : direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
       // The shares of what this layer sends are still wanted: those of the next one are kept beside them.

@@ -15,7 +15,7 @@ namespace {
 
 using Vec4Floats = std::array<float, 4>;
 
-constexpr std::size_t kTexels = 5, kBuffers = 4;  // as bound in find
+constexpr std::size_t kTexels = 6, kBuffers = 4;  // as bound in find
 constexpr auto kBytesOfView = static_cast<std::size_t>(kViewVectors) * sizeof(Vec4Floats);
 
 const Vec4Floats* bounds_of(const Buffer& radiance, std::size_t place) {
@@ -44,7 +44,7 @@ RasterSurfaces::RasterSurfaces(Kept& kept, const Scene& scene, const MipMaps& ma
       samples_(options.aa),
       taken_(taken) {
   kept.scene.follow(scene, maps);
-  if (taken) kept.taken.fit(tiles * static_cast<std::size_t>(kFoundPlanes * kSlots) * sizeof(Vec4Floats));
+  if (taken) kept.taken.fit(tiles * static_cast<std::size_t>(kPlanes * kSlots) * sizeof(Vec4Floats));
 }
 
 void RasterSurfaces::write_view(PixelPlace place) {
@@ -68,11 +68,11 @@ void RasterSurfaces::look(int sample) {
 
 void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& radiance) {
   const SceneBuffers& scene = kept_.scene;
-  const std::vector<double> ms =
-      kept_.program.run({&scene.vertices(), &scene.triangles(), &scene.materials(), &kept_.view.get(), &scene.texels(),
-                         &kept_.visibility.seen(), &surfaces, &radiance, taken_ ? &kept_.taken.get() : &surfaces},
-                        {{kept_.program.pipeline(0, {taken_ ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
-                          static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
+  const std::vector<double> ms = kept_.program.run(
+      {&scene.vertices(), &scene.triangles(), &scene.materials(), &kept_.view.get(), &scene.texels(), &scene.tables(),
+       &kept_.visibility.seen(), &surfaces, &radiance, taken_ ? &kept_.taken.get() : &surfaces},
+      {{kept_.program.pipeline(0, {taken_ ? 1 : 0, scene.has_layers() ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
+        static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
   if (!ms.empty()) times_["surfaces"] += ms.front();
 }
 
@@ -92,12 +92,14 @@ void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, Dir
     add(square.bounds, {vector(bounds[0]), vector(bounds[1]), vector(bounds[2]), vector(bounds[3])});
     square.any_diffuse |= (kinds & kAnyDiffuse) != 0;
     square.any_specular |= (kinds & kAnySpecular) != 0;
+    square.any_sheen |= (kinds & kAnySheen) != 0;
+    square.any_coat |= (kinds & kAnyCoat) != 0;
   }
 }
 
 void RasterSurfaces::take(const Buffer& radiance, std::size_t place, SurfaceTile& tile) const {
   const Vec4Floats* planes =
-      static_cast<const Vec4Floats*>(kept_.taken.get().mapped()) + place * static_cast<std::size_t>(kFoundPlanes * kSlots);
+      static_cast<const Vec4Floats*>(kept_.taken.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
   const Vec4Floats* shine = static_cast<const Vec4Floats*>(radiance.mapped()) + place * static_cast<std::size_t>(kRadiance);
   clear_kinds(tile);
   for (std::size_t i = 0; i < kTilePixels; ++i) {
@@ -118,6 +120,13 @@ void RasterSurfaces::take(const Buffer& radiance, std::size_t place, SurfaceTile
     s.f90 = vector(at(kF90));
     s.alpha_x = at(kPosition)[3];
     s.alpha_y = at(kNormal)[3];
+    if (kept_.scene.has_layers()) {
+      s.sheen = vector(at(kSheen));
+      s.sheen_alpha = at(kSheen)[3];
+      s.coat = at(kTangent)[3];
+      s.coat_alpha = at(kCoatNormal)[3];
+      s.coat_normal = vector(at(kCoatNormal));
+    }
     const Mesh& mesh = meshes_.meshes[static_cast<std::size_t>(shine[i][3]) - 1];
     s.material = &meshes_.materials[static_cast<std::size_t>(mesh.material)];
     put_surface(tile, i, s, vector(at(kView)));

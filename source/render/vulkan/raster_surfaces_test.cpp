@@ -25,8 +25,9 @@ using Vec4Floats = std::array<float, 4>;
 
 struct Pixel {
   Vec3f position, normal, tangent, albedo, f0, f90, emission;
-  float alpha = 0, loss = 0;
-  Vec3f geometric;
+  float alpha_x = 0, alpha_y = 0, loss = 0;
+  Vec3f geometric{}, sheen{}, coat_normal{};
+  float sheen_alpha = 0, coat = 0, coat_alpha = 0;
   const SurfaceMaterial* material = nullptr;
 };
 
@@ -51,8 +52,22 @@ Surfaces by_cpu(const Scene& scene, const RenderOptions& o, int sample) {
         const std::size_t i = tile_slot(x, y), to = static_cast<std::size_t>((a.y + y) * o.width + a.x + x);
         const auto at = [&](const TileVector& v) { return Vec3f{v.x[i], v.y[i], v.z[i]}; };
         if (tile->material[i] == nullptr) continue;
-        s.pixels[to] = {at(tile->position), at(tile->normal),   at(tile->tangent), at(tile->albedo),      at(tile->f0),
-                        at(tile->f90),      at(tile->radiance), tile->alpha_x[i],  tile->fresnel_loss[i], at(tile->geometric_normal),
+        s.pixels[to] = {at(tile->position),
+                        at(tile->normal),
+                        at(tile->tangent),
+                        at(tile->albedo),
+                        at(tile->f0),
+                        at(tile->f90),
+                        at(tile->radiance),
+                        tile->alpha_x[i],
+                        tile->alpha_y[i],
+                        tile->fresnel_loss[i],
+                        at(tile->geometric_normal),
+                        at(tile->sheen),
+                        at(tile->coat_normal),
+                        tile->sheen_alpha[i],
+                        tile->coat[i],
+                        tile->coat_alpha[i],
                         tile->material[i]};
         s.seen[to] = (std::uint64_t{hits->geometry[i]} << 32 | hits->triangle[i]) + 1;
       }
@@ -88,26 +103,35 @@ std::vector<Pixel> by_device(const Device& device, const Scene& scene, const Ren
         const auto taken = [&](const TileVector& v) { return Vec3f{v.x[i], v.y[i], v.z[i]}; };
         EXPECT_EQ(taken(tile->position), at(kPosition));
         EXPECT_EQ(taken(tile->f90), at(kF90));
-        pixels[static_cast<std::size_t>((a.y + y) * o.width + a.x + x)] = {at(kPosition),
-                                                                           at(kNormal),
-                                                                           at(kTangent),
-                                                                           at(kAlbedo),
-                                                                           at(kF0),
-                                                                           at(kF90),
-                                                                           {shine[i][0], shine[i][1], shine[i][2]},
-                                                                           plane(kPosition)[3],
-                                                                           plane(kView)[3],
-                                                                           taken(tile->geometric_normal),
-                                                                           tile->material[i]};
+        EXPECT_EQ(tile->coat[i], plane(kTangent)[3]);
+        if (kept.scene.has_layers()) {
+          EXPECT_EQ(taken(tile->coat_normal), at(kCoatNormal));
+          EXPECT_EQ(taken(tile->sheen), at(kSheen));
+        }
+        Pixel& p = pixels[static_cast<std::size_t>((a.y + y) * o.width + a.x + x)];
+        p = {at(kPosition), at(kNormal), at(kTangent), at(kAlbedo), at(kF0), at(kF90), {shine[i][0], shine[i][1], shine[i][2]}};
+        p.alpha_x = plane(kPosition)[3];
+        p.alpha_y = plane(kNormal)[3];
+        p.loss = plane(kView)[3];
+        p.geometric = taken(tile->geometric_normal);
+        p.sheen = taken(tile->sheen);
+        p.sheen_alpha = tile->sheen_alpha[i];
+        p.coat_normal = taken(tile->coat_normal);
+        p.coat = tile->coat[i];
+        p.coat_alpha = tile->coat_alpha[i];
+        p.material = tile->material[i];
       }
   }
   return pixels;
 }
 
 float difference(const Pixel& a, const Pixel& b) {
-  float largest = std::max(std::fabs(a.alpha - b.alpha), std::fabs(a.loss - b.loss));
+  float largest = 0;
+  for (const float d : {a.alpha_x - b.alpha_x, a.alpha_y - b.alpha_y, a.loss - b.loss, a.coat - b.coat, a.coat_alpha - b.coat_alpha,
+                        a.sheen_alpha - b.sheen_alpha})
+    largest = std::max(largest, std::fabs(d));
   for (const Vec3f d : {a.normal - b.normal, a.tangent - b.tangent, a.albedo - b.albedo, a.f0 - b.f0, a.f90 - b.f90,
-                        a.emission - b.emission, a.geometric - b.geometric})
+                        a.emission - b.emission, a.geometric - b.geometric, a.sheen - b.sheen, a.coat_normal - b.coat_normal})
     largest = std::max(largest, length(d));
   return a.material == b.material ? largest : 1.0f;
 }
@@ -156,6 +180,15 @@ RenderOptions small() {
   options.width = 200;
   options.height = 120;
   return options;
+}
+
+AreaLight lamp() {
+  AreaLight lamp;
+  lamp.name = "lamp";
+  lamp.shape = Polygon{{{-1, 4, -2}, {1, 4, -2}, {1, 4, 0}, {-1, 4, 0}}, {}};
+  lamp.radiance = {5, 5, 5};
+  lamp.two_sided = true;
+  return lamp;
 }
 
 // Pictures of noise under every texture, wrap and filter, seen from the side, so that pixels cover many of their texels.
@@ -210,6 +243,35 @@ Scene textured() {
   return scene;
 }
 
+// Under sheen, a coat, brushing, all by textures; coats and sheen by numbers; no light at all.
+Scene layered() {
+  Scene scene = textured();
+  const TextureUse colors = scene.materials[0].base_color_texture, numbers = scene.materials[0].metallic_roughness_texture,
+                   bumps = scene.materials[0].normal_texture;
+  SurfaceMaterial &a = scene.materials[0], &b = scene.materials[1];
+  a.sheen_color = {0.7f, 0.4f, 0.9f};
+  a.sheen_color_texture = colors;
+  a.sheen_roughness = 0.8f;
+  a.sheen_roughness_texture = numbers;
+  a.clearcoat = 0.9f;
+  a.clearcoat_texture = numbers;
+  a.clearcoat_roughness = 0.7f;
+  a.clearcoat_roughness_texture = numbers;
+  a.clearcoat_normal_texture = bumps;
+  a.clearcoat_normal_texture.uv[4] = 3.5f;
+  a.anisotropy = 0.8f;
+  a.anisotropy_rotation = 0.3f;
+  a.anisotropy_texture = numbers;
+  b.sheen_color = {0.2f, 0.3f, 0.1f};
+  b.clearcoat = 0.5f;
+  scene.materials.push_back(b);
+  SurfaceMaterial& unlit = scene.materials.back();
+  unlit.name = "unlit";
+  unlit.unlit = true;
+  scene.meshes[2].material = 2;
+  return scene;
+}
+
 class VulkanSurfaces : public testing::Test {
  protected:
   void SetUp() override {
@@ -227,6 +289,11 @@ TEST_F(VulkanSurfaces, AreTheCpusButWhereTrianglesMeet) {
   RenderOptions options = small();
   options.aa = 3;
   expect_same("textured", textured(), options, 2e-3);
+  Scene layers = layered();
+  expect_same("layers", layers, options, 2e-3);
+  layers.multiple_scattering = true;
+  layers.materials[0].anisotropy = 0;
+  expect_same("scattering", layers, options, 2e-3);
 }
 
 TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
@@ -239,6 +306,9 @@ TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
   EXPECT_NE(materials_for_host(scene)[0].find("'b'"), std::string::npos);
   scene.materials[1].alpha_mode = AlphaMode::opaque;
   scene.materials[0].clearcoat = 1;
+  scene.materials[0].anisotropy = 1;
+  EXPECT_TRUE(materials_for_host(scene).empty());
+  scene.multiple_scattering = true;
   ASSERT_EQ(materials_for_host(scene).size(), 1u);
   EXPECT_NE(materials_for_host(scene)[0].find("'a'"), std::string::npos);
   RenderOptions options = small();
@@ -296,9 +366,35 @@ TEST_F(VulkanSurfaces, AreTakenForWhatTheHostAdds) {
   environment.map = Picture(4, 2);
   for (std::size_t i = 0; i < environment.map.pixels.size(); ++i)
     environment.map.pixels[i] = {0.2f + 0.1f * static_cast<float>(i), 0.5f, 1.0f};
-  lit.environment = std::make_shared<const Environment>(std::move(environment));
+  const auto sky = std::make_shared<const Environment>(std::move(environment));
+  lit.environment = sky;
   options.aa = 2;
   expect_same_picture("environment", lit, options);
+  lit = layered();
+  lit.environment = sky;
+  options.method = "auto";
+  expect_same_picture("layers, environment", lit, options);
+}
+
+// By lamps alone, which light them without the host; and where it has a part.
+TEST_F(VulkanSurfaces, AreLitWithTheirLayers) {
+  RenderOptions options;
+  options.width = 120;
+  options.height = 70;
+  options.aa = 2;
+  Scene scene = layered();
+  scene.area_lights = {lamp()};
+  expect_same_picture("layers", scene, options);
+  options.method = "half-vector";
+  expect_same_picture("layers, half vectors", scene, options);
+  options.shadows = steradian::Shadows::on;
+  expect_same_picture("layers, shadows", scene, options);
+  scene.multiple_scattering = true;
+  scene.materials[0].anisotropy = 0;
+  options.method = "ltc-compact";
+  expect_same_picture("scattering, shadows", scene, options);
+  options.shadows = steradian::Shadows::off;
+  expect_same_picture("scattering", scene, options);
 }
 
 TEST_F(VulkanSurfaces, LeaveTilesToTheHost) {
@@ -307,12 +403,7 @@ TEST_F(VulkanSurfaces, LeaveTilesToTheHost) {
   options.height = 70;
   options.method = "ltc-compact";
   Scene scene = textured();
-  AreaLight lamp;
-  lamp.name = "lamp";
-  lamp.shape = Polygon{{{-1, 4, -2}, {1, 4, -2}, {1, 4, 0}, {-1, 4, 0}}, {}};
-  lamp.radiance = {5, 5, 5};
-  lamp.two_sided = true;
-  scene.area_lights = {lamp};
+  scene.area_lights = {lamp()};
   const auto expect = [&](const std::string& name, auto change) {
     Scene changed = scene;
     change(changed.materials[1]);
@@ -321,7 +412,7 @@ TEST_F(VulkanSurfaces, LeaveTilesToTheHost) {
   expect("blended", [](SurfaceMaterial& m) { m.alpha_mode = AlphaMode::blend; });
   expect("cut out", [](SurfaceMaterial& m) { m.alpha_mode = AlphaMode::mask; });
   options.shadows = steradian::Shadows::on;
-  expect("coated, shadows", [](SurfaceMaterial& m) { m.clearcoat = 1; });
+  expect("thin, shadows", [](SurfaceMaterial& m) { m.transmission = 0.5f; });
 }
 
 }  // namespace steradian::vulkan

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "integrals/ltc/ggx_tables.h"
 #include "render/cpu/surface_pack.h"
 #include "scene/light_face.h"
 
@@ -17,13 +18,15 @@ namespace {
 using Vec4Floats = std::array<float, 4>;
 
 constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // that a float counts to
+constexpr int kLongestSide = 1 << 20;                       // of a texture: places along longer ones are no whole numbers in float
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;
 
 static_assert(kMaterial == kMaterialTextures + kUses * kUse);
 
 std::array<const TextureUse*, kUses> uses_of(const SurfaceMaterial& m) {
-  return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-          &m.emissive_texture,   &m.specular_texture,           &m.specular_color_texture};
+  return {&m.base_color_texture, &m.metallic_roughness_texture,  &m.normal_texture,           &m.emissive_texture,
+          &m.specular_texture,   &m.specular_color_texture,      &m.sheen_color_texture,      &m.sheen_roughness_texture,
+          &m.clearcoat_texture,  &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture, &m.anisotropy_texture};
 }
 
 const SurfaceMaterial& material_of(const Scene& scene, const Mesh& mesh) {
@@ -90,12 +93,14 @@ void add_use(const TextureUse& use, const MipMaps& maps, std::size_t first, std:
 }
 
 // As surface_at takes them.
-void add_factors(const SurfaceMaterial& m, std::vector<Vec4Floats>& to) {
+void add_factors(const Scene& scene, const SurfaceMaterial& m, std::vector<Vec4Floats>& to) {
   const float r = (m.ior - 1) / (m.ior + 1);
   to.push_back({m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w});
   to.push_back({m.emissive.x, m.emissive.y, m.emissive.z, m.double_sided ? 1.0f : 0.0f});
   to.push_back({m.specular_color.x, m.specular_color.y, m.specular_color.z, m.specular});
-  to.push_back({m.metallic, m.roughness, r * r, 0});
+  to.push_back({m.metallic, m.roughness, r * r, static_cast<float>((m.unlit ? kUnlit : 0) + (scene.multiple_scattering ? kScatters : 0))});
+  to.push_back({m.sheen_color.x, m.sheen_color.y, m.sheen_color.z, m.sheen_roughness});
+  to.push_back({m.clearcoat, m.clearcoat_roughness, m.anisotropy, m.anisotropy_rotation});
 }
 
 // For each vertex, how far its triangles are lifted off the lights that they are the faces of.
@@ -121,13 +126,35 @@ void add_vertices(const Scene& scene, const Mesh& mesh, std::vector<Vec4Floats>&
   }
 }
 
+int longer_side(const Image& image) { return std::max(image.width, image.height); }
+
 // Why the shaders do not find a mesh's surfaces; empty: they do.
 std::string why_for_host(const Scene& scene, const Mesh& mesh) {
   const SurfaceMaterial& m = material_of(scene, mesh);
-  if (kind_of(scene, mesh) == SurfaceKind::layered) return "whose layers depend on the view";
-  if (m.alpha_mode != AlphaMode::opaque) return "through which something shows";
+  if (emission_of(scene, mesh) != nullptr) return "which does not shine alike in all directions";
+  if (m.anisotropy > 0 && scene.multiple_scattering) return "whose lobe is brushed and scatters between its facets";
+  if (m.alpha_mode != AlphaMode::opaque || m.transmission > 0) return "through which something shows";
   if (!m.specular_override.empty()) return "which has lobes of its own";
+  for (const TextureUse* use : uses_of(m))
+    if (use->present() && longer_side(scene.images[static_cast<std::size_t>(use->image)]) > kLongestSide)
+      return "whose texture has more texels in a row than floats tell places between";
   return {};
+}
+
+bool shows_layers(const Scene& scene, const Mesh& mesh) {
+  return kind_of(scene, mesh) == SurfaceKind::layered && why_for_host(scene, mesh).empty();
+}
+
+// What shares of light lobes reflect.
+std::vector<Vec4Floats> tables_of_albedo() {
+  const CompactTable &ggx = ggx_compact_table(), &charlie = charlie_compact_table();
+  std::vector<Vec4Floats> to = {{static_cast<float>(ggx.shape_size), static_cast<float>(ggx.magnitude_size),
+                                 static_cast<float>(charlie.shape_size), static_cast<float>(charlie.magnitude_size)}};
+  for (const CompactTable* table : {&ggx, &charlie}) {
+    to.insert(to.end(), table->shapes.begin(), table->shapes.end());
+    for (const auto& [n_a, f_a] : table->magnitudes) to.push_back({n_a, f_a, 0, 0});
+  }
+  return to;
 }
 
 // What buffers are made of.
@@ -144,7 +171,7 @@ struct Contents {
     }
     std::vector<Vec4Floats> records;
     for (const SurfaceMaterial& m : scene.materials) {
-      add_factors(m, records);
+      add_factors(scene, m, records);
       for (const TextureUse* use : uses_of(m)) add_use(*use, maps, use->present() ? first_level + pictures.first(*use) : 0, records);
     }
     for (const Mesh& mesh : scene.meshes) {
@@ -196,11 +223,15 @@ SceneBuffers::SceneBuffers(const Device& d)
     : vertices_(d, BufferUse::host_writes, BufferForm::texels),
       triangles_(d, BufferUse::host_writes, BufferForm::texels),
       materials_(d, BufferUse::host_writes, BufferForm::texels),
-      texels_(d, BufferUse::host_writes, BufferForm::colors) {}
+      texels_(d, BufferUse::host_writes, BufferForm::colors),
+      tables_(d, BufferUse::host_writes, BufferForm::texels) {
+  tables_.hold(tables_of_albedo());
+}
 
 void SceneBuffers::follow(const Scene& scene, const MipMaps& maps) {
   const Contents c(scene, maps);
   triangle_count_ = c.triangles.size();
+  has_layers_ = std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) { return shows_layers(scene, mesh); });
   vertices_.hold(c.vertices);
   triangles_.hold(c.triangles);
   materials_.hold(c.materials);

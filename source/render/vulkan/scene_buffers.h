@@ -28,10 +28,14 @@ class SceneBuffers {
   const Buffer& triangles() const { return triangles_.get(); }
   const Buffer& materials() const { return materials_.get(); }
   const Buffer& texels() const { return texels_.get(); }
+  const Buffer& tables() const { return tables_.get(); }
+  // Whether some surface that the shaders find has what shaders/layers.glsl is about, or is unlit.
+  bool has_layers() const { return has_layers_; }
 
  private:
   std::size_t triangle_count_ = 0;
-  KeptBuffer vertices_, triangles_, materials_, texels_;
+  bool has_layers_ = false;
+  KeptBuffer vertices_, triangles_, materials_, texels_, tables_;
   std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // that the texels are of
 };
 
