@@ -73,16 +73,6 @@ void take_piece(vec4 ends, int segment, int left) {
     ++piece_count;
 }
 
-// Software devices end a thread's loops after 65,535 turns in all, silently; eight threads turn together, and a loop that ends at once takes a
-// turn as well. So a turn looks at four segments, and those for which floats are not enough are gone through afterwards: with a space of 256
-// segments that takes a quarter of the turns, and 5,120 edges (tile_shadows.cpp), four turns each, a third. These bounds on a thread's pairs
-// that are looked at closely, and on the sorting of crossings, keep all of it below 62,000, even if no two of the eight share any of them.
-const int kAtOnce = 4;
-const int kMostCloseTurns = 600;
-const int kMostShiftTurns = 400;
-int close_turns;
-int shift_turns;
-
 // Segments that a segment may cross, or its middle's ray to the left, with what floats know.
 const int kClose = 128;
 const int kMeets = 1;
@@ -93,7 +83,6 @@ int close[kClose];
 int close_count;
 
 // Crossings of one segment, in their order.
-const int kCrossings = 32;
 float crossing_at[kCrossings];
 int crossing_change[kCrossings];
 
@@ -178,8 +167,8 @@ void cut_segment(int number, int base) {
         if (i + 2 < segment_count) count += look_at_segment(w, i + 2);
         if (i + 3 < segment_count) count += look_at_segment(w, i + 3);
     }
-    close_turns += close_count;
-    too_much = too_much || close_turns > kMostCloseTurns;
+    own_turns += 2 * close_count;
+    too_much = too_much || own_turns > most_own_turns;
     int before_middle = 0;
     int crossings = 0;
     for (int n = 0; n < close_count && !too_much; n++) {
@@ -195,7 +184,7 @@ void cut_segment(int number, int base) {
         bool to_left = is_left(eb);
         if (is_left(ea) == to_left) continue;
         if (is_left(side_of(e, shift_e, f.xy, shift_f.xy, 1)) == is_left(side_of(e, shift_e, f.zw, shift_f.zw, 1))) continue;
-        if (crossings == kCrossings || shift_turns > kMostShiftTurns) {
+        if (crossings == kCrossings || own_turns > most_own_turns) {
             too_much = true;
             break;
         }
@@ -204,7 +193,7 @@ void cut_segment(int number, int base) {
         if (is_left(side_sum(ea, eb)) == to_left) before_middle += change;
         float t = place_between(ea, eb);
         int k = crossings;
-        shift_turns += k;
+        own_turns += k;
         while (k > 0 && crossing_at[k - 1] > t) {
             crossing_at[k] = crossing_at[k - 1];
             crossing_change[k] = crossing_change[k - 1];
@@ -236,8 +225,6 @@ void cut_segments(int base) {
     piece_count = 0;
     level = 2147483647;
     too_many_pieces = false;
-    close_turns = 0;
-    shift_turns = 0;
     for (int i = 0; i < segment_count; i++) cut_segment(i, base);
     too_much = too_much || too_many_pieces;
 }

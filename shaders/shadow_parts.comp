@@ -25,6 +25,7 @@ layout(push_constant) uniform Push { uint first_group; };
 #include "shadow/shadow.glsl"
 
 #include "shadow_exact.glsl"
+#include "shadow_turns.glsl"
 #include "shadow_segments.glsl"
 #include "shadow_count.glsl"
 #include "shadow_region.glsl"
@@ -152,6 +153,8 @@ void main() {
     segment_count = 0;
     piece_count = 0;
     too_much = false;
+    own_turns = 0;
+    most_own_turns = turns_left(begins.w, h2.x / uint(kTriangles));
     see_edges(eye, begins, h1.x);
     see_sections(eye, begins.x, begins.y, corners.first + uint(kShadowCorner) * corners.count, h2.x / uint(kTriangles));
     bool occluded = segment_count > 0;

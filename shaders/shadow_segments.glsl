@@ -169,6 +169,7 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
         add_clipped(eye, a, b, named, kSectionName | (2u * triangle.z), -facing_of(eye, planes + (triangle.y >> 16)));
         if (segment_count == added) continue;
         for (int i = first; i < added; i++) {
+            ++own_turns;
             bool same = all(equal(names[i] & ~kLeftName, names[added] & ~kLeftName));
             bool opposite = all(equal(names[i] & ~kLeftName, names[added].yx & ~kLeftName));
             if (!same && !opposite) continue;
@@ -176,7 +177,7 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
             segment_count = added;
             break;
         }
-        too_much = too_much || segment_count - first > kMostSections;
+        too_much = too_much || segment_count - first > kMostSections || own_turns > most_own_turns;
     }
 }
 
