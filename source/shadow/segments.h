@@ -55,6 +55,7 @@ struct Viewpoint {
   Vec3d position;                         // moved off its surface (offset_from_surface)
   Vec3d normal;                           // of shading, unit
   std::optional<Vec3d> geometric_normal;  // of the triangle, towards the viewer; none where it is the normal
+  std::uint64_t seed = 0;                 // of what is found by random rays from there
 };
 
 // How far a point keeps off its triangle: a few roundings of its coordinates.

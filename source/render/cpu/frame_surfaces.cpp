@@ -41,6 +41,7 @@ TileArea FrameSurfaces::area(int index) const {
 
 TilePlane FrameSurfaces::fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind) {
   TileHits hits;
+  tile.seed = seed(index, sample);
   rays_clock_.run([&] { trace_tile(*rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
   gbuffer_clock_.run([&] {
     shade_tile(scene_, shading_, hits, tile);

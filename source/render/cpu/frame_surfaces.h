@@ -32,6 +32,10 @@ class FrameSurfaces {
   // The surfaces of a tile through the places of a primary sample, and the background around them. behind: what to look past; null for
   // the nearest surfaces. Returns where those lie.
   TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr);
+  // SurfaceTile::seed: by what the pixels are, not by what they show, which is a rounding off where others find it.
+  std::uint64_t seed(int index, int sample) const {
+    return static_cast<std::uint64_t>(sample) * static_cast<std::uint64_t>(tile_count()) + static_cast<std::uint64_t>(index);
+  }
   // The background where a tile holds nothing, for those who fill it otherwise.
   void add_background(int index, int sample, SurfaceTile& tile) const;
   // Adds all of the environment's light but its spots'.

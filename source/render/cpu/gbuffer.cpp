@@ -95,6 +95,7 @@ bool take_coats(SurfaceTile& from, SurfaceTile& to) {
   while (first < kTilePixels && !bent(first)) ++first;
   if (first == kTilePixels) return false;
   clear_kinds(to);
+  to.seed = from.seed;
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (!bent(i)) {
       put_nothing(to, i);

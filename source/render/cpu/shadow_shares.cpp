@@ -1,7 +1,6 @@
 #include "render/cpu/shadow_shares.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/random.h"
 #include "shadow/arrangement.h"
@@ -20,9 +19,7 @@ template <class Counts, class Open>
 double stratified_share(const LightFrame& frame, const Viewpoint& at, Counts counts, Open open) {
   constexpr int kSide = 8;
   static_assert(kSide * kSide == kShareRays);
-  // Of the position, so that no result depends on tiles or threads.
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-  reference::Random random(bits(at.position.x) ^ (bits(at.position.y) << 1) ^ (bits(at.position.z) << 2));
+  reference::Random random(at.seed);
   const double height = -frame.to_local(at.position).z;
   double all = 0, arrives = 0;
   for (int i = 0; i < kShareRays; ++i) {

@@ -19,6 +19,7 @@ TilePoints points_for_shadows(const SurfaceTile& tile, Terminator terminator) {
     Viewpoint& at = result.points[i];
     positions[i] = at.position = position + geometric * shadow::offset_from_surface(position);
     at.normal = normal;
+    at.seed = tile.seed * kTilePixels + i;
     if (terminator == Terminator::strict && length(normal - geometric) > 1e-5) at.geometric_normal = geometric;
   }
   result.groups = groups_of(tile, positions);

@@ -31,6 +31,7 @@ struct TileVector {
 
 // Slots without a surface hold a normal of zero; every light sends them nothing.
 struct SurfaceTile {
+  std::uint64_t seed = 0;  // of what is decided at random about it: another for each tile and sample of a frame
   TileVector position, normal, view;
   TileVector geometric_normal;  // of the triangle, unit, turned to the viewer
   TileVector albedo;            // diffuse

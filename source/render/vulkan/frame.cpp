@@ -214,6 +214,7 @@ struct Frame::Parts {
       if (found)
         upload_clock.run([&] {
           raster->take(direct.radiance(), i, tile);
+          tile.seed = surfaces.seed(job.tile, sample);
           surfaces.add_background(job.tile, sample, tile);
         });
       else

@@ -412,6 +412,7 @@ TEST_F(VulkanSurfaces, LeaveTilesToTheHost) {
   expect("blended", [](SurfaceMaterial& m) { m.alpha_mode = AlphaMode::blend; });
   expect("cut out", [](SurfaceMaterial& m) { m.alpha_mode = AlphaMode::mask; });
   options.shadows = steradian::Shadows::on;
+  expect("cut out, shadows", [](SurfaceMaterial& m) { m.alpha_mode = AlphaMode::mask; });
   expect("thin, shadows", [](SurfaceMaterial& m) { m.transmission = 0.5f; });
 }
 
