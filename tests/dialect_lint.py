@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
-from kernel_text import CASE, FOLDERS, KERNELS, ROOT, case_files, kernel_files, needs, tokenize, topics, with_needs  # noqa: E402
+from kernel_text import CASE, FOLDERS, KERNELS, OUTSIDE, ROOT, case_files, kernel_files, needs, tokenize, topics, with_needs  # noqa: E402
 from reserved_words import RESERVED  # noqa: E402
 
 VECTORS = {"vec2": 2, "vec3": 3, "vec4": 4, "mat3": 3}
@@ -376,12 +376,12 @@ def lint_file(path, cache):
 def upward_needs(path):
     """What a file needs of folders after its own."""
     place = {folder: n for n, folder in enumerate(FOLDERS)}
-    return [p for p in needs(path, path.read_text()) if place.get(p.parent.name, -1) > place.get(path.parent.name, -1)]
+    return [p for p in needs(path, path.read_text()) if place.get(p.parent.name, -1) > place.get(path.parent.name, len(FOLDERS))]
 
 
 def main():
     cache, bad = {}, 0
-    files = kernel_files() + [CASE] + case_files()
+    files = kernel_files() + OUTSIDE + [CASE] + case_files()
     owner = {}
     for path in files:
         for needed in upward_needs(path):
