@@ -48,33 +48,82 @@ bool share_an_end(uvec2 e, uvec2 f) {
     return a.x == b.x || a.x == b.y || a.y == b.x || a.y == b.y;
 }
 
-// Pieces at the lowest count so far, the lower side on their left.
-vec4 pieces[PIECE_SPACE];
-int piece_segments[PIECE_SPACE];
+// Pieces of segments at the lowest count so far: from which share of the way to which.
+SHARED vec2 pieces[PIECE_SPACE];
+SHARED int piece_segments[PIECE_SPACE];
 int piece_count;
 int level;
 bool too_many_pieces;
 
-void take_piece(vec4 ends, int segment, int left) {
-    int weight = weights[segment];
-    int low = min(left, left - weight);
-    if (low >= kHidden / 2 || low > level || weight == 0) return;
-    if (low < level) {
-        level = low;
+#ifdef MANY_EDGES
+
+// Those of the segment that this lane is at.
+const int TAKEN_SPACE = kCrossings + 1;
+vec2 taken[TAKEN_SPACE];
+int taken_segments[TAKEN_SPACE];
+int taken_count;
+int taken_level;
+
+// Puts what each lane has taken behind what there is, as far as it is at the lowest count of all.
+void gather_pieces() {
+    int lowest = least_of_lanes(taken_level);
+    if (lowest < level) {
+        level = lowest;
         piece_count = 0;
         too_many_pieces = false;
     }
-    if (piece_count == PIECE_SPACE) {
+    uint all;
+    uint count = taken_level == level ? uint(taken_count) : 0u;
+    int to = piece_count + int(begin_of(count, all));
+    too_many_pieces = too_many_pieces || piece_count + int(all) > PIECE_SPACE;
+    for (int i = too_many_pieces ? int(count) : 0; i < int(count); i++) {
+        pieces[to + i] = taken[i];
+        piece_segments[to + i] = taken_segments[i];
+    }
+    if (!too_many_pieces) piece_count += int(all);
+    taken_count = 0;
+    taken_level = level;
+}
+
+#else
+
+#define TAKEN_SPACE PIECE_SPACE
+#define taken pieces
+#define taken_segments piece_segments
+#define taken_count piece_count
+#define taken_level level
+void gather_pieces() {}
+
+#endif
+
+void take_piece(vec2 ways, int segment, int left) {
+    int weight = weights[segment];
+    int low = min(left, left - weight);
+    if (low >= kHidden / 2 || low > taken_level || weight == 0) return;
+    if (low < taken_level) {
+        taken_level = low;
+        taken_count = 0;
+        too_many_pieces = false;
+    }
+    if (taken_count == TAKEN_SPACE) {
         too_many_pieces = true;
         return;
     }
-    pieces[piece_count] = weight > 0 ? ends.zwxy : ends;
-    piece_segments[piece_count] = segment;
-    ++piece_count;
+    taken[taken_count] = ways;
+    taken_segments[taken_count] = segment;
+    ++taken_count;
+}
+
+// Where a piece begins and ends, the lower side on its left.
+vec4 piece_ends(int i) {
+    ivec4 e = cells[piece_segments[i]];
+    vec2 d = vec2(e.zw - e.xy);
+    vec2 ways = pieces[i];
+    vec4 ends = vec4(vec2(e.xy) + ways.x * d, ways.y < 1.0 ? vec2(e.xy) + ways.y * d : vec2(e.zw));
+    return weights[piece_segments[i]] > 0 ? ends.zwxy : ends;
 }
 
 // Segments that a segment may cross, or its middle's ray to the left, with what floats know.
-const int kClose = 128;
 const int kMeets = 1;
 const int kNotCertain = 2;
 const int kEndAbove = 4;
@@ -85,6 +134,7 @@ int close_count;
 // Crossings of one segment, in their order.
 float crossing_at[kCrossings];
 int crossing_change[kCrossings];
+int shifts_here;  // in putting them in order
 
 // A segment whose count is wanted.
 struct Walk {
@@ -103,13 +153,12 @@ int left_ray(int weight, bool upwards, bool left) { return upwards ? (left ? 0 :
 // What segment i adds to the count left of the middle, as far as floats know; notes the segment where that is not all.
 int look_at_segment(Walk e, int i) {
     ivec4 f = cells[i];
-    ivec4 shift_f = shifts[i];
     uvec2 named_f = names[i];
     int weight = weights[i];
     int count = 0;
     // Events of the box's left side, and which ends lie above the middle; ties go by displacements.
     ivec2 height = 2 * f.yw - ivec2(e.m.y);
-    ivec2 shifted = 2 * shift_f.yw - ivec2(e.shift_m.y);
+    ivec2 shifted = 2 * height_shifts(i) - ivec2(e.shift_m.y);
     bool start_above = height.x > 0 || (height.x == 0 && shifted.x > 0);
     bool end_above = height.y > 0 || (height.y == 0 && shifted.y > 0);
     bool start_below = height.x < 0 || (height.x == 0 && shifted.x < 0);
@@ -146,16 +195,16 @@ int look_at_segment(Walk e, int i) {
     return count;
 }
 
-void cut_segment(int number, int base) {
+// mine: else the lane only looks at what all lanes look at.
+void cut_segment(int number, int base, bool mine) {
     Walk w;
     w.number = number;
     w.cells = cells[number];
-    w.shifts = shifts[number];
+    w.shifts = shifts_of(number);
     w.names = names[number];
     ivec4 e = w.cells;
     ivec4 shift_e = w.shifts;
     ivec2 d = e.zw - e.xy;
-    if (d == ivec2(0)) return;
     w.m = e.xy + e.zw;
     w.shift_m = shift_e.xy + shift_e.zw;
     w.bounds = ivec4(min(e.xy, e.zw), max(e.xy, e.zw));
@@ -167,14 +216,16 @@ void cut_segment(int number, int base) {
         if (i + 2 < segment_count) count += look_at_segment(w, i + 2);
         if (i + 3 < segment_count) count += look_at_segment(w, i + 3);
     }
-    own_turns += 2 * close_count;
-    too_much = too_much || own_turns > most_own_turns;
+    turns -= 2 * most_of_lanes(close_count);
+    too_much = too_much || turns < 0;
+    if (!mine || d == ivec2(0)) return;
+    int most_shifts = turns / int(LANES);
     int before_middle = 0;
     int crossings = 0;
     for (int n = 0; n < close_count && !too_much; n++) {
         int i = close[n] / kCloseNumber;
         ivec4 f = cells[i];
-        ivec4 shift_f = shifts[i];
+        ivec4 shift_f = shifts_of(i);
         int weight = weights[i];
         if ((close[n] & kNotCertain) != 0)
             count += left_ray(weight, (close[n] & kEndAbove) != 0, is_left(side_of(f, shift_f, w.m, w.shift_m, 2)));
@@ -184,7 +235,7 @@ void cut_segment(int number, int base) {
         bool to_left = is_left(eb);
         if (is_left(ea) == to_left) continue;
         if (is_left(side_of(e, shift_e, f.xy, shift_f.xy, 1)) == is_left(side_of(e, shift_e, f.zw, shift_f.zw, 1))) continue;
-        if (crossings == kCrossings || own_turns > most_own_turns) {
+        if (crossings == kCrossings || shifts_here > most_shifts) {
             too_much = true;
             break;
         }
@@ -193,7 +244,7 @@ void cut_segment(int number, int base) {
         if (is_left(side_sum(ea, eb)) == to_left) before_middle += change;
         float t = place_between(ea, eb);
         int k = crossings;
-        own_turns += k;
+        shifts_here += k;
         while (k > 0 && crossing_at[k - 1] > t) {
             crossing_at[k] = crossing_at[k - 1];
             crossing_change[k] = crossing_change[k - 1];
@@ -207,15 +258,11 @@ void cut_segment(int number, int base) {
     bool up = d.y > 0 || (d.y == 0 && shift_e.w > shift_e.y);
     int left = (up ? count : count + weights[number]) - before_middle;
     float from = 0.0;
-    vec2 a = vec2(e.xy);
-    vec2 reached = a;
     for (int k = 0; k <= crossings; k++) {
         float to = k < crossings ? crossing_at[k] : 1.0;
         if (to > from) {
-            vec2 next = to < 1.0 ? a + to * vec2(d) : vec2(e.zw);
-            take_piece(vec4(reached, next), number, left);
+            take_piece(vec2(from, to), number, left);
             from = to;
-            reached = next;
         }
         if (k < crossings) left += crossing_change[k];
     }
@@ -225,6 +272,16 @@ void cut_segments(int base) {
     piece_count = 0;
     level = 2147483647;
     too_many_pieces = false;
-    for (int i = 0; i < segment_count; i++) cut_segment(i, base);
-    too_much = too_much || too_many_pieces;
+    taken_count = 0;
+    taken_level = level;
+    for (int first = 0; first < segment_count && !too_much; first += int(LANES)) {
+        uint i = uint(first) + LANE;
+        shifts_here = 0;
+        cut_segment(min(int(i), segment_count - 1), base, is_mine(i, uint(segment_count)));
+        turns -= sum_of_lanes(shifts_here);
+        too_much = any_of_lanes(too_much);
+        gather_pieces();
+    }
+    too_much = too_much || any_of_lanes(too_many_pieces);
+    meet();
 }

@@ -48,6 +48,10 @@ const int kAskHost = 2;
 const int kNoRoom = 3;       // for what it sees
 const int kSeesPart = 4;     // and where its record begins
 
+// Points for which a thread has no space: kGroupPoints times the number of the group, and their own in it.
+const int kGroupPoints = 64;
+const int kMostMany = 65535;  // work groups in a row
+
 // States of slots before a light: kSeesNone, kSeesWhole or kSeesPart.
 //
 // Parts: records, vectors of four floats each.

@@ -6,23 +6,25 @@ const float kThin = 1.0 / 4096.0;
 const float kRoomEnough = 4194304.0 / 1024.0;
 const float kLeastRoom = 4194304.0 / 8192.0;
 const int kTrials = 4;
+const int kNoPiece = 2147483647;
 
 bool region_is_wide() {
     float twice = 0.0;
     float perimeter = 0.0;
-    for (int i = 0; i < piece_count; i++) {
-        vec4 p = pieces[i] * kCellSize;
+    for (int i = int(LANE); i < piece_count; i += int(LANES)) {
+        vec4 p = piece_ends(i) * kCellSize;
         vec2 d = p.zw - p.xy;
         twice += p.x * d.y - p.y * d.x;
         perimeter += length(d);
     }
-    return twice > 2.0 * kThin * perimeter;
+    vec4 sums = sum_of_lanes(vec4(twice, perimeter, 0.0, 0.0));
+    return sums.x > 2.0 * kThin * sums.y;
 }
 
 // From a place along a unit direction, how far it is to the next segment but one.
 float distance_to_next(vec2 from, vec2 n, int but) {
     float nearest = 1.0e30;
-    for (int i = 0; i < segment_count; i++) {
+    for (int i = int(LANE); i < segment_count; i += int(LANES)) {
         vec2 a = vec2(cells[i].xy);
         vec2 f = vec2(cells[i].zw) - a;
         vec2 p = a - from;
@@ -32,15 +34,15 @@ float distance_to_next(vec2 from, vec2 n, int but) {
         float t = (p.x * n.y - p.y * n.x) * inverse;
         if (i != but && det != 0.0 && distance > 0.0 && t >= 0.0 && t <= 1.0) nearest = min(nearest, distance);
     }
-    return nearest;
+    return least_of_lanes(nearest);
 }
 
 // The distance of a place from all segments, 0 where its count is above the level or not certain.
 float room_at(vec2 q, int base) {
     float least2 = 1.0e30;
-    int count = base;
+    int count = 0;
     bool certain = true;
-    for (int i = 0; i < segment_count; i++) {
+    for (int i = int(LANE); i < segment_count; i += int(LANES)) {
         vec4 s = vec4(cells[i]);
         vec2 f = s.zw - s.xy;
         vec2 p = q - s.xy;
@@ -58,6 +60,9 @@ float room_at(vec2 q, int base) {
         if ((names[i].x & kLeftName) != 0u && s.y < q.y) count += weights[i];
         if ((names[i].y & kLeftName) != 0u && s.w < q.y) count -= weights[i];
     }
+    certain = !any_of_lanes(!certain);
+    count = base + sum_of_lanes(count);
+    least2 = least_of_lanes(least2);
     return certain && count <= level ? sqrt(least2) : 0.0;
 }
 
@@ -68,20 +73,22 @@ vec3 place_inside(int base) {
     int last_number = -1;
     for (int trial = 0; trial < kTrials; trial++) {
         float longest = 0.0;
-        int number = -1;
-        for (int i = 0; i < piece_count; i++) {
-            vec2 d = pieces[i].zw - pieces[i].xy;
+        int number = kNoPiece;
+        for (int i = int(LANE); i < piece_count; i += int(LANES)) {
+            vec4 p = piece_ends(i);
+            vec2 d = p.zw - p.xy;
             float length2 = dot(d, d);
             if ((length2 < last || (length2 == last && i > last_number)) && length2 > longest) {
                 longest = length2;
                 number = i;
             }
         }
-        if (number < 0) break;
-        last = longest;
+        last = most_of_lanes(longest);
+        number = least_of_lanes(longest == last ? number : kNoPiece);
+        if (number == kNoPiece) break;
         last_number = number;
-        vec4 p = pieces[number];
-        vec2 n = vec2(p.y - p.w, p.z - p.x) * inversesqrt(longest);
+        vec4 p = piece_ends(number);
+        vec2 n = vec2(p.y - p.w, p.z - p.x) * inversesqrt(last);
         vec2 middle = 0.5 * (p.xy + p.zw);
         float distance = distance_to_next(middle, n, piece_segments[number]);
         if (distance > 1.0e9) continue;

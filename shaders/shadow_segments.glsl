@@ -2,14 +2,66 @@
 // and lanes_see_pack.cpp find them.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-ivec4 cells[SEGMENT_SPACE];   // start, end
-ivec4 shifts[SEGMENT_SPACE];  // displacements of both
-uvec2 names[SEGMENT_SPACE];
-int weights[SEGMENT_SPACE];
+SHARED ivec4 cells[SEGMENT_SPACE];  // start, end
+SHARED uvec2 names[SEGMENT_SPACE];
+SHARED int weights[SEGMENT_SPACE];
 int segment_count;
 bool too_much;  // for the space there is
 
 const int kHidden = 1048576;  // source/shadow/segments.h
+
+ivec4 displacements(uvec2 named) { return ivec4(displacement(named.x), displacement(named.y)); }
+
+#ifdef MANY_EDGES
+
+shared ivec2 heights[SEGMENT_SPACE];  // displacements of both ends in y: what is asked most
+
+// Of this lane.
+ivec4 found_cells;
+uvec2 found_names;
+int found_weight;
+bool found;
+
+void add_segment(ivec4 ends, uvec2 named, int weight) {
+    found_cells = ends;
+    found_names = named;
+    found_weight = weight;
+    found = true;
+}
+
+// Puts what each lane has found, one segment at most, behind the first `before`. Returns the place of this lane's, or -1.
+int gather_segments(int before) {
+    uint all;
+    int to = before + int(begin_of(found ? 1u : 0u, all));
+    too_much = too_much || before + int(all) > SEGMENT_SPACE;
+    if (too_much || !found) to = -1;
+    found = false;
+    if (to >= 0) {
+        cells[to] = found_cells;
+        names[to] = found_names;
+        weights[to] = found_weight;
+        heights[to] = displacements(found_names).yw;
+    }
+    segment_count = before + (too_much ? 0 : int(all));
+    return to;
+}
+
+// Of what has just been gathered, each lane keeps its own or not.
+void keep_gathered(int before, int own, bool keep) {
+    meet();
+    found = own >= 0 && keep;
+    if (found) found_weight = weights[own];
+    gather_segments(before);
+}
+
+void add_weight(int i, int weight) { atomicAdd(weights[i], weight); }
+
+ivec4 shifts_of(int i) { return displacements(names[i]); }
+ivec2 height_shifts(int i) { return heights[i]; }
+
+#else
+
+ivec4 shifts[SEGMENT_SPACE];  // displacements of both ends
 
 void add_segment(ivec4 ends, uvec2 named, int weight) {
     if (segment_count == SEGMENT_SPACE) {
@@ -17,11 +69,21 @@ void add_segment(ivec4 ends, uvec2 named, int weight) {
         return;
     }
     cells[segment_count] = ends;
-    shifts[segment_count] = ivec4(displacement(named.x), displacement(named.y));
+    shifts[segment_count] = displacements(named);
     names[segment_count] = named;
     weights[segment_count] = weight;
     ++segment_count;
 }
+
+int gather_segments(int before) { return segment_count > before ? segment_count - 1 : -1; }
+void keep_gathered(int before, int own, bool keep) {
+    if (!keep) segment_count = before;
+}
+void add_weight(int i, int weight) { weights[i] += weight; }
+ivec4 shifts_of(int i) { return shifts[i]; }
+ivec2 height_shifts(int i) { return shifts[i].yw; }
+
+#endif
 
 // A point before a light's plane.
 struct Eye {
@@ -96,9 +158,8 @@ int facing_of(Eye eye, uint plane) {
     return int(shadow_facing(p.xyz, p.w, eye.at));
 }
 
-// The segments of the group's edges.
-void see_edges(Eye eye, uvec4 begins, uint incidences) {
-    for (uint e = 0u; e < begins.w; e++) {
+void see_edge(Eye eye, uvec4 begins, uint incidences, uint e) {
+    if (is_mine(e, begins.w)) {
         uvec4 edge = groups[begins.z + e];
         int flags = int(edge.w);
         int weight = 0;
@@ -138,6 +199,14 @@ void see_edges(Eye eye, uvec4 begins, uint incidences) {
     }
 }
 
+// The segments of the group's edges.
+void see_edges(Eye eye, uvec4 begins, uint incidences) {
+    for (uint first = 0u; first < begins.w && !too_much; first += LANES) {
+        see_edge(eye, begins, incidences, first + LANE);
+        gather_segments(segment_count);
+    }
+}
+
 // Where the light's plane cuts the side of a triangle from one corner to the next.
 End cut_of(Eye eye, uvec4 from, uvec4 to) {
     vec3 a = place_of(eye, uintBitsToFloat(from.xyz));
@@ -145,12 +214,9 @@ End cut_of(Eye eye, uvec4 from, uvec4 to) {
     return look_at(eye, from.w < to.w ? shadow_cut(a, b, eye.height) : shadow_cut(b, a, eye.height));
 }
 
-// The sections of triangles by the light's plane, each from where the triangle's walk leaves the space below to where it comes back. That
-// of a coincident triangle only adds its weight: two segments with the same ends could not tell who lies left of whom.
-const int kMostSections = 48;
-void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint count) {
-    int first = segment_count;
-    for (uint t = 0u; t < count && !too_much; t++) {
+// The section of a triangle by the light's plane, from where the triangle's walk leaves the space below to where it comes back.
+void see_section(Eye eye, uint vertices, uint planes, uint triangles, uint count, uint t) {
+    if (is_mine(t, count)) {
         uvec4 triangle = groups[triangles + uint(kShadowTriangle) * t];
         uvec4 edges = groups[triangles + uint(kShadowTriangle) * t + 1u];
         uvec4 corners[3];
@@ -159,25 +225,37 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
         corners[2] = groups[vertices + (triangle.y & 0xffffu)];
         bvec3 below;
         for (int c = 0; c < 3; c++) below[c] = place_of(eye, uintBitsToFloat(corners[c].xyz)).z < eye.height;
-        if (all(below) || !any(below)) continue;
         int leaving = below.x && !below.y ? 0 : below.y && !below.z ? 1 : 2;
         int returning = below.y && !below.x ? 0 : below.z && !below.y ? 1 : 2;
         End a = cut_of(eye, corners[leaving], corners[(leaving + 1) % 3]);
         End b = cut_of(eye, corners[returning], corners[(returning + 1) % 3]);
         uvec2 named = kCutName | uvec2(edges[leaving], edges[returning]);
-        int added = segment_count;
-        add_clipped(eye, a, b, named, kSectionName | (2u * triangle.z), -facing_of(eye, planes + (triangle.y >> 16)));
-        if (segment_count == added) continue;
-        for (int i = first; i < added; i++) {
-            ++own_turns;
-            bool same = all(equal(names[i] & ~kLeftName, names[added] & ~kLeftName));
-            bool opposite = all(equal(names[i] & ~kLeftName, names[added].yx & ~kLeftName));
-            if (!same && !opposite) continue;
-            weights[i] += same ? weights[added] : -weights[added];
-            segment_count = added;
-            break;
+        int weight = -facing_of(eye, planes + (triangle.y >> 16));
+        if (any(below) && !all(below)) add_clipped(eye, a, b, named, kSectionName | (2u * triangle.z), weight);
+    }
+}
+
+// That of a coincident triangle only adds its weight to the first one's: two segments with the same ends could not tell who lies left of
+// whom.
+const int kMostSections = 48;
+void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint count) {
+    int first = segment_count;
+    for (uint t = 0u; t < count && !too_much; t += LANES) {
+        int before = segment_count;
+        see_section(eye, vertices, planes, triangles, count, t + LANE);
+        int own = gather_segments(before);
+        meet();
+        bool coincides = false;
+        int looks = 0;
+        for (int i = first; i < own && !coincides; i++) {
+            ++looks;
+            bool same = all(equal(names[i] & ~kLeftName, names[own] & ~kLeftName));
+            coincides = same || all(equal(names[i] & ~kLeftName, names[own].yx & ~kLeftName));
+            if (coincides) add_weight(i, same ? weights[own] : -weights[own]);
         }
-        too_much = too_much || segment_count - first > kMostSections || own_turns > most_own_turns;
+        keep_gathered(before, own, !coincides);
+        turns -= most_of_lanes(looks);
+        too_much = too_much || segment_count - first > kMostSections || turns < 0;
     }
 }
 
@@ -191,15 +269,23 @@ ivec4 corner_cells(Corners c, uint i) { return ivec4(groups[c.own > 0u ? c.own +
 
 // The outline, and the horizons that the host found.
 void see_surroundings(Corners c, uint at, int flags) {
-    for (uint i = 0u; i < c.count; i++) {
-        uvec4 named = groups[c.first + uint(kShadowCorner) * i + 1u];
-        add_segment(corner_cells(c, i), kCornerName | named.xy, -kHidden);
+    for (uint first = 0u; first < c.count; first += LANES) {
+        uint i = first + LANE;
+        if (is_mine(i, c.count)) {
+            uvec4 named = groups[c.first + uint(kShadowCorner) * i + 1u];
+            add_segment(corner_cells(c, i), kCornerName | named.xy, -kHidden);
+        }
+        gather_segments(segment_count);
     }
-    for (int h = 0; h < 2; h++) {
-        if ((flags & (kHorizon << h)) == 0) continue;
-        int left = flags >> (2 * h);
-        uvec2 named = uvec2(kHorizonName | (2u * uint(h))) + uvec2(0u, 1u);
-        named |= uvec2((left & kHorizonLeft) != 0 ? kLeftName : 0u, (left & (2 * kHorizonLeft)) != 0 ? kLeftName : 0u);
-        add_segment(ivec4(groups[at + 2u + uint(h)]), named, -kHidden);
+    for (uint first = 0u; first < 2u; first += LANES) {
+        uint h = first + LANE;
+        if (is_mine(h, 2u) && (flags & (kHorizon << h)) != 0) {
+            int left = flags >> (2u * h);
+            uvec2 named = uvec2(kHorizonName | (2u * h)) + uvec2(0u, 1u);
+            named |= uvec2((left & kHorizonLeft) != 0 ? kLeftName : 0u, (left & (2 * kHorizonLeft)) != 0 ? kLeftName : 0u);
+            add_segment(ivec4(groups[at + 2u + h]), named, -kHidden);
+        }
+        gather_segments(segment_count);
     }
+    meet();
 }

@@ -1,23 +1,31 @@
-// How many turns a thread's loops may take.
+// How many turns the loops for a point may take.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Software devices end a thread's loops after 65,535 turns in all, silently; eight threads turn together, and a loop that ends at once takes a
-// turn as well. So a turn looks at four segments, and those for which floats are not enough are gone through afterwards: with a space of 256
-// segments that takes a quarter of the turns, and 5,120 edges (tile_shadows.cpp), four turns each, a third. Of what the space and the group's
-// edges leave, each of the eight has its share for pairs that are looked at closely, two turns each, and for the sorting of crossings: even if
-// no two of them share a turn.
+// Software devices end a thread's loops after 65,535 turns in all, silently; the threads of a subgroup turn together, and a loop that ends at
+// once takes a turn as well. So a turn looks at four segments, and those for which floats are not enough are gone through afterwards: with a
+// space of 256 segments that takes a thread a quarter of the turns, and 5,120 edges (tile_shadows.cpp), four turns each, a third. What the
+// space and the group's edges leave is for pairs that are looked at closely, two turns each, for the sorting of crossings and for coincident
+// sections. Where each thread has a point of its own, each of eight has its share of that, even if no two of them share a turn.
 const int kAtOnce = 4;
-const int kCrossings = 32;  // of one segment
 const int kMostTurns = 62000;
 const int kMostIncidences = 1024;  // tile_shadows.cpp
-const int kThreadsAtOnce = 8;
-int own_turns;
-int most_own_turns;
+const int kPointsAtOnce = LANES == 1u ? 8 : 1;
+int turns;  // that are left
 
-// A triangle takes half more turns than an edge. Of a segment: a look at all others, pieces between crossings, five loops and their ends; and
-// region and record go through segments and pieces fourteen times.
+// Segments that may cross one, or its middle's ray to the left; and those that do cross it.
+#ifdef MANY_EDGES
+const int kClose = 256;
+const int kCrossings = 96;
+#else
+const int kClose = 128;
+const int kCrossings = 32;
+#endif
+
+// A triangle takes half more turns than an edge. Of a segment: a look at all others, pieces between crossings (and once more where lanes put
+// them together), five loops and their ends; and region and record go through segments and pieces fourteen times.
 int turns_left(uint edges, uint triangles) {
-    int gathered = int(4u * edges + 6u * triangles) + kMostIncidences;
-    int cut = SEGMENT_SPACE * (SEGMENT_SPACE / kAtOnce + kCrossings + 5 + 14);
-    return (kMostTurns - gathered - cut) / kThreadsAtOnce;
+    int gathered = int(4u * (edges / LANES + 1u) + 6u * (triangles / LANES + 1u)) + kMostIncidences;
+    int own = SEGMENT_SPACE / int(LANES) + (LANES == 1u ? 0 : 1);
+    int cut = own * (SEGMENT_SPACE / kAtOnce + kCrossings * (LANES == 1u ? 1 : 2) + 5 + 14);
+    return (kMostTurns - gathered - cut) / kPointsAtOnce;
 }

@@ -52,6 +52,8 @@ PIPELINES = [
     ("arcs_lobe", "a polygon, Blinn-Phong", {0: 0, 4: 2, 5: 0, 11: 4}, "a pixel and a light", 0),
     ("arcs_lobe", "a polygon, Beckmann", {0: 0, 4: 2, 5: 0, 11: 4, 20: 1}, "a pixel and a light", 0),
     ("shadow_parts", "", {}, "a point and a light", None),
+    ("shadow_parts", "a thread a point", {0: 256, 1: 272}, "four pairs of segments", 9),
+    ("shadow_many", "a subgroup a point", {0: 640, 1: 640, 2: 32}, "four pairs of segments", 9),
     ("shadow_rays", "", {}, "a box, and a triangle in it", 1),
     ("shadow_rays", "", {}, "a triangle", 2),
     ("shadow_shares", "", {}, "a pixel and a light", 0),

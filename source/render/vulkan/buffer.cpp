@@ -39,8 +39,9 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
     h.device = &d;
-    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst;
-    if (form != BufferForm::storage) usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
+    using Usage = vk::BufferUsageFlagBits;
+    vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferDst | Usage::eIndirectBuffer;
+    if (form != BufferForm::storage) usage |= Usage::eUniformTexelBuffer;
     h.buffer = d.device.createBuffer({{}, bytes, usage});
     const auto needed = h.buffer.getMemoryRequirements();
     h.memory = d.allocate({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});

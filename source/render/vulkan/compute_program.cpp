@@ -100,9 +100,11 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
     // stamp when it next flushes, as a barrier makes it do: so every stamp has one behind it.
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
-    const vk::MemoryBarrier written(Access::eShaderWrite, Access::eShaderRead | Access::eShaderWrite | Access::eHostRead);
+    const vk::MemoryBarrier written(Access::eShaderWrite,
+                                    Access::eShaderRead | Access::eShaderWrite | Access::eIndirectCommandRead | Access::eHostRead);
     const auto wait = [&] {
-      h.commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader | Stage::eHost, {}, written, nullptr, nullptr);
+      h.commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eHost, {}, written, nullptr,
+                                 nullptr);
     };
     h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (timed) {
@@ -115,7 +117,10 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
       const Dispatch& one = dispatches[i];
       h.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *h.pipelines->made.at(one.pipeline));
       h.commands.pushConstants<std::uint32_t>(*h.pipelines->layout, vk::ShaderStageFlagBits::eCompute, 0, one.push);
-      h.commands.dispatch(one.groups_x, one.groups_y, 1);
+      if (one.groups != nullptr)
+        h.commands.dispatchIndirect(*one.groups->handles().buffer, one.groups_at);
+      else
+        h.commands.dispatch(one.groups_x, one.groups_y, 1);
       if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, i + 1);
       wait();
     }

@@ -26,6 +26,9 @@ class ComputeProgram {
     std::size_t pipeline = 0;
     std::uint32_t groups_x = 1, groups_y = 1;
     std::uint32_t push = 0;
+    // Not null: the groups are three uints there, which dispatches before may have written.
+    const Buffer* groups = nullptr;
+    std::size_t groups_at = 0;  // bytes
   };
   // Runs the dispatches in their order, over the buffers by their bindings, each after what the ones before have written, and waits until
   // the host can read the results. Returns the milliseconds of each, empty where the device does not tell. Throws Error when the device is

@@ -81,6 +81,8 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
   info.subgroup = subgroups.subgroupSize;
   info.broadcasts = static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eBallot) &&
                     static_cast<bool>(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute);
+  info.adds = info.broadcasts && static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic);
+  info.shared_memory = properties.limits.maxComputeSharedMemorySize;
   info.timestamps = device.getQueueFamilyProperties()[queue_family].timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
   return info;
 }

@@ -22,7 +22,9 @@ struct DeviceInfo {
   std::size_t texel_buffer = 0;    // texels of the largest buffer of them
   unsigned subgroup = 0;           // threads that run in step
   bool timestamps = false;         // of compute work
-  bool broadcasts = false;         // threads that run in step tell each other a value
+  bool broadcasts = false;         // threads that run in step tell each other a value ...
+  bool adds = false;               // ... and add theirs up
+  std::size_t shared_memory = 0;   // bytes of a work group
 };
 
 // Every device of Vulkan 1.2 or later with a compute queue, real ones before software. Empty where there is no loader.

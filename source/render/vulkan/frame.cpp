@@ -111,7 +111,8 @@ bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
 }
 
 struct Frame::Parts {
-  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache)
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache,
+        ManyEdgesBy many)
       : scene(s),
         options(o),
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
@@ -123,7 +124,9 @@ struct Frame::Parts {
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
         direct(kept->direct, s, method, o.table, lights),
-        arena(threads) {
+        arena(threads),
+        many_edges(Shadows::finds_many_edges(device->info()) &&
+                   (many == ManyEdgesBy::device || (many == ManyEdgesBy::automatic && !device->info().software))) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
     const bool bounces = has_bounce() && !bounce_on_host(o.indirect), maps = bounces && all_cast_exactly(s);
     if ((maps || host.has_shadows()) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)))
@@ -198,7 +201,7 @@ struct Frame::Parts {
   // The surfaces of the jobs, put on the device, and the lights that may reach them.
   std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
     std::vector<DirectLight::Tile> tiles(jobs.size());
-    if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size());
+    if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows(many_edges));
     const bool drawn = raster && layer == 0;
     if (drawn)
       device_clock.run([&] { raster->find(jobs.front().tile, static_cast<int>(jobs.size()), direct.surfaces(), direct.radiance()); });
@@ -245,7 +248,7 @@ struct Frame::Parts {
     const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
     if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get());
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get(), many_edges);
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t count =
           shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
@@ -375,6 +378,7 @@ struct Frame::Parts {
   Bounce* bounce = nullptr;                   // null without one, and where the host has it
   std::optional<indirect::Pipeline> bounced;  // of one frame
   tbb::task_arena arena;
+  const bool many_edges;  // the device finds what is seen behind them
   double build_ms = 0;
   PassClock lists_clock{"lists"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
       capture_clock{"indirect: surfaces"};
@@ -385,8 +389,8 @@ struct Frame::Parts {
 };
 
 Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays,
-             RenderCache* cache)
-    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache)) {}
+             RenderCache* cache, ManyEdgesBy many_edges)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache, many_edges)) {}
 Frame::~Frame() = default;
 
 Picture Frame::render(RenderStats* stats) {

@@ -21,6 +21,10 @@ enum class SurfacesBy { automatic, host, device };
 // device, unless it is software, slower at that than the host.
 enum class RaysBy { automatic, host, device };
 
+// Who finds what is seen of lights behind more edges than one thread goes through. automatic: the device, a subgroup a point, unless it is
+// software: its threads are the host's, whose search is not quadratic.
+enum class ManyEdgesBy { automatic, host, device };
+
 // Buffers and pipelines are made once, for any number of frames of a scene.
 class Frame {
  public:
@@ -28,7 +32,8 @@ class Frame {
   // options name. cache: keeps what is sorted, and what is on that device, for the next frame; null: nothing is kept. Throws
   // UsageError for what runs on the host alone, and for options that this back end does not have yet; Error where there is no such device.
   Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
-        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr);
+        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr,
+        ManyEdgesBy many_edges = ManyEdgesBy::automatic);
   ~Frame();
 
   // Sets stats of this frame alone. Returns early, with what it has, when options.stop becomes true.

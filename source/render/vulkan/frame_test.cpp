@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <tuple>
 
 #include "core/test_memory.h"
 #include "render/vulkan/test_frames.h"
@@ -175,7 +176,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   }
 }
 
-// Of how many edges a thread has space for, and of how many not, by every method and lobe.
+// By every method and lobe.
 TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   RenderOptions options = small("auto");
   options.shadows = Shadows::on;
@@ -193,6 +194,60 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   const double share = expect_same("room, shadows", scene_of("room"), options);
   std::printf("room: %.1f %% of the parts by the host\n", 100 * share);
   EXPECT_LE(share, 0.02);
+}
+
+// Each point sees four segments of the light and three of every triangle, none of which crosses another: a thread has space for 256, a
+// subgroup for 640, the host for any number.
+TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  options.width = 64;
+  options.height = 36;
+  const auto by_host = [&](int triangles, ManyEdgesBy many) {
+    return expect_same(std::to_string(triangles) + " apart", under_triangles(triangles, kSquare, kFlatBeforeSquare), options, 0, many);
+  };
+  EXPECT_EQ(by_host(84, ManyEdgesBy::host), 0);
+  EXPECT_EQ(by_host(85, ManyEdgesBy::host), 1);
+  EXPECT_EQ(by_host(85, ManyEdgesBy::device), 0);
+  EXPECT_EQ(by_host(212, ManyEdgesBy::device), 0);
+  EXPECT_EQ(by_host(213, ManyEdgesBy::device), 1);
+  // Before each other: as many crossings as a thread has turns for, or not.
+  for (const int triangles : {80, 200}) {
+    const std::string name = std::to_string(triangles) + " triangles";
+    const double without = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::host);
+    const double with = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::device);
+    std::printf("%s: %.2f %% of the parts by the host, %.2f %% with subgroups\n", name.c_str(), 100 * without, 100 * with);
+    EXPECT_LE(with, without);
+  }
+}
+
+// Of lights of every shape: shares of polygons, frames of the points' own, sections of triangles by the light's plane; and of groups with
+// more edges than a thread goes through.
+TEST_F(VulkanFrame, FindsPartsBehindManyEdgesBySubgroups) {
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  options.width = 64;
+  options.height = 36;
+  const std::tuple<const char*, Shape, Spread> lights[] = {
+      {"90 before a disk", Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}, kFlatBeforeSquare},
+      {"90 before a ball", Ellipsoid{{0, 2.9, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}}, {0.3, 0.02, 2.4, 0.02}},
+      {"90 across", Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}}, {}},
+  };
+  for (const auto& [name, light, spread] : lights) {
+    const Scene scene = under_triangles(90, light, spread);
+    const double without = expect_same(name, scene, options, 0, ManyEdgesBy::host);
+    const double with = expect_same(name, scene, options, 0, ManyEdgesBy::device);
+    std::printf("%s: %.2f %% of the parts by the host, %.2f %% with subgroups\n", name, 100 * without, 100 * with);
+    EXPECT_LE(with, without / 2) << name;
+    EXPECT_GT(without, 0) << name;
+  }
+  options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  for (const char* name : {"gallery", "tubes"}) {
+    const double share = expect_same(std::string(name) + ", shadows", scene_of(name), options, 0, ManyEdgesBy::device);
+    std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
+    EXPECT_LE(share, 0.01) << name;
+  }
 }
 
 // By every lobe: of round lights, what counts is the share of a polygon's light.
@@ -255,7 +310,7 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
     options.width = 48;  // the layer asks what is called, not what comes of it
     options.height = 27;
     options.shadows = shadows;
-    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device);
+    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device, nullptr, ManyEdgesBy::device);
     for (int i = 0; i < 2; ++i) frame.render();
   }
   EXPECT_TRUE(device->validation_messages().empty())

@@ -1,6 +1,7 @@
 // Shadows on a device: finds what points see of lights behind edges (shaders/shadow_parts.comp). One ray a point says whether that is free
 // (shaders/shadow_rays.comp, or the host's: also where a buffer has no room for the triangles, and where a walk through them does not end).
-// Points that a thread has no space for, or that it is not certain about, the host finds.
+// Points that a thread has no space for a subgroup finds (shaders/shadow_many.comp); those that neither has space for, or is not certain
+// about, the host.
 #pragma once
 
 #include <map>
@@ -27,8 +28,12 @@ class Shadows {
     KeptBuffer groups, answers, parts, states;
   };
 
-  // All must stay; parts: with edges. rays: null for the host's.
-  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays);
+  // Whether a device has what a subgroup for one point needs.
+  static bool finds_many_edges(const DeviceInfo& device);
+
+  // All must stay; parts: with edges. rays: null for the host's. many_edges: a subgroup each finds what points see behind many edges, for
+  // which the host finds it otherwise.
+  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays, bool many_edges);
 
   // Finds what the first tiles need, as many as buffers have room for, and says how many those are: at least one. Throws Error where one is
   // too many. Calls each(count, work) for work in parallel.
@@ -48,7 +53,7 @@ class Shadows {
 
  private:
   struct Batch;
-  void upload(const Batch& batch);
+  void upload(Batch& batch);
   std::size_t search(Batch& batch);
   void trace(Batch& batch, const Each& each);
   void ask_host(Batch& batch, const Each& each);
@@ -60,6 +65,7 @@ class Shadows {
   Kept& kept_;
   const RayScene& rays_;
   const SceneRays* const device_rays_;  // null: the host's
+  const bool many_edges_;
   TileLighting& host_;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;

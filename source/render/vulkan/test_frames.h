@@ -29,12 +29,15 @@ inline RenderOptions small(const std::string& method) {
 // Prints what is off, and where the most. The bound is what the back end promises (docs/vulkan.md): float's own error along an outline is
 // a hundredth of it. outliers: how many pixels may be off by more than a thousandth of the picture's mean, where a rounding changes how
 // many nodes or corners stand for a light; the bound is that of the others. Returns RenderStats::shadow_on_host.
-inline double expect_same(const std::string& name, const Scene& scene, RenderOptions options, int outliers = 0) {
+inline double expect_same(const std::string& name, const Scene& scene, RenderOptions options, int outliers = 0,
+                          ManyEdgesBy many_edges = ManyEdgesBy::automatic) {
   options.backend = Backend::cpu;
   const Picture cpu = render(scene, options);
   options.backend = Backend::vulkan;
   RenderStats stats;
-  const Picture device = render(scene, options, &stats);
+  const Picture device = many_edges == ManyEdgesBy::automatic
+                             ? render(scene, options, &stats)
+                             : Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, nullptr, many_edges).render(&stats);
   const auto square = [](Vec3f v) { return static_cast<double>(dot(v, v)); };
   double squares = 0;
   for (const Vec3f& p : cpu.pixels) squares += square(p);
@@ -85,8 +88,16 @@ inline PunctualLight punctual(PunctualKind kind, Vec3d position, Vec3d direction
 
 inline const Polygon kSquare{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}};
 
+// How triangles lie about an axis: over a disk, each this large, at this height and up to that much above or below it.
+struct Spread {
+  double radius = 0.6, size = 0.1, height = 1.5, slope = 0.1;
+};
+// Of up to 250 triangles, none is before or behind another one, wherever they are seen from; and from all of the floor each is seen before
+// kSquare as a whole.
+inline constexpr Spread kFlatBeforeSquare{0.75, 0.03, 2.4, 0};
+
 // A floor under a light, and triangles between them, here and there.
-inline Scene under_triangles(int count, const Shape& light = kSquare) {
+inline Scene under_triangles(int count, const Shape& light = kSquare, const Spread& spread = {}) {
   Scene scene;
   SurfaceMaterial floor;
   floor.metallic = 0.3f;
@@ -98,13 +109,13 @@ inline Scene under_triangles(int count, const Shape& light = kSquare) {
   scene.meshes = {scene::quad_mesh({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 0), Mesh{}};
   Mesh& triangles = scene.meshes[1];
   for (int i = 0; i < count; ++i) {
-    const double turn = 2.399963 * i, away = 0.6 * std::sqrt((i + 0.5) / count);  // as seeds of a sunflower
+    const double turn = 2.399963 * i, away = spread.radius * std::sqrt((i + 0.5) / count);  // as seeds of a sunflower
     for (int corner = 0; corner < 3; ++corner) {
       const double angle = turn + 2.1 * corner;
       triangles.indices.push_back(static_cast<std::uint32_t>(triangles.positions.size()));
-      triangles.positions.push_back({static_cast<float>(away * std::cos(turn) + 0.1 * std::cos(angle)),
-                                     static_cast<float>(1.5 + 0.1 * std::sin(3 * angle)),
-                                     static_cast<float>(away * std::sin(turn) + 0.1 * std::sin(angle))});
+      triangles.positions.push_back({static_cast<float>(away * std::cos(turn) + spread.size * std::cos(angle)),
+                                     static_cast<float>(spread.height + spread.slope * std::sin(3 * angle)),
+                                     static_cast<float>(away * std::sin(turn) + spread.size * std::sin(angle))});
       triangles.normals.push_back({0, 1, 0});
     }
   }

@@ -12,11 +12,15 @@
 
 namespace steradian::vulkan {
 
-// Segments that a thread may have space for: shaders/shadow_count.glsl says why not more.
-inline constexpr std::array<int, 4> kSpaces = {32, 64, 128, 256};
+// Segments that a thread may have space for: shaders/shadow_turns.glsl says why not more. Last, what no thread by itself tries.
+inline constexpr int kMostSpace = 256, kManyEdges = 0;
+inline constexpr std::array<int, 5> kSpaces = {32, 64, 128, kMostSpace, kManyEdges};
 
 class TileShadows : public ShadowTaker {
  public:
+  // many_edges: groups behind more edges than a thread goes through are the device's as well.
+  explicit TileShadows(bool many_edges) : many_edges_(many_edges) {}
+
   void clear();
 
   bool find(const Group& group) override;
@@ -40,7 +44,7 @@ class TileShadows : public ShadowTaker {
   struct Search {
     std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
     std::size_t points;
-    int space;  // for segments: a thread's
+    int space;  // for segments: a thread's, or kManyEdges
   };
   std::vector<Light> by_light;
   std::vector<Vec4Floats> records;  // of parts
@@ -50,6 +54,7 @@ class TileShadows : public ShadowTaker {
   std::deque<LightSide> sides;  // that do not stay elsewhere
 
  private:
+  bool many_edges_;
   std::size_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
   std::size_t add_outline(const packed::Pieces& pieces, std::size_t point, float weight, int& edges);
   std::uint32_t add_part(const TileShadow::Batch& batch, std::size_t point, Light& to);
