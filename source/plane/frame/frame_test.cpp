@@ -369,6 +369,28 @@ TEST(PlaneFrame, EqualsTheQueryAroundOutlinesOfEveryTurn) {
     }
 }
 
+// A few corners in any order: outlines that cross themselves, so that loops meet at their tips, and concave ones whose runs begin before
+// the first corner and end behind it.
+TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
+  PlaneScene scene;
+  scene.width = scene.height = 80;
+  PlaneBody spike = plane_polygon({{25.4, 33.5}, {39.5, 19.2}, {30.7, 27.7}, {19.6, 20.0}});
+  spike.light.emplace();
+  scene.bodies = {spike};
+  expect_query(scene, 80, 80, 7, "a spike over the first corner");
+  SceneRandom random(3);
+  for (int s = 0; s < 80; ++s) {
+    const double size = s % 2 == 0 ? 20 : 5;
+    const Vec2d center{random.uniform(20, 60), random.uniform(20, 60)};
+    std::vector<Vec2d> corners;
+    for (int k = 0; k < 4 + s % 6; ++k) corners.push_back(center + Vec2d{random.uniform(-size, size), random.uniform(-size, size)});
+    PlaneBody light = plane_polygon(corners);
+    light.light.emplace();
+    scene.bodies = {light};
+    expect_query(scene, 80, 80, 7, "corners " + std::to_string(s));
+  }
+}
+
 // From outside, a convex outline of many edges is one light to every tile that nothing hides it from, whatever it emits.
 TEST(PlaneFrame, TakesAConvexOutlineAsOne) {
   PlaneScene scene;

@@ -67,7 +67,10 @@ void Preparation::write_list(std::size_t index, const std::vector<int>& list) {
 Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocker& chain) const {
   const Vec2d* v = &frame_.vertices[chain.first];
   if (has_no_chord(e)) {
-    if (chain.body == e.body && is_behind_outline(e, chain.first_edge)) return ChainView::behind;
+    // Where an outline crosses itself, a chain may go on from one closed run of the body to the next.
+    bool behind = chain.body == e.body;
+    for (int k = 0; k < chain.edges && behind; ++k) behind = is_behind_outline(e, chain.first_edge + k);
+    if (behind) return ChainView::behind;
   } else if (e.kind == Emitter::Kind::edge) {
     double low = 1e300, high = -1e300;
     for (std::size_t k = 0; k < chain.count; ++k) {
@@ -91,11 +94,6 @@ bool Preparation::is_behind_outline(const Emitter& run, int edge) const {
 // Does nothing else come near a run, and none of its own outline between its edges and its chord?
 bool Preparation::is_clear(const Emitter* run) {
   bool clear = true;
-  std::size_t first = run->curve, last = run->curve;
-  for (std::size_t k = 1; k < run->group; ++k) {
-    first = std::min(first, run[k].curve);
-    last = std::max(last, run[k].curve);
-  }
   const auto comes_near = [&](const Blocker& b) {
     if (length(run->center - b.center) >= run->bound + b.bound + kApart) return false;
     spend(run->hull.size());
@@ -119,9 +117,7 @@ bool Preparation::is_clear(const Emitter* run) {
     if (has_no_chord(*run)) return;
     const auto own = [&](int edge) {
       const Blocker& e = frame_.blockers[static_cast<std::size_t>(edge)];
-      const std::size_t curve = world_.first_curve[static_cast<std::size_t>(b.body)] + static_cast<std::size_t>(edge) -
-                                first_blocker_[static_cast<std::size_t>(b.body)];
-      if (e.count != 2 || (curve >= first && curve <= last) || length(run->center - e.center) >= run->bound + e.bound) return;
+      if (e.count != 2 || length(run->center - e.center) >= run->bound + e.bound || is_of_run(run, edge)) return;
       spend(20 * run->group);
       clear = clear && !crosses_run(run, frame_.vertices[e.first], frame_.vertices[e.first + 1]);
     };
@@ -132,12 +128,11 @@ bool Preparation::is_clear(const Emitter* run) {
 }
 
 // Is a blocker one of a run's own edges?
-bool Preparation::is_of_run(std::size_t run, int blocker) const {
-  const Emitter* e = &frame_.emitters[run];
-  const auto body = static_cast<std::size_t>(e->body);
+bool Preparation::is_of_run(const Emitter* run, int blocker) const {
+  const auto body = static_cast<std::size_t>(run->body);
   const std::size_t curve = world_.first_curve[body] + static_cast<std::size_t>(blocker) - first_blocker_[body];
-  for (std::size_t k = 1; k < e->group; ++k)
-    if (!is_run(e[k]) && e[k].curve == curve) return true;
+  for (std::size_t k = 1; k < run->group; ++k)
+    if (!is_run(run[k]) && run[k].curve == curve) return true;
   return false;
 }
 
@@ -150,7 +145,7 @@ void Preparation::find_nearby(std::size_t index, std::vector<int>& list) {
       // The rest of a concave light blocks its own edges; a convex one lies behind them.
       if (has_no_chord(e)) {
         if (!is_behind_outline(e, k)) list.push_back(k);
-      } else if (e.kind == Emitter::Kind::edge && b.count == 2 && !(is_run(e) && is_of_run(index, k))) {
+      } else if (e.kind == Emitter::Kind::edge && b.count == 2 && !(is_run(e) && is_of_run(&e, k))) {
         own_edge(e, k, list);
       }
       return;

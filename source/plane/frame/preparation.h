@@ -51,7 +51,7 @@ class Preparation {
   ChainView view_of_chain(const Emitter& e, const Blocker& chain) const;
   bool is_clear(const Emitter* run);
   bool is_behind_outline(const Emitter& run, int edge) const;
-  bool is_of_run(std::size_t run, int blocker) const;
+  bool is_of_run(const Emitter* run, int blocker) const;
   void make_list(std::size_t index);
   void find_nearby(std::size_t index, std::vector<int>& list);
   void write_list(std::size_t index, const std::vector<int>& list);
