@@ -56,7 +56,9 @@ const int kLightWords = 60;  // of it and its lists
 const int kLightCorners = 61;  // of a run: how many it may begin in, and end in; they stand behind the lists
 const int kLight = 64;
 // Words of an entry of each list; spans and bodies are followed by their vertices.
-const int kPart = 12;
+const int kPart = 17;  // those of TilePart; the last is one of the following or 0
+const int kSmallPart = 1;
+const int kSmallAndSeen = 2;  // and all of the light's parts are seen where nothing is taken of it
 const int kVertex = 2;
 const int kDiskBlocker = 3;
 const int kSpan = 2;

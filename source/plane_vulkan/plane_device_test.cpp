@@ -93,6 +93,20 @@ TEST_F(VulkanPlane, DrawsEveryLightAsTheCpu) {
   }
 }
 
+// Where it is a pixel wide or less, roundings of the slopes that bound a light's edges would mix its colours.
+TEST_F(VulkanPlane, DrawsSmallGradientsAsTheCpu) {
+  PlaneScene scene;
+  scene.width = 320;
+  scene.height = 200;
+  std::vector<Vec2d> outline;
+  for (int k = 0; k < 32; ++k) outline.push_back(Vec2d{267, 37} + Vec2d{4 * std::cos(M_PI * k / 16), 3 * std::sin(M_PI * k / 16)});
+  PlaneBody light = plane_polygon(outline);
+  light.light.emplace();
+  light.light->gradient = PlaneGradient{{263, 37}, {271, 37}, {{0, {1, 0, 0}}, {1, {0, 0, 1}}}};
+  scene.bodies = {light, plane_polygon({{150, 60}, {230, 60}, {230, 66}, {150, 66}})};
+  expect_same("a small gradient", scene, sized(160, 100));
+}
+
 // What overlaps, stands within lights, or hides them: lenses, concave outlines, niches.
 TEST_F(VulkanPlane, DrawsEveryFamilyAsTheCpu) {
   for (int family = 1; family <= 10; ++family)

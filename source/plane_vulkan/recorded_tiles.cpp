@@ -36,10 +36,14 @@ bool is_own_part(const TileLight& light) {
 void put_parts(Words& to, const TileLight& light) {
   if (is_own_part(light))
     put(to, light.x, light.y, light.nx, light.ny, light.begin, light.end, light.red, light.green, light.blue, light.red_slope,
-        light.green_slope, light.blue_slope);
+        light.green_slope, light.blue_slope, 0, 0, 0, 0, 0);
   for (int i = 0; i < light.part_count; ++i) {
     const TilePart& p = light.parts[i];
-    put(to, p.x, p.y, p.nx, p.ny, p.begin, p.end, p.red, p.green, p.blue, p.red_slope, p.green_slope, p.blue_slope);
+    put(to, p.x, p.y, p.nx, p.ny, p.begin, p.end, p.red, p.green, p.blue, p.red_slope, p.green_slope, p.blue_slope, p.from_x, p.from_y,
+        p.to_x, p.to_y,
+        !p.small               ? 0
+        : light.all_parts_seen ? kSmallAndSeen
+                               : kSmallPart);
   }
 }
 
