@@ -2,7 +2,7 @@
 // stack: nodes stand in the order of a walk through all of them, and each knows where to go on past what is below it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// From a point along a vector; places on it are in lengths of that.
+// From a point along a vector, in the hierarchy's unit; places on it are in lengths of that.
 struct Ray {
     vec3 origin;
     vec3 along;
@@ -16,7 +16,9 @@ vec3 to_axis(vec3 v, int axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : 
 
 Ray ray_of(vec3 origin, vec3 along) {
     Ray ray;
-    ray.origin = origin;
+    float unit = uintBitsToFloat(hierarchy[0].x);
+    along *= unit;
+    ray.origin = origin * unit;
     ray.along = along;
     vec3 size = abs(along);
     ray.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -76,15 +78,18 @@ const int kMostNodes = 10000;
 
 const float kFarthest = 3.0e38;
 
+uvec4 node_low(uint node) { return hierarchy[uint(kHead) + 2u * node]; }
+uvec4 node_high(uint node) { return hierarchy[uint(kHead) + 2u * node + 1u]; }
+
 // The number from 1 of the triangle that a ray meets first, from a place on.
 uint first_along(Ray ray, float first) {
-    uint end = hierarchy[1].w;
+    uint end = node_high(0u).w;
     uint node = 0u;
     uint met = uint(kMeetsNothing);
     float last = kFarthest;
     for (int turn = 0; turn < kMostNodes && node < end; turn++) {
-        uvec4 low = hierarchy[2u * node];
-        uvec4 high = hierarchy[2u * node + 1u];
+        uvec4 low = node_low(node);
+        uvec4 high = node_high(node);
         bool meets = meets_box(ray, first, last, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
         node = meets ? node + 1u : high.w;
         uint begin = low.w / uint(kLeafSizes);
@@ -108,12 +113,12 @@ const int kNotKnown = 2;  // the walk took too many turns
 
 // Whether anything stands between a ray's beginning and the end of its vector.
 int way_along(Ray ray) {
-    uint end = hierarchy[1].w;
+    uint end = node_high(0u).w;
     uint node = 0u;
     bool blocked = false;
     for (int turn = 0; turn < kMostNodes && node < end && !blocked; turn++) {
-        uvec4 low = hierarchy[2u * node];
-        uvec4 high = hierarchy[2u * node + 1u];
+        uvec4 low = node_low(node);
+        uvec4 high = node_high(node);
         bool meets = meets_box(ray, 0.0, 1.0, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
         node = meets ? node + 1u : high.w;
         uint first = low.w / uint(kLeafSizes);

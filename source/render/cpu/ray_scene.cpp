@@ -44,6 +44,11 @@ void throw_noted_error(RTCDevice device, const char* doing) {
 
 }  // namespace
 
+float unit_of_size(float size) {
+  const auto steps = [&] { return std::clamp(static_cast<int>(std::lround(std::ilogb(size) / 16.0)), -7, 7); };  // 2^128 is no float
+  return size > 0 ? std::ldexp(1.0f, -16 * steps()) : 1.0f;
+}
+
 void RayScene::Release::operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 void RayScene::Release::operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 
@@ -77,13 +82,11 @@ bool holds(RTCGeometry geometry, const std::vector<std::uint32_t>& indices) {
                      indices.size() * sizeof(std::uint32_t)) == 0;
 }
 
-// Embree takes what is below 1e-18 for nothing, areas times lengths of directions among it. In this unit, a power of two, the scene's size
-// is from 1 / 256 to 256 or so: every length is the same float but for its exponent. Steps of 2^16, so that what moves stays in its unit.
 float unit_of(const Scene& scene) {
   float size = 0;
   for (const Mesh& mesh : scene.meshes)
     for (const Vec3f& p : mesh.positions) size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  return size > 0 ? std::ldexp(1.0f, -16 * static_cast<int>(std::lround(std::ilogb(size) / 16.0))) : 1.0f;
+  return unit_of_size(size);
 }
 
 // Of sixteen rays.

@@ -16,6 +16,11 @@ namespace steradian {
 // What may block a ray, the shapes of lights never: every mesh; those whose edges cast exact shadows; cut-outs, which have none.
 enum class Casters { all, with_edges, cut_outs };
 
+// Embree takes what is below 1e-18 for nothing, areas times lengths of directions among it, and floats what is below 1e-38. In this unit, a
+// power of two, the scene's size, its largest coordinate, is from 1 / 256 to 256 or so: every length is the same float but for its
+// exponent. Steps of 2^16, so that what moves stays in its unit.
+float unit_of_size(float size);
+
 // The camera sees every mesh. Shadow rays pass the shapes that only stand for rect, disk and sphere lights.
 class RayScene {
  public:

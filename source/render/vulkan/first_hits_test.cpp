@@ -215,6 +215,41 @@ TEST_F(VulkanMap, MeetsWhatTheHostsRaysMeet) {
   expect_same("every kind", under_every_kind(), 1 << 12);
 }
 
+// Directions stay unit vectors where the scene is another size: VulkanRays.FindTheSameInEveryUnit has ways that grow with it.
+TEST_F(VulkanMap, MeetsTheSameInEveryUnit) {
+  const auto device = std::make_shared<const Device>(DeviceOptions{});
+  Scene scene = load_scene(test::kSourceDir + "/scenes/gallery.glb").scene;
+  const std::vector<Mesh> meshes = scene.meshes;
+  constexpr std::size_t kRays = 10000;
+  std::vector<FirstHit> met;
+  std::size_t met_any = 0;
+  for (const int exponent : {0, -60, -40, 20, 60}) {
+    const float unit = std::ldexp(1.0f, exponent);
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+      for (std::size_t i = 0; i < meshes[m].positions.size(); ++i) scene.meshes[m].positions[i] = meshes[m].positions[i] * unit;
+    FirstHits hits(SceneRays::of(device, scene));
+    Random random(19);
+    MapRay* rays = hits.rays(kRays);
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const Vec3d from = in_box(random) * 3.0, direction = normalized(in_box(random));
+      rays[i] = {static_cast<Vec3f>(from) * unit, 1e-3f * unit, static_cast<Vec3f>(direction)};
+    }
+    hits.find(kRays);
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const FirstHit hit = hits.hit(i);
+      if (exponent == 0) {
+        met.push_back(hit);
+        met_any += hit.mesh != FirstHit::kNothing;
+      }
+      other += !same(hit, met[i]);
+    }
+    std::printf("of 2^%d the size: %zu of %zu rays meet another triangle\n", exponent, other, kRays);
+    EXPECT_EQ(other, 0u) << exponent;
+  }
+  EXPECT_GT(met_any, kRays / 4);
+}
+
 // The host finds what a walk does not end at: triangles stacked so that all boxes are met, and none of them.
 TEST_F(VulkanMap, AsksTheHostWhereAWalkDoesNotEnd) {
   Scene scene = indirect::mixed_corner();

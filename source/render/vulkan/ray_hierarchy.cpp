@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
+#include "render/cpu/ray_scene.h"
 #include "shadow/box.h"
 
 namespace steradian::vulkan {
@@ -16,6 +18,7 @@ using shadow::coordinate;
 
 constexpr std::size_t kLeaf = 4;  // triangles at most
 static_assert(kLeaf < static_cast<std::size_t>(kLeafSizes));
+constexpr auto kFirst = static_cast<std::size_t>(kHead);  // vector of nodes
 constexpr int kBins = 16;
 constexpr double kCostOfTriangle = 1.5;  // in boxes
 
@@ -29,16 +32,21 @@ double half_area(const Box& b) {
 class Builder {
  public:
   explicit Builder(const std::vector<RayTriangle>& triangles) {
+    float size = 0;
+    for (const RayTriangle& t : triangles)
+      for (const Vec3d& v : t.corners)
+        size = std::max(size, static_cast<float>(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)})));
+    unit_ = unit_of_size(size);
     for (const RayTriangle& t : triangles) {
       Triangle triangle{t, {}, {}};
-      for (const Vec3d& corner : t.corners) triangle.box.add(corner);
+      for (Vec3d& corner : triangle.of.corners) triangle.box.add(corner = corner * static_cast<double>(unit_));
       triangle.middle = (triangle.box.low + triangle.box.high) * 0.5;
       all_.add(triangle.box);
       triangles_.push_back(triangle);
     }
     // Places relative to a ray's beginning are off by some roundings of how far away they are.
-    const Vec3d size = triangles_.empty() ? Vec3d{} : all_.high - all_.low;
-    margin_ = 0x1p-20 * std::max({size.x, size.y, size.z});
+    const Vec3d across = triangles_.empty() ? Vec3d{} : all_.high - all_.low;
+    margin_ = 0x1p-20 * std::max({across.x, across.y, across.z});
     build(0, triangles_.size());
   }
 
@@ -46,8 +54,9 @@ class Builder {
     const std::size_t nodes = vectors_.size() / 2;
     for (std::size_t n = 0; n < nodes; ++n) {
       std::uint32_t& leaf = vectors_[2 * n][3];
-      if (leaf != 0) leaf += static_cast<std::uint32_t>(2 * nodes * static_cast<std::size_t>(kLeafSizes));
+      if (leaf != 0) leaf += static_cast<std::uint32_t>((kFirst + 2 * nodes) * static_cast<std::size_t>(kLeafSizes));
     }
+    vectors_.insert(vectors_.begin(), {std::bit_cast<std::uint32_t>(unit_), 0, 0, 0});
     for (const Triangle& t : triangles_)
       for (const Vec3d& v : t.of.corners) vectors_.push_back(vector(v, t.of.number));
     return std::move(vectors_);
@@ -129,6 +138,7 @@ class Builder {
   }
 
   Box all_;
+  float unit_ = 1;
   double margin_ = 0;
   std::vector<Triangle> triangles_;
   std::vector<std::array<std::uint32_t, 4>> vectors_;
@@ -140,7 +150,7 @@ std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(const std::vector<RayTri
 
 std::size_t least_of_hierarchy(std::size_t triangles) {
   const std::size_t leaves = std::max<std::size_t>((triangles + kLeaf - 1) / kLeaf, 1);
-  return 3 * triangles + 2 * (2 * leaves - 1);
+  return kFirst + 3 * triangles + 2 * (2 * leaves - 1);
 }
 
 }  // namespace steradian::vulkan

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -40,16 +41,16 @@ std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& w
   const Device& device = rays->device();
   const Buffer& hierarchy = rays->hierarchy();
   ComputeProgram program(device, shadow_shaders(), 4);
-  std::vector<Answer> answers(ways.size() + 1);  // the first half of the first one is the head
+  std::vector<Answer> answers(ways.size() + 1);  // the first one is the head
   Buffer buffer(device, answers.size() * sizeof answers[0]);
-  char* at = static_cast<char*>(buffer.mapped()) + sizeof answers[0] / 2;
+  char* at = static_cast<char*>(buffer.mapped()) + sizeof answers[0];
   answers.resize(ways.size());
   for (std::size_t i = 0; i < ways.size(); ++i)
     answers[i] = {ways[i].from, static_cast<std::uint32_t>(kAskRay), ways[i].along, static_cast<std::uint32_t>(kSeesWhole)};
   std::copy(answers.begin(), answers.end(), reinterpret_cast<Answer*>(at));
   const auto count = static_cast<std::uint32_t>(ways.size());
   const std::vector<double> ms =
-      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
+      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy}, {{program.pipeline(2), (count + 63) / 64, 1, count}});
   if (!ms.empty()) std::printf("%zu triangles, %zu bytes: %.2f us a ray\n", scene.triangle_count(), hierarchy.bytes(), 1e3 * ms[0] / count);
   std::vector<Found> found;
   for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -171,6 +172,27 @@ TEST_F(VulkanRays, FindWhatTheHostsRaysFind) {
   for (const char* name : {"gallery", "room", "lamp_shade", "tubes"})
     expect_same(name, load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene);
   expect_same("random triangles", random_triangles(3000));
+}
+
+// Scenes of 1e-18 to 1e18 of their size, by powers of two: every float is the same but for its exponent, and so is every answer.
+TEST_F(VulkanRays, FindTheSameInEveryUnit) {
+  Scene scene = random_triangles(3000);
+  std::vector<Way> ways = random_ways(shadow::build_edges(scene), 20000);
+  const std::vector<Found> found = found_by_device(scene, ways);
+  EXPECT_GT(std::count(found.begin(), found.end(), Found::blocked), 1000);
+  EXPECT_GT(std::count(found.begin(), found.end(), Found::free), 100);
+  const std::vector<Vec3f> positions = scene.meshes[0].positions;
+  for (const int exponent : {-60, -40, -20, 20, 40, 60}) {
+    const float unit = std::ldexp(1.0f, exponent);
+    for (std::size_t i = 0; i < positions.size(); ++i) scene.meshes[0].positions[i] = positions[i] * unit;
+    std::vector<Way> scaled = ways;
+    for (Way& way : scaled) way = {way.from * unit, way.along * unit};
+    const std::vector<Found> there = found_by_device(scene, scaled);
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < ways.size(); ++i) other += there[i] != found[i];
+    std::printf("of 2^%d the size: %zu of %zu ways have another answer\n", exponent, other, ways.size());
+    EXPECT_EQ(other, 0u) << exponent;
+  }
 }
 
 // Nothing leaves a closed surface, least of all through its corners and sides.
