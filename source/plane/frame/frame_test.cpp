@@ -374,20 +374,22 @@ TEST(PlaneFrame, EqualsTheQueryAroundOutlinesOfEveryTurn) {
 TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
   PlaneScene scene;
   scene.width = scene.height = 80;
-  PlaneBody spike = plane_polygon({{25.4, 33.5}, {39.5, 19.2}, {30.7, 27.7}, {19.6, 20.0}});
-  spike.light.emplace();
-  scene.bodies = {spike};
-  expect_query(scene, 80, 80, 7, "a spike over the first corner");
+  const auto expect = [&](const std::vector<Vec2d>& corners, const std::string& what) {
+    PlaneBody light = plane_polygon(corners);
+    light.light.emplace();
+    scene.bodies = {light};
+    expect_query(scene, 80, 80, 7, what);
+  };
+  expect({{25.4, 33.5}, {39.5, 19.2}, {30.7, 27.7}, {19.6, 20.0}}, "a spike over the first corner");
+  expect({{53.5, 10}, {60.8, 9.5}, {58.1, -1.1}, {61.1, -0.6}, {66.8, 21.2}, {63.2, 7.8}, {77.9, -3.7}, {49.5, 3.7}, {61.7, 19.4}},
+         "loops");
   SceneRandom random(3);
   for (int s = 0; s < 80; ++s) {
     const double size = s % 2 == 0 ? 20 : 5;
     const Vec2d center{random.uniform(20, 60), random.uniform(20, 60)};
     std::vector<Vec2d> corners;
     for (int k = 0; k < 4 + s % 6; ++k) corners.push_back(center + Vec2d{random.uniform(-size, size), random.uniform(-size, size)});
-    PlaneBody light = plane_polygon(corners);
-    light.light.emplace();
-    scene.bodies = {light};
-    expect_query(scene, 80, 80, 7, "corners " + std::to_string(s));
+    expect(corners, "corners " + std::to_string(s));
   }
 }
 

@@ -180,16 +180,18 @@ std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& e
   std::vector<Emitter> result;
   Walk walk(world, emitters);
   for (std::size_t i = 0; i < emitters.size(); ++i) {
-    if (walk.is_done(i)) continue;
     if (emitters[i].kind != Emitter::Kind::edge) {
       result.push_back(emitters[i]);
       continue;
     }
-    const std::vector<Emitter> strand = walk.strand_of(i);
-    if (!walk.is_two_sided(i) && strand.size() > 2 && strand.back().b == strand.front().a)
-      append_outline(strand, result);
-    else
-      append_chains(strand, result);
+    // Where several edges meet, the way on from a strand's beginning may pass by the edge from which that was found.
+    while (!walk.is_done(i)) {
+      const std::vector<Emitter> strand = walk.strand_of(i);
+      if (!walk.is_two_sided(i) && strand.size() > 2 && strand.back().b == strand.front().a)
+        append_outline(strand, result);
+      else
+        append_chains(strand, result);
+    }
   }
   return result;
 }
