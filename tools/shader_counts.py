@@ -79,6 +79,7 @@ PIPELINES = [
     ("bounce_filter", "", {}, "a pixel and a tap", 0),
     ("bounce_resolve", "", {0: 64, 1: 64}, "a pixel", None),
     ("resolve", "", {}, "a pixel", None),
+    ("resolve", "layers", {1: 1}, "a pixel", None),
 ]
 
 
