@@ -137,9 +137,11 @@ vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range
         if (to > from) {
             vec2 a = vec2(c.x - from * c.y, c.y + from * c.x);
             vec2 b = vec2(c.x - to * c.y, c.y + to * c.x);
-            float own_from = max(slope(a.x, a.y, a.y > 0.0 ? kBeyond : -kBeyond), own_low);
-            float own_to = min(slope(b.x, b.y, b.y > 0.0 ? kBeyond : -kBeyond), own_high);
-            if (own_to > own_from) sum += edge_integral(e, emission, own_from, own_to);
+            // An interval is less than half a turn: an end behind the edge's line is beyond all of the edge on its own side, unless both are.
+            bool ahead = a.x > 1.0e-12 || b.x > 1.0e-12;
+            float own_from = max(slope(a.x, a.y, -kBeyond), own_low);
+            float own_to = min(slope(b.x, b.y, kBeyond), own_high);
+            if (ahead && own_to > own_from) sum += edge_integral(e, emission, own_from, own_to);
         }
         from = after_gap(k, from);
     }

@@ -107,6 +107,22 @@ TEST_F(VulkanPlane, DrawsSmallGradientsAsTheCpu) {
   expect_same("a small gradient", scene, sized(160, 100));
 }
 
+// From close to the chord of a run, its far end is seen behind the line of one of its edges; and a line's bend hides what a gradient cuts.
+TEST_F(VulkanPlane, DrawsBendsAsTheCpu) {
+  PlaneScene scene;
+  scene.width = scene.height = 80;
+  PlaneBody light = plane_polygon({{75, 40}, {30, 25}, {30.2, 27}, {28, 75}, {20, 75}, {20, 15}, {75, 15}});
+  light.light.emplace().profile = PlaneProfile::lambert;
+  scene.bodies = {light};
+  expect_same("a pocket", scene, sized(320, 320));
+  PlaneBody line;
+  line.shape = PlaneBody::Shape::polyline;
+  line.contours = {{{26.6, 77.1}, {38.8, 67.8}, {50.9, 71.1}}};
+  line.light.emplace().gradient = PlaneGradient{{55.4, 62.6}, {52, 59.8}, {{0, {1, 0, 0}}, {0.29, {0, 0.25, 1}}, {1, {1, 1, 1}}}};
+  scene.bodies = {line};
+  expect_same("a bend", scene, sized(320, 320));
+}
+
 // What overlaps, stands within lights, or hides them: lenses, concave outlines, niches.
 TEST_F(VulkanPlane, DrawsEveryFamilyAsTheCpu) {
   for (int family = 1; family <= 10; ++family)

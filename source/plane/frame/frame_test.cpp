@@ -370,26 +370,55 @@ TEST(PlaneFrame, EqualsTheQueryAroundOutlinesOfEveryTurn) {
 }
 
 // A few corners in any order: outlines that cross themselves, so that loops meet at their tips, and concave ones whose runs begin before
-// the first corner and end behind it.
+// the first corner and end behind it. Uniform lights take a run's chord; others take its edges, each over what is left of the chord.
 TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
   PlaneScene scene;
   scene.width = scene.height = 80;
-  const auto expect = [&](const std::vector<Vec2d>& corners, const std::string& what) {
+  const auto expect = [&](const std::vector<Vec2d>& corners, int kind, int width, const std::string& what) {
     PlaneBody light = plane_polygon(corners);
     light.light.emplace();
+    if (kind == 1) light.light->profile = PlaneProfile::lambert;
+    if (kind == 2) light.light->range = 40;
+    if (kind == 3) light.light->gradient = PlaneGradient{{20, 20}, {60, 60}, {{0, {1, 0.5, 0}}, {1, {0, 0.5, 1}}}};
     scene.bodies = {light};
-    expect_query(scene, 80, 80, 7, what);
+    expect_query(scene, width, width, 7, what + ", emission " + std::to_string(kind));
   };
-  expect({{25.4, 33.5}, {39.5, 19.2}, {30.7, 27.7}, {19.6, 20.0}}, "a spike over the first corner");
-  expect({{53.5, 10}, {60.8, 9.5}, {58.1, -1.1}, {61.1, -0.6}, {66.8, 21.2}, {63.2, 7.8}, {77.9, -3.7}, {49.5, 3.7}, {61.7, 19.4}},
-         "loops");
+  for (int kind = 0; kind < 4; ++kind) {
+    expect({{25.4, 33.5}, {39.5, 19.2}, {30.7, 27.7}, {19.6, 20.0}}, kind, 80, "a spike over the first corner");
+    expect({{53.5, 10}, {60.8, 9.5}, {58.1, -1.1}, {61.1, -0.6}, {66.8, 21.2}, {63.2, 7.8}, {77.9, -3.7}, {49.5, 3.7}, {61.7, 19.4}}, kind,
+           80, "loops");
+    // From close to the chord of the pocket's first two edges, its far end is seen behind the second edge's own line.
+    expect({{75, 40}, {30, 25}, {30.2, 27}, {28, 75}, {20, 75}, {20, 15}, {75, 15}}, kind, 640, "a pocket");
+  }
   SceneRandom random(3);
   for (int s = 0; s < 80; ++s) {
     const double size = s % 2 == 0 ? 20 : 5;
     const Vec2d center{random.uniform(20, 60), random.uniform(20, 60)};
     std::vector<Vec2d> corners;
     for (int k = 0; k < 4 + s % 6; ++k) corners.push_back(center + Vec2d{random.uniform(-size, size), random.uniform(-size, size)});
-    expect(corners, "corners " + std::to_string(s));
+    expect(corners, 0, 80, "corners " + std::to_string(s));
+    expect(corners, 1 + s % 3, s % 4 == 0 ? 320 : 80, "corners " + std::to_string(s));
+  }
+}
+
+// A gradient cuts a line's edges, and a run may have some of the parts alone: seen from beyond its end, the rest of the edge hides it.
+TEST(PlaneFrame, EqualsTheQueryBehindTheRestOfACutEdge) {
+  PlaneScene scene;
+  scene.width = scene.height = 80;
+  PlaneBody line;
+  line.shape = PlaneBody::Shape::polyline;
+  line.light.emplace().gradient = PlaneGradient{{55.4, 62.6}, {52, 59.8}, {{0, {1, 0, 0}}, {0.29, {0, 0.25, 1}}, {1, {1, 1, 1}}}};
+  line.contours = {{{26.6, 77.1}, {38.8, 67.8}, {50.9, 71.1}}};
+  scene.bodies = {line};
+  expect_query(scene, 640, 640, 7, "a bend");
+  SceneRandom random(4);
+  for (int s = 0; s < 40; ++s) {
+    const auto somewhere = [&] { return Vec2d{random.uniform(10, 70), random.uniform(10, 70)}; };
+    line.contours = {{somewhere(), somewhere(), somewhere(), somewhere()}};
+    line.light->gradient->from = somewhere();
+    line.light->gradient->to = somewhere();
+    scene.bodies = {line};
+    expect_query(scene, 320, 320, 7, "line " + std::to_string(s));
   }
 }
 

@@ -127,10 +127,15 @@ bool Preparation::is_clear(const Emitter* run) {
   return clear;
 }
 
-// Is a blocker one of a run's own edges?
+// In the world, of an edge of an emitter's own body.
+std::size_t Preparation::curve_of(const Emitter& e, int blocker) const {
+  const auto body = static_cast<std::size_t>(e.body);
+  return world_.first_curve[body] + static_cast<std::size_t>(blocker) - first_blocker_[body];
+}
+
+// Is a blocker one of a run's own edges, or does it have some as its parts?
 bool Preparation::is_of_run(const Emitter* run, int blocker) const {
-  const auto body = static_cast<std::size_t>(run->body);
-  const std::size_t curve = world_.first_curve[body] + static_cast<std::size_t>(blocker) - first_blocker_[body];
+  const std::size_t curve = curve_of(*run, blocker);
   for (std::size_t k = 1; k < run->group; ++k)
     if (!is_run(run[k]) && run[k].curve == curve) return true;
   return false;
@@ -145,8 +150,11 @@ void Preparation::find_nearby(std::size_t index, std::vector<int>& list) {
       // The rest of a concave light blocks its own edges; a convex one lies behind them.
       if (has_no_chord(e)) {
         if (!is_behind_outline(e, k)) list.push_back(k);
-      } else if (e.kind == Emitter::Kind::edge && b.count == 2 && !(is_run(e) && is_of_run(&e, k))) {
-        own_edge(e, k, list);
+      } else if (e.kind == Emitter::Kind::edge && b.count == 2) {
+        if (is_run(e) && is_of_run(&e, k))
+          rest_of_edge(e, k, list);
+        else
+          own_edge(e, k, list);
       }
       return;
     }
@@ -198,6 +206,24 @@ void Preparation::own_edge(const Emitter& e, int blocker, std::vector<int>& list
     list.push_back(blocker);  // all of it in front: as it is
   else
     add_in_front(e, p, q, b.body, list);
+}
+
+// Of an edge that a gradient cuts, a run may have some parts alone; the others may stand before its further edges, as those of a line
+// that shines to both sides do.
+void Preparation::rest_of_edge(const Emitter& run, int blocker, std::vector<int>& list) {
+  const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+  const Vec2d p = frame_.vertices[b.first], q = frame_.vertices[b.first + 1];
+  const int body = b.body;
+  const auto rest = [&](const Emitter& outer, Vec2d end, Vec2d away) {
+    if (outer.curve != curve_of(run, blocker)) return;
+    const Vec2d other = dot(p - end, away) > dot(q - end, away) ? p : q;
+    if (dot(other - end, away) > kTouching * length(away)) add_in_front(run, other, end, body, list);
+  };
+  const Emitter *first = nullptr, *last = nullptr;
+  for (const Emitter* e = &run + 1; e < &run + run.group; ++e)
+    if (!is_run(*e)) first = first == nullptr ? e : first, last = e;
+  rest(*first, run.a, first->a - first->b);
+  rest(*last, run.b, last->b - last->a);
 }
 
 // Replaces a blocker that overlaps the emitter, or whose bounding circle does.

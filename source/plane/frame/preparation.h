@@ -51,6 +51,7 @@ class Preparation {
   ChainView view_of_chain(const Emitter& e, const Blocker& chain) const;
   bool is_clear(const Emitter* run);
   bool is_behind_outline(const Emitter& run, int edge) const;
+  std::size_t curve_of(const Emitter& e, int blocker) const;
   bool is_of_run(const Emitter* run, int blocker) const;
   void make_list(std::size_t index);
   void find_nearby(std::size_t index, std::vector<int>& list);
@@ -58,6 +59,7 @@ class Preparation {
   void add_private(const std::vector<Vec2d>& vertices, int owner, std::vector<int>& list);
   void add_in_front(const Emitter& e, Vec2d p, Vec2d q, int owner, std::vector<int>& list);
   void own_edge(const Emitter& e, int blocker, std::vector<int>& list);
+  void rest_of_edge(const Emitter& run, int blocker, std::vector<int>& list);
   void stand_in(Emitter& e, int blocker, std::vector<int>& list);
 
   const World& world_;

@@ -34,8 +34,11 @@ class PartIntegral {
   }
 
   STERADIAN_INLINE void add(PackReal from, PackReal to) {
-    from = max(own(from), low_);
-    to = min(own(to), high_);
+    // An interval is less than half a turn: an end behind the edge's line is beyond all of the edge on its own side, unless both are.
+    const PackReal from_w = cosine_ - from * sine_, to_w = cosine_ - to * sine_;
+    const PackMask ahead = from_w > PackReal(1e-12) || to_w > PackReal(1e-12);
+    from = max(slope(from_w, sine_ + from * cosine_, PackReal(-kBeyond)), low_);
+    to = select(ahead, min(slope(to_w, sine_ + to * cosine_, PackReal(kBeyond)), high_), from);
     if (!any_lane(to > from)) return;
     to = max(to, from);
     constant_ += antiderivative<0>(to) - antiderivative<0>(from);
@@ -58,11 +61,6 @@ class PartIntegral {
     PackKernels k;
     const PackReal f = k.trig_atan2(t, PackReal(1.0));
     return ranged ? k.plane_edge_integral(j, power, t, f, q_) : k.plane_term(j, power, t, f);
-  }
-
-  STERADIAN_INLINE PackReal own(PackReal m) const {
-    const PackReal w = cosine_ - m * sine_, t = sine_ + m * cosine_;
-    return slope(w, t, select(t > PackReal(0.0), PackReal(kBeyond), PackReal(-kBeyond)));
   }
 
   const TileLight& light_;
