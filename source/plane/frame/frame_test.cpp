@@ -401,6 +401,25 @@ TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
   }
 }
 
+// What quadrature is off by is measured by the light that there is, in any unit of length: 6e-5 of it was lost in some tiles.
+TEST(PlaneFrame, EqualsTheQueryBesideAnEllipseDividedByTheDistance) {
+  PlaneScene scene;
+  scene.width = scene.height = 80;
+  PlaneBody light;
+  light.shape = PlaneBody::Shape::ellipse;
+  light.center = {40.65, 45.356};
+  light.x_axis = {13.333, 0};
+  light.y_axis = {0, 5};
+  light.light.emplace().profile = PlaneProfile::inverse;
+  scene.bodies = {light};
+  // Nearer than a pixel, single precision loses the distance.
+  const auto apart = [&](Vec2d p) {
+    const Vec2d d = p - light.center;
+    return d.x * d.x / (14.333 * 14.333) + d.y * d.y / (6 * 6) > 1;
+  };
+  expect_query(scene, 640, 640, 5, "beside an ellipse", 1e-5, apart);
+}
+
 // A gradient cuts a line's edges, and a run may have some of the parts alone: seen from beyond its end, the rest of the edge hides it.
 TEST(PlaneFrame, EqualsTheQueryBehindTheRestOfACutEdge) {
   PlaneScene scene;
