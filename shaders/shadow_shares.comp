@@ -18,8 +18,9 @@ layout(push_constant) uniform Push { uint first_entry; };
 
 #include "entry.glsl"
 
-// What of the light itself arrives: as much of it as of the polygon that stands for it.
-float arriving(float light, float part, float polygon) { return polygon > 0.0 ? part / polygon * light : 0.0; }
+// What of the light itself arrives: as much of it as of the polygon that stands for it. Methods that approximate may find more of a part
+// than of all.
+float arriving(float light, float part, float polygon) { return polygon > 0.0 ? min(part / polygon, 1.0) * light : 0.0; }
 
 void main() {
     Entry entry = entry_here();

@@ -51,8 +51,10 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
 std::optional<LightFrame> frame_of_ellipsoid(const Ellipsoid& light, Vec3d position, int corners) {
   const std::optional<Ellipse> seen = silhouette(light, position);
   if (!seen) return {};
-  const double skew = dot(seen->x, seen->y);
-  const double turn = skew == 0 ? 0 : 0.5 * std::atan2(2 * skew, dot(seen->x, seen->x) - dot(seen->y, seen->y));
+  // Of a circle the roundings alone would say where its axes are, and turn the polygon from point to point.
+  const double xx = dot(seen->x, seen->x), yy = dot(seen->y, seen->y), xy = dot(seen->x, seen->y);
+  constexpr double kRound = 1e-6;
+  const double turn = std::hypot(2 * xy, xx - yy) <= kRound * (xx + yy) ? 0 : 0.5 * std::atan2(2 * xy, xx - yy);
   const Vec3d x = seen->x * std::cos(turn) + seen->y * std::sin(turn), y = seen->y * std::cos(turn) - seen->x * std::sin(turn);
   const Vec3d normal = cross(x, y);
   LightFrame frame;

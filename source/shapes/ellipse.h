@@ -189,19 +189,35 @@ __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoi
 inline constexpr int kCornersNearRim = 32;
 static_assert(kCornersNearRim <= kMostCorners);
 
-// The corners that stand for the outline about a lobe, in walk order; how many there are.
-template <class S, class Round>
-STERADIAN_INLINE int fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
-                                  const typename Kernels<S>::vec3& p, Corners<S>& corners) {
+template <class S>
+STERADIAN_INLINE void fill_corners_of_fan(const typename Kernels<S>::EllipseFan& fan, int count, Corners<S>& corners) {
   Kernels<S> k;
-  const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
-  const int count = any_lane(fan.near) ? std::max(lobe.corners, kCornersNearRim) : lobe.corners;
   auto before = k.ellipse_corner(fan, -1, count), here = k.ellipse_corner(fan, 0, count);
   for (int i = 0; i < count; ++i) {
     const auto after = k.ellipse_corner(fan, i + 1, count);
     corners[static_cast<std::size_t>(i)] = k.polygon_direction(k.ellipse_pushed_corner(fan, before, here, after));
     before = here;
     here = after;
+  }
+}
+
+// The corners that stand for the outline about a lobe, in walk order; how many there are. A lane whose rim is not near has those that it
+// would have alone, the last of them as often as the others have more.
+template <class S, class Round>
+STERADIAN_INLINE int fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
+                                  const typename Kernels<S>::vec3& p, Corners<S>& corners) {
+  Kernels<S> k;
+  auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
+  const int count = any_lane(fan.near) ? std::max(lobe.corners, kCornersNearRim) : lobe.corners;
+  fill_corners_of_fan<S>(fan, count, corners);
+  if (count == lobe.corners || all_lanes(fan.near)) return count;
+  const auto near = fan.near;
+  fan.near = k.mask_none();
+  Corners<S> usual;
+  fill_corners_of_fan<S>(fan, lobe.corners, usual);
+  for (int i = 0; i < count; ++i) {
+    auto& corner = corners[static_cast<std::size_t>(i)];
+    corner = select(near, corner, usual[static_cast<std::size_t>(std::min(i, lobe.corners - 1))]);
   }
   return count;
 }

@@ -1,5 +1,6 @@
 #include "render/cpu/tile_lighting.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "render/cpu/direct.h"
@@ -170,7 +171,8 @@ void TileLighting::add_batch(SurfaceTile& tile, const PackLight& light, TileShad
   });
   if (batch.all.point_count() > 0) {
     // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
-    const auto over = [](float part, float all) { return all > 0 ? part / all : 0.0f; };
+    // Methods that approximate may find more of a part than of all.
+    const auto over = [](float part, float all) { return all > 0 ? std::min(part / all, 1.0f) : 0.0f; };
     light_pieces(tile, batch.all, work, [&](const SurfaceTile& all) {
       for (std::size_t k = 0; k < count; ++k) {
         const Vec3f a = radiance_in(all, k);
