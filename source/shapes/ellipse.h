@@ -201,24 +201,30 @@ STERADIAN_INLINE void fill_corners_of_fan(const typename Kernels<S>::EllipseFan&
   }
 }
 
-// The corners that stand for the outline about a lobe, in walk order; how many there are. A lane whose rim is not near has those that it
-// would have alone, the last of them as often as the others have more.
+// Lanes whose rim is not near have the corners that they would have alone, the last of them as often as the others have more. Seldom
+// called: a function of its own.
+template <class S>
+__attribute__((flatten, noinline)) void keep_usual_corners(typename Kernels<S>::EllipseFan fan, int usual_count, int count,
+                                                           Corners<S>& corners) {
+  const auto near = fan.near;
+  fan.near = Kernels<S>().mask_none();
+  Corners<S> usual;
+  fill_corners_of_fan<S>(fan, usual_count, usual);
+  for (int i = 0; i < count; ++i) {
+    auto& corner = corners[static_cast<std::size_t>(i)];
+    corner = select(near, corner, usual[static_cast<std::size_t>(std::min(i, usual_count - 1))]);
+  }
+}
+
+// The corners that stand for the outline about a lobe, in walk order; how many there are.
 template <class S, class Round>
 STERADIAN_INLINE int fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
                                   const typename Kernels<S>::vec3& p, Corners<S>& corners) {
   Kernels<S> k;
-  auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
+  const auto fan = k.ellipse_fan_concentrated(ellipse_in<S>(light, frame, p), lobe.axis, lobe.width);
   const int count = any_lane(fan.near) ? std::max(lobe.corners, kCornersNearRim) : lobe.corners;
   fill_corners_of_fan<S>(fan, count, corners);
-  if (count == lobe.corners || all_lanes(fan.near)) return count;
-  const auto near = fan.near;
-  fan.near = k.mask_none();
-  Corners<S> usual;
-  fill_corners_of_fan<S>(fan, lobe.corners, usual);
-  for (int i = 0; i < count; ++i) {
-    auto& corner = corners[static_cast<std::size_t>(i)];
-    corner = select(near, corner, usual[static_cast<std::size_t>(std::min(i, lobe.corners - 1))]);
-  }
+  if (count != lobe.corners && !all_lanes(fan.near)) keep_usual_corners<S>(fan, lobe.corners, count, corners);
   return count;
 }
 
