@@ -65,9 +65,10 @@ void add_pair(Receiver at, vec3 v, float d2, float inverse, float kept, float va
     }
     float through = indirect_glossy_half(at.lobe, v, d2, 0.0);
     if (QUADS && at.sharp) {
-        // Only where the quad is no speck in the lobe's own space: the lobe is as good as constant there.
+        // Only where the quad is no speck in the lobe's own space: the lobe is as good as constant there. Nor seen edge-on: lighting_pack.cpp.
         vec3 w = indirect_under(at.lobe, v);
-        if (size2 * kept > dot(w, w) * value * 0.02)
+        float facing = dot(light_normal, v);
+        if (size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > d2 * 1.0e-6)
             through = quad_half(at, light_normal, lights[edges].xyz, lights[edges + 1].xyz, inverse_area, v, d2, soft,
                                 kept / max(value, 1.0e-30));
     }

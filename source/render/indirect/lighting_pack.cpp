@@ -86,9 +86,12 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
   if constexpr (glossy) {
     PackReal half = k.indirect_glossy_half(at.lobe, way.v, way.d2, PackReal(0.0));
     if constexpr (quads) {
-      // Only where the quad is no speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is as good as constant there.
+      // Only where the quad is no speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is as good as constant there. Nor seen
+      // edge-on, to a thousandth: the integral is divided by that sine, and off by 1e-7 of the hemisphere.
       const PackVec3 w = k.indirect_under(at.lobe, way.v);
-      const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) * kept > dot(w, w) * value * PackReal(0.02);
+      const PackReal facing = dot(broadcast(light_normal), way.v);
+      const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) * kept > dot(w, w) * value * PackReal(0.02) &&
+                        facing > PackReal(0.0) && facing * facing > way.d2 * PackReal(1.0e-6);
       if (any_lane(wide)) half = select(wide, quad_half(at, light_normal, *quad, way, soft, kept / max(value, PackReal(1.0e-30))), half);
     }
     sums.add_glossy(bright * select(cosine > PackReal(0.0), kept * half, PackReal(0.0)), id);

@@ -54,6 +54,17 @@ TEST(IndirectPicture, SharpReceiversSeeQuads) {
   EXPECT_LE(quads.relative_l2, points.relative_l2 / 3);
 }
 
+// Where roundings put a virtual light of the back before the front, its quad, seen edge-on, made a pixel a hundred thousand times as bright
+// as any other.
+TEST(IndirectPicture, SheetsSendNothingThroughThemselves) {
+  RenderOptions o = uncut(1 << 12);
+  o.indirect.quads = o.indirect.soften = true;
+  o.width = 160;
+  o.height = 120;
+  EXPECT_GT(largest(render(lit_sheet(), o).pixels), 1);
+  EXPECT_LT(largest(bounce(lit_sheet(), o).pixels), 1e-3f);
+}
+
 // The bounce is the scene's, not the picture's: with fewer pixels the pattern is smaller, and what it joins as near.
 TEST(IndirectPicture, SmallPicturesHaveTheSameLight) {
   const Scene scene = mixed_corner();

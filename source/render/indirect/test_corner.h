@@ -1,7 +1,9 @@
 // What the tests of the bounce look at: a floor and a wall under a spot light.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "scene/test_meshes.h"
 #include "steradian/compare.h"
@@ -46,6 +48,28 @@ inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
 
 inline Scene metal_corner(float roughness = 0.4f) { return corner(metal(roughness), metal(0.5f)); }
 inline Scene mixed_corner() { return corner(plastic(0.6f, 0.45f), plastic(0.7f, 0.5f)); }
+
+// A mirror-like sheet, askew, lit from both sides: no side sends the other anything.
+inline Scene lit_sheet() {
+  Scene scene = corner(metal(0.2f), metal(0.2f));
+  scene.materials[0].double_sided = true;
+  const Vec3f x{1.7f, 0.31f, -0.23f}, y{0.14f, 1.31f, 0.77f};
+  scene.meshes = {scene::quad_mesh(x * -1.0f - y, x - y, x + y, y - x, 0)};
+  scene.bounds_min = {-2, -2, -2};
+  scene.bounds_max = {2, 2, 2};
+  scene.punctual_lights[0].kind = PunctualKind::point;
+  scene.punctual_lights[0].position = {0.2, -0.3, 1.2};
+  scene.punctual_lights.push_back(scene.punctual_lights[0]);
+  scene.punctual_lights[1].position = {-0.1, 0.2, -1.1};
+  scene.cameras = {scene::camera_at({0.6, 1.1, 3.5}, {-0.6, -1.1, -3.5}, 0.8)};
+  return scene;
+}
+
+inline float largest(const std::vector<Vec3f>& pixels) {
+  float most = 0;
+  for (const Vec3f& c : pixels) most = std::max({most, c.x, c.y, c.z});
+  return most;
+}
 
 inline RenderOptions options(IndirectMode mode, int lights) {
   RenderOptions o;

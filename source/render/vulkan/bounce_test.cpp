@@ -115,6 +115,16 @@ TEST_F(VulkanBounce, HasEveryOptionOfTheCpu) {
   expect_same("nothing culled", scene, options);
 }
 
+TEST_F(VulkanBounce, SheetsSendNothingThroughThemselves) {
+  RenderOptions options = small(IndirectMode::ltc, 1 << 12);
+  options.backend = Backend::vulkan;
+  options.indirect.interleave = 1;
+  options.indirect.kept_pairs = 0;
+  const Picture picture = render(indirect::lit_sheet(), options);
+  EXPECT_GT(indirect::largest(picture.pixels), 1);
+  EXPECT_LT(indirect::largest(picture.layers.at("indirect")), 1e-3f);
+}
+
 // More lights of a set than a round has words for.
 TEST_F(VulkanBounce, AddsUpManyLightsInRounds) {
   RenderOptions options = small(IndirectMode::ltc, 40000);
