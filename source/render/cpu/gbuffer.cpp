@@ -30,7 +30,7 @@ void note(SurfaceTile& tile, const Surface& s) {
   tile.any_specular |= weighs(s.f0) || weighs(s.f90);
   tile.any_sheen |= weighs(s.sheen);
   tile.any_coat |= s.coat > 0;
-  tile.any_override |= !s.material->specular_override.empty();
+  tile.any_override |= !s.material->unlit && !s.material->specular_override.empty();
 }
 
 std::array<TileVector*, 12> vectors_of(SurfaceTile& t) {

@@ -362,7 +362,7 @@ bool SpecularPass::add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& su
 void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
   const std::set<const SurfaceMaterial*> materials(tile.material.begin(), tile.material.end());
   for (const SurfaceMaterial* surface : materials) {
-    if (surface == nullptr) continue;
+    if (surface == nullptr || surface->unlit) continue;
     for (const Material& material : surface->specular_override) {
       if (material.brdf == Brdf::lambert || add_ggx_override(tile, *surface, material, lights)) continue;
       const methods::Row& row = method_.row_for(material);

@@ -1,6 +1,8 @@
 // The CPU judges the device: lobes of extras.steradian, by every method that serves them.
 #include "render/vulkan/test_frames.h"
 
+#include <algorithm>
+
 namespace steradian::vulkan {
 namespace {
 
@@ -123,6 +125,19 @@ TEST_F(VulkanFrame, HasOwnLobesInPenumbras) {
   RenderOptions options = tiny("auto");
   options.shadows = Shadows::on;
   EXPECT_LE(expect_same("lobes, shadows", scene, options), 0.01);
+}
+
+// Beside lobes of extras.steradian: an unlit material has none, whatever its extras say.
+TEST_F(VulkanFrame, LightsNothingUnlit) {
+  Scene scene = strips({phong(40), ggx(0.4, 0.4, true, {1, 1, 1}, {1, 1, 1}), half_vectors(Brdf::beckmann, 1, 0.3, 0.3)});
+  scene.area_lights = {kQuad};
+  RenderOptions options = tiny("auto");
+  options.shadows = Shadows::off;
+  for (const std::size_t strip : {1, 2}) scene.materials[strip].unlit = true;
+  expect_same("unlit strips", scene, options);
+  const Picture cpu = render(scene, options);
+  const Vec3f base{0.3f, 0.4f, 0.5f};
+  EXPECT_GT(std::count_if(cpu.pixels.begin(), cpu.pixels.end(), [&](Vec3f p) { return length(p - base) < 1e-6f; }), 500);
 }
 
 // What facets lose by the angle of the view has a table of the host's.

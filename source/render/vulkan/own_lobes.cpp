@@ -106,7 +106,7 @@ bool OwnLobes::has(const Material& m) const {
 }
 
 std::size_t OwnLobes::number_of(const SurfaceMaterial* material) const {
-  if (material == nullptr || material->specular_override.empty()) return 0;
+  if (material == nullptr || material->unlit || material->specular_override.empty()) return 0;
   return static_cast<std::size_t>(material - scene_.materials.data()) + 1;
 }
 
