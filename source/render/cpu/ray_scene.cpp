@@ -96,6 +96,15 @@ void multiply(std::initializer_list<float*> numbers, float by) {
     for (std::size_t i = 0; i < 16; ++i) sixteen[i] *= by;
 }
 
+// Gives a lane that nobody asks for finite numbers and an empty interval. Where the processor has no packets of sixteen, Embree splits them,
+// and its halves must be valid rays in every lane.
+void disable(RTCRay16& rays, std::size_t lane) {
+  rays.org_x[lane] = rays.org_y[lane] = rays.org_z[lane] = rays.dir_x[lane] = rays.dir_y[lane] = rays.time[lane] = 0;
+  rays.dir_z[lane] = rays.tnear[lane] = 1;
+  rays.tfar[lane] = 0;
+  rays.mask[lane] = rays.id[lane] = rays.flags[lane] = 0;
+}
+
 }  // namespace
 
 RayScene::RayScene(const Scene& scene, Lasts lasts) : device_(rtcNewDevice("")) {
@@ -198,6 +207,8 @@ void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16& r = rays.ray;
+  for (std::size_t i = 0; i < 16; ++i)
+    if (valid[i] == 0) disable(r, i);
   const auto numbers = {r.org_x, r.org_y, r.org_z, r.tnear, r.tfar};
   multiply(numbers, unit_);
   rtcIntersect16(valid, rtc_.get(), &context, &rays);
@@ -267,6 +278,7 @@ std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked) con
     rays.tfar[i] = 1;
     rays.mask[i] = kHasEdges;
     rays.id[i] = rays.flags[i] = 0;
+    if (valid[i] == 0) disable(rays, i);
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
