@@ -16,7 +16,7 @@
 #include "steradian/picture.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::faults_test {
 namespace {
 
 using namespace scene;
@@ -224,4 +224,4 @@ TEST_F(Faults, ManyRendersInOneProcessKeepItsMemory) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::faults_test

@@ -5,7 +5,7 @@
 #include "steradian/picture.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::frames_program_test {
 namespace {
 
 std::string morph() { return test::kSourceDir + "/scenes/morph.glb"; }
@@ -67,4 +67,4 @@ TEST_F(Program, FramesRefuseWhatMeansNothing) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::frames_program_test

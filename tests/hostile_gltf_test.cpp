@@ -9,7 +9,7 @@
 #include "program.h"
 #include "scene/gltf_test_file.h"
 
-namespace steradian {
+namespace steradian::hostile_gltf_test {
 namespace {
 
 using namespace scene;
@@ -203,4 +203,4 @@ TEST_F(HostileGltf, LimitsAreRaisedByTheirOptions) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::hostile_gltf_test

@@ -8,7 +8,7 @@
 #include "lobes/lobe.h"
 #include "scene/gltf_materials.h"
 
-namespace steradian {
+namespace steradian::lobe_keys_test {
 namespace {
 
 using namespace scene;
@@ -97,4 +97,4 @@ TEST(LobeKeys, EvalAndScenesReadTheSame) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::lobe_keys_test

@@ -5,7 +5,7 @@
 #include "program.h"
 #include "render/vulkan/device.h"
 
-namespace steradian {
+namespace steradian::lost_device_test {
 namespace {
 
 class LostDevice : public Program {
@@ -73,4 +73,4 @@ TEST_F(LostDevice, EndsABench) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::lost_device_test

@@ -17,7 +17,7 @@
 #include "steradian/error.h"
 #include "steradian/half_vector.h"
 
-namespace steradian {
+namespace steradian::methods_test {
 namespace {
 
 using namespace scene;
@@ -242,4 +242,4 @@ TEST(Methods, TheManualHasTheTable) {
     EXPECT_NE(table.find(std::string("`") + row.name + "`"), std::string::npos) << "docs/methods.md does not name " << row.name;
 }
 
-}  // namespace steradian
+}  // namespace steradian::methods_test

@@ -5,7 +5,7 @@
 
 #include "program.h"
 
-namespace steradian {
+namespace steradian::plane_hostile_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -162,4 +162,4 @@ TEST_F(PlaneHostile, ManyStrokes) {
           "300 600 400'/>"));
 }
 
-}  // namespace steradian
+}  // namespace steradian::plane_hostile_test

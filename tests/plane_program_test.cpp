@@ -8,7 +8,7 @@
 #include "render/vulkan/device.h"
 #include "steradian/picture.h"
 
-namespace steradian {
+namespace steradian::plane_program_test {
 namespace {
 
 using nlohmann::json;
@@ -271,4 +271,4 @@ TEST_F(Program, EvalOfAPlaneAnswersTheOtherLines) {
   EXPECT_EQ(line, first);
 }
 
-}  // namespace steradian
+}  // namespace steradian::plane_program_test

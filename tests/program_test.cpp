@@ -5,7 +5,7 @@
 
 #include "program.h"
 
-namespace steradian {
+namespace steradian::program_test {
 namespace {
 
 using nlohmann::json;
@@ -147,4 +147,4 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::program_test

@@ -6,7 +6,7 @@
 #include "steradian/compare.h"
 #include "steradian/picture.h"
 
-namespace steradian {
+namespace steradian::render_program_test {
 namespace {
 
 using nlohmann::json;
@@ -338,4 +338,4 @@ TEST_F(Program, GlossyMethodsAreNearTheReference) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::render_program_test

@@ -10,7 +10,7 @@
 #include "core/float_mode.h"
 #include "render/vulkan/device.h"
 
-namespace steradian::bench {
+namespace steradian::bench::phong_on_device_test {
 namespace {
 
 // Both are float: the n-th power of a cosine that is off by a rounding is off by n roundings of either, and edges and atan by 1e-5 in all.
@@ -42,4 +42,4 @@ TEST(VulkanPhong, HasEveryMethodOfTheComparison) {
 }
 
 }  // namespace
-}  // namespace steradian::bench
+}  // namespace steradian::bench::phong_on_device_test

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-namespace steradian {
+namespace steradian::run_test {
 
 TEST(Bench, MeasuresASleepAndPinsAndUnpinsTheThread) {
   cpu_set_t before, during, after;
@@ -52,4 +52,4 @@ TEST(Bench, LeavesTheWorkersTheirCores) {
   EXPECT_EQ(narrowest(), tbb::info::default_concurrency());
 }
 
-}  // namespace steradian
+}  // namespace steradian::run_test

@@ -9,7 +9,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::view {
+namespace steradian::view::document_test {
 namespace {
 
 using scene::GltfTestFile;
@@ -205,4 +205,4 @@ TEST(ViewNodes, MoveTurnAndScaleInTheWorldUnderAnyParent) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::document_test

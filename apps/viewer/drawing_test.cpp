@@ -10,7 +10,7 @@
 #include "scene/gltf_test_file.h"
 #include "steradian/error.h"
 
-namespace steradian::view {
+namespace steradian::view::drawing_test {
 namespace {
 
 const std::string lamps() { return test::kSourceDir + "/scenes/plane/lamps.svg"; }
@@ -168,4 +168,4 @@ TEST(ViewDrawing, WhatCannotBeDrawnIsSaidAndUndone) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::drawing_test

@@ -6,7 +6,7 @@
 #include "keys.h"
 #include "steradian/error.h"
 
-namespace steradian::view {
+namespace steradian::view::script_test {
 namespace {
 
 TEST(ViewScript, ADragIsAPressItsMovesAndARelease) {
@@ -63,4 +63,4 @@ TEST(ViewKeys, HaveOneMeaningEach) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::script_test

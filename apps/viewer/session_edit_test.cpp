@@ -7,7 +7,7 @@
 #include "test_session.h"
 #include "steradian/error.h"
 
-namespace steradian::view {
+namespace steradian::view::session_edit_test {
 namespace {
 
 TEST(ViewSession, PicksALampInThePictureAndDragsItByItsArrow) {
@@ -215,4 +215,4 @@ TEST(ViewSession, AddsEveryKindOfLight) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::session_edit_test

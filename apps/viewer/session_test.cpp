@@ -10,7 +10,7 @@
 #include "test_session.h"
 #include "steradian/error.h"
 
-namespace steradian::view {
+namespace steradian::view::session_test {
 namespace {
 
 // The promise of the window: at rest it shows what `render` makes of what it saves.
@@ -257,4 +257,4 @@ TEST(ViewSession, ShowsTheMomentsOfAnAnimation) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::session_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace steradian::view {
+namespace steradian::view::triangulate_test {
 namespace {
 
 double area(const Contours& contours) {
@@ -76,4 +76,4 @@ TEST(ViewTriangles, RefuseOutlinesThatCrossOrTouchThemselves) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::triangulate_test

@@ -3,7 +3,7 @@
 
 #include "test_session.h"
 
-namespace steradian::view {
+namespace steradian::view::view_camera_test {
 namespace {
 
 TEST(ViewCamera, RaysGoThroughThePixelsThatPointsProjectTo) {
@@ -37,4 +37,4 @@ TEST(ViewCamera, OrbitsAboutItsTargetAndDoesNotTurnOver) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::view_camera_test

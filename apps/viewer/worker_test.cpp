@@ -10,7 +10,7 @@
 #include "session.h"
 #include "steradian/error.h"
 
-namespace steradian::view {
+namespace steradian::view::worker_test {
 namespace {
 
 RenderOptions small(const std::string& method = "auto") {
@@ -146,4 +146,4 @@ TEST(ViewWorker, ChoosesTheLargestPictureThatTheTimeAllows) {
 }
 
 }  // namespace
-}  // namespace steradian::view
+}  // namespace steradian::view::worker_test

@@ -10,7 +10,7 @@
 
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ TEST_F(AtomicFiles, SayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::atomic_file_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace steradian {
+namespace steradian::budget_test {
 namespace {
 
 template <class F>
@@ -51,4 +51,4 @@ TEST(Budget, SaysWhatWasBuiltWhenTheMachineRunsOut) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::budget_test

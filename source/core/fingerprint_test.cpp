@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-namespace steradian {
+namespace steradian::fingerprint_test {
 namespace {
 
 TEST(Fingerprint, TellsEveryBitAndEveryLength) {
@@ -47,4 +47,4 @@ TEST(Fingerprint, TellsTwoChangesThatMightCancel) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::fingerprint_test

@@ -8,7 +8,7 @@
 #include "core/texel.h"
 #include "reference/random_configurations.h"
 
-namespace steradian {
+namespace steradian::mip_maps_test {
 namespace {
 
 using reference::Random;
@@ -150,4 +150,4 @@ TEST(MipMaps, AnyFootprintGivesAColour) {
         }
 }
 
-}  // namespace steradian
+}  // namespace steradian::mip_maps_test

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-namespace steradian {
+namespace steradian::progress_test {
 namespace {
 
 struct Recorder {
@@ -60,4 +60,4 @@ TEST(Progress, CountsEveryStepOfEveryThread) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::progress_test

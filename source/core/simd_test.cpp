@@ -6,7 +6,7 @@
 
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::simd_test {
 
 TEST(Simd, EnvironmentForcesAnAvailableSetAndRefusesOthers) {
   for (Simd simd : available_simd()) {
@@ -19,4 +19,4 @@ TEST(Simd, EnvironmentForcesAnAvailableSetAndRefusesOthers) {
   EXPECT_EQ(active_simd(), available_simd().back());
 }
 
-}  // namespace steradian
+}  // namespace steradian::simd_test

@@ -4,7 +4,7 @@
 
 #include "reference/random_configurations.h"
 
-namespace steradian {
+namespace steradian::vector_test {
 
 // Of a tangent along an oblique normal only rounding is left: a frame must not be made of that.
 TEST(Vector, FramesAreOrthonormalForEveryTangent) {
@@ -23,4 +23,4 @@ TEST(Vector, FramesAreOrthonormalForEveryTangent) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::vector_test

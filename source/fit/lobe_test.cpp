@@ -8,7 +8,7 @@
 #include "reference/chi2.h"
 #include "steradian/error.h"
 
-namespace steradian::fit {
+namespace steradian::fit::lobe_test {
 namespace {
 
 double albedo(const Lobe& lobe, int n) {
@@ -102,4 +102,4 @@ TEST(Lobes, UnknownNamesAreRefusedWithTheKnownOnes) {
   }
 }
 
-}  // namespace steradian::fit
+}  // namespace steradian::fit::lobe_test

@@ -14,10 +14,8 @@
 #include "integrals/ltc/ltc_shape.h"
 #include "steradian/error.h"
 
-namespace steradian::fit {
+namespace steradian::fit::samples_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct File {
   std::string path = (std::filesystem::temp_directory_path() / ("steradian_samples_" + std::to_string(getpid()))).string();
@@ -37,8 +35,8 @@ std::string merl(int half, int angles, int azimuths, const std::function<double(
     for (int i = 0; i < half; ++i)
       for (int j = 0; j < angles; ++j)
         for (int k = 0; k < azimuths; ++k) {
-          const double root = (i + 0.5) / half, th = 0.5 * kPi * root * root, td = 0.5 * kPi * (j + 0.5) / angles,
-                       pd = kPi * (k + 0.5) / azimuths;
+          const double root = (i + 0.5) / half, th = 0.5 * std::numbers::pi * root * root, td = 0.5 * std::numbers::pi * (j + 0.5) / angles,
+                       pd = std::numbers::pi * (k + 0.5) / azimuths;
           const Vec3d difference{std::sin(td) * std::cos(pd), std::sin(td) * std::sin(pd), std::cos(td)};
           const auto turned = [&](Vec3d v) {
             return Vec3d{std::cos(th) * v.x + std::sin(th) * v.z, v.y, std::cos(th) * v.z - std::sin(th) * v.x};
@@ -69,7 +67,7 @@ std::string table(const std::vector<double>& thetas, const std::vector<double>& 
 }
 
 Vec3d direction(double theta, double azimuth) {
-  const double t = theta * kPi / 180, a = azimuth * kPi / 180;
+  const double t = theta * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
   return {std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)};
 }
 
@@ -125,11 +123,11 @@ TEST(Samples, TablesAreLinearBetweenTheirAngles) {
   const LobeSamples samples = read_lobe_samples(file.path);
   for (const double azimuth : {0.0, 30.0, 100.0, -100.0, 180.0})
     for (const double theta : {10.0, 70.0}) {
-      const Lobe lobe = samples.family.at(0.5, std::cos(40 * kPi / 180));
+      const Lobe lobe = samples.family.at(0.5, std::cos(40 * std::numbers::pi / 180));
       const Vec3d l = direction(theta, azimuth);
       EXPECT_NEAR(lobe.evaluate(l), f(40, theta, std::fabs(azimuth)) * l.z, 1e-5) << azimuth << " " << theta;
     }
-  const Lobe grazing = samples.family.at(0.5, std::cos(89 * kPi / 180));
+  const Lobe grazing = samples.family.at(0.5, std::cos(89 * std::numbers::pi / 180));
   EXPECT_NEAR(grazing.evaluate({0, 0, 1}), f(85, 0, 0), 1e-6) << "constant beyond the last";
 
   // Of a whole turn, the mean of both sides.
@@ -165,4 +163,4 @@ TEST(Samples, RefusesWhatIsNoTable) {
   EXPECT_NE(refusal(broken).find("not a number"), std::string::npos);
 }
 
-}  // namespace steradian::fit
+}  // namespace steradian::fit::samples_test

@@ -13,7 +13,7 @@
 #include "steradian/error.h"
 #include "paths.h"
 
-namespace steradian::fit {
+namespace steradian::fit::table_files_test {
 namespace {
 
 std::uint32_t word(const std::string& bytes, std::size_t at) {
@@ -110,4 +110,4 @@ TEST(LtcFiles, UnknownEndingsAreRefused) {
   EXPECT_THROW(compact_files(ggx_compact_table(), "ggx", "x.dds"), Error);
 }
 
-}  // namespace steradian::fit
+}  // namespace steradian::fit::table_files_test

@@ -12,7 +12,7 @@
 #include "fit/fit_report.h"
 #include "integrals/ltc/ggx_tables.h"
 
-namespace steradian::fit {
+namespace steradian::fit::table_test {
 namespace {
 
 struct CellCheck {
@@ -218,4 +218,4 @@ TEST(LtcTable, CompactStaysWithinFourKilobytesAndHoldsNarrowLobesTogether) {
   }
 }
 
-}  // namespace steradian::fit
+}  // namespace steradian::fit::table_test

@@ -16,7 +16,7 @@
 #include "image/png.h"
 #include "steradian/picture.h"
 
-namespace steradian {
+namespace steradian::decode_image_test {
 namespace {
 
 using namespace image;
@@ -281,4 +281,4 @@ TEST(DecodeExr, LooksIntoNoAttributeThatAPictureDoesNotNeed) {
   EXPECT_EQ(decode_exr(bytes_of(file), "picture", budget).width, 9);
 }
 
-}  // namespace steradian
+}  // namespace steradian::decode_image_test

@@ -6,7 +6,7 @@
 #include "steradian/compare.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::difference_test {
 
 TEST(Difference, OfKnownPictures) {
   Picture a(2, 1), b(2, 1);
@@ -36,4 +36,4 @@ TEST(Difference, RefusesOtherSizesAndNonFinitePixels) {
   EXPECT_THROW(difference(bad, Picture(1, 1)), Error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::difference_test

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "steradian/error.h"
 
-namespace steradian::image {
+namespace steradian::image::flip_test {
 namespace {
 
 // Values that tone_map takes to the same grey or colour, whatever it is.
@@ -60,4 +60,4 @@ TEST(Flip, SeesAPointWhereItIs) {
 TEST(Flip, RefusesPicturesOfTwoSizes) { EXPECT_THROW(flip(Picture(3, 4), Picture(4, 3), 0), Error); }
 
 }  // namespace
-}  // namespace steradian::image
+}  // namespace steradian::image::flip_test

@@ -7,7 +7,7 @@
 
 #include "steradian/error.h"
 
-namespace steradian::image {
+namespace steradian::image::hdr_test {
 namespace {
 
 Picture decoded(const std::string& file, const Limits& limits = {}) {
@@ -102,4 +102,4 @@ TEST(Hdr, DamagedFilesAreRefusedOrRead) {
   }
 }
 
-}  // namespace steradian::image
+}  // namespace steradian::image::hdr_test

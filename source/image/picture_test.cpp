@@ -11,7 +11,7 @@
 #include "image/read_picture.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::picture_test {
 namespace {
 
 std::string temporary(const std::string& name) {
@@ -131,4 +131,4 @@ TEST(Picture, IsRefusedWhereItExceedsTheMemory) {
   std::filesystem::remove(path);
 }
 
-}  // namespace steradian
+}  // namespace steradian::picture_test

@@ -11,7 +11,7 @@
 #include "steradian/error.h"
 #include "steradian/picture.h"
 
-namespace steradian::image {
+namespace steradian::image::tone_test {
 namespace {
 
 std::uint8_t byte_of(float encoded) { return static_cast<std::uint8_t>(std::lround(encoded * 255.0f)); }
@@ -97,4 +97,4 @@ TEST(Tone, RowsAreThePixelsOneByOne) {
 }
 
 }  // namespace
-}  // namespace steradian::image
+}  // namespace steradian::image::tone_test

@@ -15,7 +15,7 @@
 #include "steradian/ltc.h"
 #include "steradian/radiance.h"
 
-namespace steradian {
+namespace steradian::charlie_test {
 namespace {
 
 Material charlie(double roughness) {
@@ -147,4 +147,4 @@ TEST(SheenPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::charlie_test

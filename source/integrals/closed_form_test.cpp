@@ -11,7 +11,7 @@
 #include "render/cpu/closed_form.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::closed_form_test {
 namespace {
 
 using ggx::random_rectangle;
@@ -284,4 +284,4 @@ TEST(GgxClosedFormPack, AgreesWithDoubleOnEveryInstructionSet) {
       }
 }
 
-}  // namespace steradian
+}  // namespace steradian::closed_form_test

@@ -9,7 +9,7 @@
 #include "steradian/kernels.h"
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::far_light_test {
 namespace {
 
 using K = Kernels<double>;
@@ -235,4 +235,4 @@ TEST(FarLight, GrazingIsWithinItsBounds) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::far_light_test

@@ -9,7 +9,7 @@
 #include "steradian/error.h"
 #include "steradian/phong.h"
 
-namespace steradian {
+namespace steradian::foreshortened_test {
 namespace {
 
 Material foreshortened(double n) {
@@ -78,4 +78,4 @@ TEST(Foreshortened, PeakFitsHaveNone) {
   EXPECT_THROW(phong_radiance(prepare_polygon(panel), {{}, {0, 0, 1}, {0, 0, 1}}, foreshortened(5), {Method::pearson}), Error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::foreshortened_test

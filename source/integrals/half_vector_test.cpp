@@ -12,7 +12,7 @@
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::half_vector_test {
 namespace {
 
 using ggx::random_rectangle;
@@ -227,4 +227,4 @@ TEST(HalfVectorLobes, RefuseWhatTheyDoNotHave) {
   EXPECT_THROW(half_vector_radiance(light, at, m, {0}), steradian::Error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::half_vector_test

@@ -7,7 +7,7 @@
 
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::horizon_clip_test {
 namespace {
 
 using K = Kernels<double>;
@@ -103,4 +103,4 @@ TEST(HorizonClip, OneClipServesContoursOneAfterTheOther) {
   EXPECT_LT(worst, 1e-13) << "seed 2";
 }
 
-}  // namespace steradian
+}  // namespace steradian::horizon_clip_test

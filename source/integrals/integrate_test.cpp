@@ -11,7 +11,7 @@
 #include "integrals/ltc.h"
 #include "integrals/phong.h"
 
-namespace steradian {
+namespace steradian::integrate_test {
 namespace {
 
 using K = Kernels<double>;
@@ -93,4 +93,4 @@ TEST(Integrate, AnUnlitPointGetsNothing) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::integrate_test

@@ -9,7 +9,7 @@
 #include "reference/random_configurations.h"
 #include "steradian/reference.h"
 
-namespace steradian {
+namespace steradian::large_light_test {
 namespace {
 
 using reference::Random;
@@ -91,4 +91,4 @@ TEST(LargeLight, EveryMethodAtEverySize) {
   for (const auto& [name, error] : worst) std::printf("%-32s largest error %.1e\n", name.c_str(), error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::large_light_test

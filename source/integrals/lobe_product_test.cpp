@@ -13,7 +13,7 @@
 #include "paths.h"
 #include "steradian/phong.h"
 
-namespace steradian {
+namespace steradian::lobe_product_test {
 namespace {
 
 using K = Kernels<double>;
@@ -285,4 +285,4 @@ TEST(LobeProduct, TwoLobesAsOne) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::lobe_product_test

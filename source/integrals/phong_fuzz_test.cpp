@@ -6,11 +6,11 @@
 #include "core/float_mode.h"
 #include "integrals/adversarial_quads.h"
 #include "integrals/phong.h"
-#include "studies/table2.h"
+#include "bench/studies/table2.h"
 #include "render/cpu/phong.h"
 #include "steradian/phong.h"
 
-namespace steradian {
+namespace steradian::phong_fuzz_test {
 namespace {
 
 using reference::Random;
@@ -125,4 +125,4 @@ TEST(PhongPacks, AgreeWithScalarFloatForEveryMethodAndInstructionSet) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::phong_fuzz_test

@@ -11,7 +11,7 @@
 #include "reference/random_configurations.h"
 #include "steradian/error.h"
 
-namespace steradian {
+namespace steradian::phong_test {
 namespace {
 
 using reference::Random;
@@ -301,4 +301,4 @@ TEST(PhongQuadrature, IsCloseInFloat) {
   EXPECT_LT(in_double.largest, 2e-4);
 }
 
-}  // namespace steradian
+}  // namespace steradian::phong_test

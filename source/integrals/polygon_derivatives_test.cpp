@@ -12,7 +12,7 @@
 #include "steradian/radiance.h"
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::polygon_derivatives_test {
 namespace {
 
 // Central differences at two steps. Their distance bounds the truncation of the smaller one (three times it, where the
@@ -296,4 +296,4 @@ TEST(PolygonDerivatives, CostLessThanCentralDifferences) {
 #endif
 }
 
-}  // namespace steradian
+}  // namespace steradian::polygon_derivatives_test

@@ -13,10 +13,10 @@
 #include "steradian/error.h"
 #include "steradian/radiance.h"
 
-namespace steradian {
+namespace steradian::profiled_light_test {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 using Candela = std::function<double(double vertical, double horizontal)>;
 
@@ -70,7 +70,7 @@ Vec3d by_points(const AreaLight& light, const ShadingPoint& at, const Material& 
     for (int k = 0; k < n; ++k) {
       double u = 2 * (i + 0.5) / n - 1, v = 2 * (k + 0.5) / n - 1;
       if (round != nullptr) {
-        const double r = std::sqrt((i + 0.5) / n), phi = 2 * kPi * (k + 0.5) / n;
+        const double r = std::sqrt((i + 0.5) / n), phi = 2 * std::numbers::pi * (k + 0.5) / n;
         u = r * std::cos(phi), v = r * std::sin(phi);
       }
       const PointLight point = {center + x * u + y * v, e.intensity / (static_cast<double>(n) * n), e.profile, e.axes};
@@ -206,4 +206,4 @@ TEST(ProfiledLight, ErrorsAreMeasured) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::profiled_light_test

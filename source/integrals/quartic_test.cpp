@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::quartic_test {
 namespace {
 
 using K = Kernels<double>;
@@ -86,4 +86,4 @@ TEST(Quartic, StartsAtTheRootsUnlessPairsNearlyMeet) {
   std::printf("largest distance %.2e\n", worst);
 }
 
-}  // namespace steradian
+}  // namespace steradian::quartic_test

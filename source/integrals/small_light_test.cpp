@@ -11,7 +11,7 @@
 #include "lobes/lobe.h"
 #include "steradian/reference.h"
 
-namespace steradian {
+namespace steradian::small_light_test {
 namespace {
 
 // What a method may be off over a light that is a thousandth of its distance or less, as a share of what it sends. The tables are off by
@@ -171,4 +171,4 @@ TEST(LightElements, ErrorIsBelowItsBound) {
   EXPECT_GT(largest_share, 0.2);  // the bound is one, and not far off
 }
 
-}  // namespace steradian
+}  // namespace steradian::small_light_test

@@ -10,7 +10,7 @@
 #include "reference/random_configurations.h"
 #include "steradian/radiance.h"
 
-namespace steradian {
+namespace steradian::lobe_product_test {
 namespace {
 
 using reference::Random;
@@ -131,4 +131,4 @@ TEST(ProductOfLobes, StaysBelowThePowerAboutItsPeak) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::lobe_product_test

@@ -16,7 +16,7 @@
 #include "steradian/error.h"
 #include "steradian/plane_bounce.h"
 
-namespace steradian::plane {
+namespace steradian::plane::plane_device_test {
 namespace {
 
 PlaneScene scene_of(const std::string& name) {
@@ -205,4 +205,4 @@ TEST_F(VulkanPlane, RefusesWhatItDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace steradian::plane
+}  // namespace steradian::plane::plane_device_test

@@ -9,7 +9,7 @@
 #include "reference/gauss_kronrod.h"
 #include "reference/random_configurations.h"
 
-namespace steradian {
+namespace steradian::reference_test {
 namespace {
 
 using reference::describe;
@@ -258,4 +258,4 @@ TEST(Sampled, TheSeedDecides) {
   EXPECT_NE(first.radiance.x, other.radiance.x);
 }
 
-}  // namespace steradian
+}  // namespace steradian::reference_test

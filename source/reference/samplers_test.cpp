@@ -11,7 +11,7 @@
 #include "reference/random_configurations.h"
 #include "reference/spherical_rectangle.h"
 
-namespace steradian::reference {
+namespace steradian::reference::samplers_test {
 
 using namespace lobes;
 
@@ -196,4 +196,4 @@ TEST(Samplers, SphericalRectangleHoldsItsDensityAndSolidAngle) {
   }
 }
 
-}  // namespace steradian::reference
+}  // namespace steradian::reference::samplers_test

@@ -13,16 +13,15 @@
 #include "steradian/ellipse_light.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::scene {
+namespace steradian::scene::emitters_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A ball of segments and rings as modelling programs make them, under an affine map.
 Mesh ball(int segments, int rings, Vec3d x, Vec3d y, Vec3d z, Vec3d center) {
   Mesh mesh;
   const auto corner = [&](int ring, int segment) {
-    const double theta = kPi * ring / rings, phi = 2 * kPi * segment / segments;  // at poles and seam equal but for rounding
+    const double theta = std::numbers::pi * ring / rings,
+                 phi = 2 * std::numbers::pi * segment / segments;  // at poles and seam equal but for rounding
     const double s = std::sin(theta), c = std::cos(theta);
     mesh.positions.push_back(static_cast<Vec3f>(center + x * (s * std::cos(phi)) + y * (s * std::sin(phi)) + z * c));
     return static_cast<std::uint32_t>(mesh.positions.size() - 1);
@@ -44,12 +43,12 @@ Mesh tube(int segments, int rings, double radius, double half_length, bool flat)
   };
   std::vector<Row> rows;
   for (int j = 0; j <= rings; ++j) {
-    const double t = kPi / 2 * j / rings;
+    const double t = std::numbers::pi / 2 * j / rings;
     rows.push_back({radius * std::sin(t), flat ? half_length : half_length + radius * std::cos(t)});
   }
   for (std::size_t j = rows.size(); j-- > 0;) rows.push_back({rows[j].radius, -rows[j].y});
   const auto corner = [&](std::size_t row, int segment) {
-    const double phi = 2 * kPi * (segment % segments) / segments;
+    const double phi = 2 * std::numbers::pi * (segment % segments) / segments;
     mesh.positions.push_back(static_cast<Vec3f>(Vec3d{rows[row].radius * std::sin(phi), rows[row].y, rows[row].radius * std::cos(phi)}));
     return static_cast<std::uint32_t>(mesh.positions.size() - 1);
   };
@@ -131,7 +130,7 @@ TEST(Emitters, ABallIsOneSphereOfItsAreaWhateverItsSidesAndAxes) {
     ASSERT_EQ(scene.area_lights.size(), 1u);
     const auto& light = std::get<Ellipsoid>(scene.area_lights[0].shape);
     EXPECT_LT(length(light.center - center), 1e-6);
-    const double size = std::sqrt(area_of(ball(32, 16, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {})) / (4 * kPi));
+    const double size = std::sqrt(area_of(ball(32, 16, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {})) / (4 * std::numbers::pi));
     EXPECT_LT(size, 0.997);
     const double volume = std::fabs(dot(light.x, cross(light.y, light.z)));
     EXPECT_NEAR(std::cbrt(volume / dot(x, cross(y, z))), size, 1e-5);
@@ -145,17 +144,17 @@ TEST(Emitters, ATubeInAFileIsOneCapsuleThatSendsWhatItsMeshDoes) {
   const Frame frame = Frame::from_normal(normalized(Vec3d{0.3, 0.8, -0.5}));
   const Affine world{frame.x, frame.y, frame.z, {0.5, 2, -1}};
   for (const double radius : {0.2, 0.02}) {
-    const LoadedScene loaded = load_scene(file_of(tube(kSegments, 8, radius, 0.75, false), world).write());
+    const LoadedScene loaded = steradian::load_scene(file_of(tube(kSegments, 8, radius, 0.75, false), world).write());
     ASSERT_EQ(loaded.scene.area_lights.size(), 1u) << radius;
     const AreaLight& light = loaded.scene.area_lights[0];
     const auto& capsule = std::get<Capsule>(light.shape);
     EXPECT_NEAR(length(capsule.end_b - capsule.end_a), 1.5, 2e-6);
-    EXPECT_NEAR(light.power, 4 * kPi * capsule.radius * (capsule.radius + 0.75), 1e-6 * light.power);
+    EXPECT_NEAR(light.power, 4 * std::numbers::pi * capsule.radius * (capsule.radius + 0.75), 1e-6 * light.power);
     EXPECT_FALSE(loaded.scene.meshes[0].casts_shadow);
 
     // A fine mesh lies between the coarse one's inner and outer radius, as does the capsule: their outlines' widths differ by less than
     // these do. Of the balls' rings, cosines of half a step both ways.
-    const double between = 1 / (std::cos(kPi / kSegments) * std::cos(kPi / 32)) - 1;
+    const double between = 1 / (std::cos(std::numbers::pi / kSegments) * std::cos(std::numbers::pi / 32)) - 1;
     const Mesh mesh = tube(256, 64, radius, 0.75, false);
     for (const Vec3d position : {Vec3d{0, 0, 0}, Vec3d{2.5, 1.8, -1.1}, Vec3d{0.9, 2.6, -0.4}}) {
       const Vec3d normal = normalized(Vec3d{0.5, 2, -1} - position);
@@ -230,7 +229,7 @@ TEST(Emitters, ARoundFlatPatchIsADisk) {
   for (const int corners : {12, 32}) {
     Mesh mesh;
     for (int i = 0; i < corners; ++i) {
-      const double t = 2 * kPi * i / corners;
+      const double t = 2 * std::numbers::pi * i / corners;
       mesh.positions.push_back(static_cast<Vec3f>(Vec3d{0.5 * std::cos(t), 2, 0.25 * std::sin(t)}));
     }
     for (int i = 1; i + 1 < corners; ++i)
@@ -241,8 +240,8 @@ TEST(Emitters, ARoundFlatPatchIsADisk) {
     EXPECT_EQ(std::holds_alternative<Ellipse>(light.shape), corners == 32);
     if (corners != 32) continue;
     const auto& disk = std::get<Ellipse>(light.shape);
-    const double area = kPi * length(cross(disk.x, disk.y));
-    EXPECT_NEAR(area, 16 * std::sin(2 * kPi / 32) * 0.125, 1e-6);  // of the mesh
+    const double area = std::numbers::pi * length(cross(disk.x, disk.y));
+    EXPECT_NEAR(area, 16 * std::sin(2 * std::numbers::pi / 32) * 0.125, 1e-6);  // of the mesh
     EXPECT_GT(cross(disk.x, disk.y).y * (dot(Vec3d{0, 1, 0}, prepare_polygon(flat_polygon(light)).normal)), 0);
   }
 }
@@ -291,4 +290,4 @@ TEST(Framing, LabelsBehindWhatTheCameraSeesAreNoLight) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::emitters_test

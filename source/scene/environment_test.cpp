@@ -9,7 +9,7 @@
 #include "scene/gltf_test_file.h"
 #include "steradian/error.h"
 
-namespace steradian::scene {
+namespace steradian::scene::environment_test {
 
 TEST(Environment, PlacesAndDirectionsAreInverse) {
   for (double u = 0.02; u < 1; u += 0.07)
@@ -78,4 +78,4 @@ TEST(Environment, IrradianceByCoefficientsTurnsWithItsAxes) {
   EXPECT_NEAR(c.at({0, 1, 0}).x, std::numbers::pi * (1 + 2.0 / 3), 1e-12);
 }
 
-}  // namespace steradian::scene
+}  // namespace steradian::scene::environment_test

@@ -10,7 +10,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::scene {
+namespace steradian::scene::first_picture_test {
 namespace {
 
 using nlohmann::json;
@@ -65,7 +65,7 @@ TEST(FirstPicture, TheDefaultCameraIsFilled) {
     for (const double height : {0.02, 1.0, 40.0}) {
       GltfTestFile f = GltfTestFile::square();
       f.node()["scale"] = {1, height, 1};
-      const LoadedScene loaded = load_scene(f.write(), {.aspect = aspect});
+      const LoadedScene loaded = steradian::load_scene(f.write(), {.aspect = aspect});
       const Camera& c = loaded.scene.cameras.at(0);
       double across = 0, up = 0;
       for (const Vec3f& p : loaded.scene.meshes[0].positions) {
@@ -82,16 +82,16 @@ TEST(FirstPicture, TheDefaultCameraIsFilled) {
 
 TEST(FirstPicture, BlendersPunctualLightsAreBroughtToTheUnitOfEmission) {
   const std::string blender = "Khronos glTF Blender I/O v3.4.50";
-  const LoadedScene own = load_scene(with_punctual(blender).write());
+  const LoadedScene own = steradian::load_scene(with_punctual(blender).write());
   EXPECT_EQ(intensity(own), 1);
   EXPECT_TRUE(warns(own, "683"));
   EXPECT_EQ(own.file.generator, blender);
-  EXPECT_EQ(intensity(load_scene(with_punctual(blender).write(), {.light_units = LightUnits::candela})), 683);
-  EXPECT_EQ(intensity(load_scene(with_punctual("Khronos glTF Blender I/O v1.2.75").write())), 683) << "before that factor came";
-  const LoadedScene other = load_scene(with_punctual("by hand").write());
+  EXPECT_EQ(intensity(steradian::load_scene(with_punctual(blender).write(), {.light_units = LightUnits::candela})), 683);
+  EXPECT_EQ(intensity(steradian::load_scene(with_punctual("Khronos glTF Blender I/O v1.2.75").write())), 683) << "before that factor came";
+  const LoadedScene other = steradian::load_scene(with_punctual("by hand").write());
   EXPECT_EQ(intensity(other), 683);
   EXPECT_FALSE(warns(other, "683"));
-  EXPECT_EQ(intensity(load_scene(with_punctual("by hand").write(), {.light_units = LightUnits::watt})), 1);
+  EXPECT_EQ(intensity(steradian::load_scene(with_punctual("by hand").write(), {.light_units = LightUnits::watt})), 1);
 }
 
 TEST(FirstPicture, WhatAFileRequiresIsCheckedBeforeItsBuffers) {
@@ -99,7 +99,7 @@ TEST(FirstPicture, WhatAFileRequiresIsCheckedBeforeItsBuffers) {
   f.json["buffers"] = {{{"byteLength", 40}, {"uri", "not_there.bin"}}};
   f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
   try {
-    load_scene(f.write());
+    steradian::load_scene(f.write());
     FAIL();
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("KHR_draco_mesh_compression"), std::string::npos) << e.what();
@@ -107,7 +107,7 @@ TEST(FirstPicture, WhatAFileRequiresIsCheckedBeforeItsBuffers) {
 }
 
 TEST(FirstPicture, ReadsTheEnvironmentOfAFile) {
-  const LoadedScene loaded = load_scene(with_environment().write());
+  const LoadedScene loaded = steradian::load_scene(with_environment().write());
   ASSERT_NE(loaded.scene.environment, nullptr);
   const Environment& e = *loaded.scene.environment;
   EXPECT_EQ(e.name, "studio");
@@ -121,7 +121,7 @@ TEST(FirstPicture, ReadsTheEnvironmentOfAFile) {
 
   GltfTestFile turned = with_environment();  // by 90 degrees about y: +x goes to -z
   turned.json["extensions"]["EXT_lights_image_based"]["lights"][0]["rotation"] = {0, std::sqrt(0.5), 0, std::sqrt(0.5)};
-  const LoadedScene other = load_scene(turned.write());
+  const LoadedScene other = steradian::load_scene(turned.write());
   EXPECT_NEAR(radiance_from(other.scene.environment->map, {0, 0, -1}).x, bright, 0.05f * bright);
 }
 
@@ -129,7 +129,7 @@ TEST(FirstPicture, RefusesBrokenEnvironments) {
   const auto refused = [](auto change) {
     GltfTestFile f = with_environment();
     change(f.json["extensions"]["EXT_lights_image_based"]["lights"][0]);
-    EXPECT_THROW(load_scene(f.write()), Error);
+    EXPECT_THROW(steradian::load_scene(f.write()), Error);
   };
   refused([](json& light) { light.erase("specularImages"); });
   refused([](json& light) { light["specularImages"] = json::array(); });
@@ -141,4 +141,4 @@ TEST(FirstPicture, RefusesBrokenEnvironments) {
   refused([](json& light) { light["rotation"] = {0, 0, 0, 0}; });
 }
 
-}  // namespace steradian::scene
+}  // namespace steradian::scene::first_picture_test

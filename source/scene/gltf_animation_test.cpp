@@ -9,7 +9,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::scene {
+namespace steradian::scene::gltf_animation_test {
 namespace {
 
 AnimationChannel channel(AnimationChannel::Between between, std::vector<double> times, std::vector<double> values, std::size_t width) {
@@ -194,4 +194,4 @@ TEST(Animation, RefusesWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::gltf_animation_test

@@ -7,12 +7,12 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::scene {
+namespace steradian::scene::gltf_lights_test {
 namespace {
 
 using nlohmann::json;
 
-LoadedScene load(const GltfTestFile& file) { return load_scene(file.write()); }
+LoadedScene load(const GltfTestFile& file) { return steradian::load_scene(file.write()); }
 
 void expect_near(Vec3d a, Vec3d b, double tolerance) {
   EXPECT_LE(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y << " " << b.z;
@@ -211,4 +211,4 @@ TEST(AreaLightsOfFiles, WrongExtrasAreRefused) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::gltf_lights_test

@@ -10,7 +10,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::scene {
+namespace steradian::scene::keep_strongest_test {
 namespace {
 
 // A hollow ribbon of n faces, 2 wide: no two in one plane, those at the ends the largest.
@@ -135,11 +135,11 @@ TEST(KeepStrongest, IsSaidOfAFile) {
   f.add_mesh({{"POSITION", f.add_floats(positions, "VEC3")}},
              f.add_indices(std::vector<std::uint16_t>(mesh.indices.begin(), mesh.indices.end())));
   f.material()["emissiveFactor"] = {1, 1, 1};
-  const LoadedScene loaded = load_scene(f.write(), {.max_lights = 60});
+  const LoadedScene loaded = steradian::load_scene(f.write(), {.max_lights = 60});
   ASSERT_FALSE(loaded.warnings.empty());
   EXPECT_NE(loaded.warnings[0].find("60 weak area lights of emissive meshes merged into the nearest"), std::string::npos)
       << loaded.warnings[0];
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::keep_strongest_test

@@ -6,7 +6,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::scene {
+namespace steradian::scene::load_scene_errors_test {
 namespace {
 
 using nlohmann::json;
@@ -14,7 +14,7 @@ using nlohmann::json;
 // Loads and expects an Error whose place begins with the file and whose message holds `part`.
 void expect_error(const std::string& path, const std::string& part) {
   try {
-    load_scene(path);
+    steradian::load_scene(path);
     ADD_FAILURE() << "loads; expected an error about: " << part;
   } catch (const Error& e) {
     const std::string what = e.what();
@@ -357,7 +357,9 @@ TEST(LoadSceneErrors, NamesFileAndPlaceForBrokenContainers) {
   expect_error(write_test_file("chunk_type.glb", changed), "chunk 0: the first chunk must be JSON");
 }
 
-TEST(LoadSceneErrors, AsksForAtLeastOneLight) { EXPECT_THROW(load_scene(GltfTestFile::square().write(), {.max_lights = 0}), Error); }
+TEST(LoadSceneErrors, AsksForAtLeastOneLight) {
+  EXPECT_THROW(steradian::load_scene(GltfTestFile::square().write(), {.max_lights = 0}), Error);
+}
 
 // A file with a bit of everything, so that mutations reach every part of the reader.
 std::string rich_glb() {
@@ -410,4 +412,4 @@ TEST(LoadSceneErrors, LoadsOrRefusesMutatedFiles) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::load_scene_errors_test

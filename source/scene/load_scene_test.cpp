@@ -8,12 +8,12 @@
 #include "scene/test_meshes.h"
 #include "steradian/error.h"
 
-namespace steradian::scene {
+namespace steradian::scene::load_scene_test {
 namespace {
 
 using nlohmann::json;
 
-LoadedScene load(const GltfTestFile& file, const LoadOptions& options = {}) { return load_scene(file.write(), options); }
+LoadedScene load(const GltfTestFile& file, const LoadOptions& options = {}) { return steradian::load_scene(file.write(), options); }
 
 bool warns(const LoadedScene& loaded, const std::string& part) {
   for (const std::string& w : loaded.warnings)
@@ -28,7 +28,7 @@ void expect_near(Vec3f a, Vec3d b, double tolerance = 1e-6) { expect_near(static
 
 TEST(LoadScene, ReadsASquareFromGltfAndGlbAlike) {
   for (const char* name : {"a.gltf", "a.glb"}) {
-    const LoadedScene loaded = load_scene(GltfTestFile::square().write(name));
+    const LoadedScene loaded = steradian::load_scene(GltfTestFile::square().write(name));
     ASSERT_EQ(loaded.scene.meshes.size(), 1u);
     EXPECT_EQ(loaded.scene.meshes[0].triangle_count(), 2u);
     EXPECT_NEAR(signed_area(loaded.scene.meshes[0]), 1, 1e-6);
@@ -385,7 +385,7 @@ TEST(LoadScene, LoadsEveryValidModelOfOthers) {
       found[i] += named;
     }
     try {
-      const LoadedScene scene = load_scene(path);
+      const LoadedScene scene = steradian::load_scene(path);
       EXPECT_FALSE(broken) << path;
       for (const auto& [name, triangles] : whole) {
         if (path.find(name) == std::string::npos) continue;
@@ -402,4 +402,4 @@ TEST(LoadScene, LoadsEveryValidModelOfOthers) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::load_scene_test

@@ -10,7 +10,7 @@
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 
-namespace steradian::scene {
+namespace steradian::scene::magnitudes_test {
 namespace {
 
 // A floor of 2 x 2 under a light of 1 x 1 at a height of 2, below a node that carries both; `change` may move and scale any.
@@ -133,4 +133,4 @@ TEST(Magnitudes, AreRefusedByTheNodesName) {
   EXPECT_NE(refusal_of({.scale = 1e-20}).find("the whole scene is"), std::string::npos);
 }
 
-}  // namespace steradian::scene
+}  // namespace steradian::scene::magnitudes_test

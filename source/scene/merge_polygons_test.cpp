@@ -7,7 +7,7 @@
 
 #include "steradian/polygon_light.h"
 
-namespace steradian::scene {
+namespace steradian::scene::merge_polygons_test {
 namespace {
 
 MergedPolygons merge(const std::vector<Triangle>& t) {
@@ -110,4 +110,4 @@ TEST(MergePolygons, KeepsEveryTriangleOfACurvedSurfaceOnce) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::merge_polygons_test

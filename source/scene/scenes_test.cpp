@@ -9,7 +9,7 @@
 #include "steradian/load_scene.h"
 #include "paths.h"
 
-namespace steradian::scene {
+namespace steradian::scene::scenes_test {
 namespace {
 
 std::string bytes_of(const std::string& path) {
@@ -27,7 +27,7 @@ class OwnScenes : public testing::Test {
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
   }
   Scene made(const std::string& name) {
-    const LoadedScene loaded = load_scene(folder_ + "/" + name + ".glb");
+    const LoadedScene loaded = steradian::load_scene(folder_ + "/" + name + ".glb");
     for (const std::string& w : loaded.warnings) ADD_FAILURE() << name << ": " << w;
     return loaded.scene;
   }
@@ -88,4 +88,4 @@ TEST_F(OwnScenes, HaveTrianglesThatFaceWhereTheirNormalsPoint) {
 }
 
 }  // namespace
-}  // namespace steradian::scene
+}  // namespace steradian::scene::scenes_test

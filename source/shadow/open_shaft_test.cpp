@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace steradian::shadow {
+namespace steradian::shadow::open_shaft_test {
 namespace {
 
 using Random = std::mt19937;
@@ -105,4 +105,4 @@ TEST(OpenShaft, NothingBlocksWithoutTriangles) {
   EXPECT_TRUE(TriangleTree(mesh).is_open(viewers, {{1, 1, 1}, {2, 2, 2}}, 0));
 }
 
-}  // namespace steradian::shadow
+}  // namespace steradian::shadow::open_shaft_test

@@ -20,7 +20,7 @@
 #include "shadow/visible_part.h"
 #include "steradian/kernels.h"
 
-namespace steradian::shadow {
+namespace steradian::shadow::shadow_test {
 namespace {
 
 using K = Kernels<double>;
@@ -506,4 +506,4 @@ TEST(EdgeMesh, WeldsEqualPositionsOnly) {
 }
 
 }  // namespace
-}  // namespace steradian::shadow
+}  // namespace steradian::shadow::shadow_test

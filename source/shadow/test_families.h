@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "reference/random_configurations.h"
 #include "shadow/edges.h"
 #include "shadow/segments.h"
 #include "steradian/polygon_light.h"
@@ -89,11 +90,6 @@ struct Point {
   Viewpoint at;
   std::string kind;
 };
-
-inline Vec3d random_direction(Random& r) {
-  const double z = r.uniform(-1, 1), t = r.uniform(0, 2 * std::numbers::pi), s = std::sqrt(1 - z * z);
-  return {s * std::cos(t), s * std::sin(t), z};
-}
 
 inline PolygonLight rectangle(Vec3d c, Vec3d x, Vec3d y) {
   PolygonLight light;

@@ -6,15 +6,13 @@
 
 #include <gtest/gtest.h>
 
-namespace steradian {
+namespace steradian::area_light_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(AreaLight, GivesAnEllipseAPolygonOfItsArea) {
   for (const int k : {3, 8, 64}) {
     const PreparedPolygon p = prepare_polygon(equal_area_polygon({{1, 2, 3}, {2, 0, 0}, {0.5, 1, 0}}, {1, 1, 1}, k));
-    EXPECT_NEAR(p.area, 2 * kPi, 1e-12) << k;
+    EXPECT_NEAR(p.area, 2 * std::numbers::pi, 1e-12) << k;
     EXPECT_NEAR(p.normal.z, 1, 1e-12);
   }
 }
@@ -25,11 +23,11 @@ TEST(AreaLight, GivesASphereTheSolidAngleItHas) {
   light.shape = Ellipsoid{center, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, -0.5}};  // left-handed axes too
   for (const double distance : {0.6, 1.0, 4.0}) {
     const Vec3d position = center + normalized(Vec3d{1, -2, 0.5}) * distance;
-    const double s = 0.5 / distance, exact = 2 * kPi * s * s / (1 + std::sqrt(1 - s * s));
+    const double s = 0.5 / distance, exact = 2 * std::numbers::pi * s * s / (1 + std::sqrt(1 - s * s));
     // The K-gon's solid angle differs from the cone's by O(1/K^4) at equal area near the centre and O(1/K^2)
     // at most.
     const double polygon = polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 64)), position);
-    EXPECT_NEAR(polygon / exact, 1, (2 * kPi / 64) * (2 * kPi / 64)) << distance;
+    EXPECT_NEAR(polygon / exact, 1, (2 * std::numbers::pi / 64) * (2 * std::numbers::pi / 64)) << distance;
     const double finer = polygon_solid_angle(prepare_polygon(polygon_seen_from(light, position, 640)), position);
     EXPECT_LE(std::fabs(finer / exact - 1), std::fabs(polygon / exact - 1) / 50 + 1e-9) << distance;
   }
@@ -54,7 +52,7 @@ TEST(AreaLight, OutlinesAnEllipsoidByRaysThatTouchIt) {
     ++seen;
     EXPECT_GT(dot(cross(outline->x, outline->y), position - outline->center), 0) << "faces the point";
     for (int k = 0; k < 8; ++k) {
-      const double t = k * kPi / 4;
+      const double t = k * std::numbers::pi / 4;
       const Vec3d d = to_unit(outline->center + outline->x * std::cos(t) + outline->y * std::sin(t) - position);
       const double half_b = dot(p, d), a = dot(d, d), c = dot(p, p) - 1;
       // Error budget: each product is rounded a few times, magnified by the inverse of the axes' determinant
@@ -66,4 +64,4 @@ TEST(AreaLight, OutlinesAnEllipsoidByRaysThatTouchIt) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::area_light_test

@@ -14,17 +14,16 @@
 #include "steradian/error.h"
 #include "steradian/phong.h"
 
-namespace steradian {
+namespace steradian::capsule_light_test {
 namespace {
 
 using reference::Random;
 using reference::random_direction;
-constexpr double kPi = std::numbers::pi;
 
 // A tube about a point at distance 1 in that direction: radius seen under 2 to 35 degrees or a third of it, up to 6 long.
 Capsule random_tube(Random& random, Vec3d direction) {
   const double thin = random.uniform() < 0.5 ? 0.3 : 1.0;
-  const double radius = std::tan(random.uniform(2, 35) * kPi / 180) * 0.7 * thin;
+  const double radius = std::tan(random.uniform(2, 35) * std::numbers::pi / 180) * 0.7 * thin;
   const Vec3d along = random_direction(random) * std::pow(10, random.uniform(-1.5, 0.5));
   return {direction - along * random.uniform(), direction + along * random.uniform(), radius};
 }
@@ -39,11 +38,11 @@ double irradiance_by_rays(const Capsule& c, Vec3d normal, int side, Random& rand
   int hits = 0;
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
-      const double u = (i + random.uniform()) / side, phi = 2 * kPi * (j + random.uniform()) / side;
+      const double u = (i + random.uniform()) / side, phi = 2 * std::numbers::pi * (j + random.uniform()) / side;
       const Vec3d d = frame.to_world({std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u)});
       hits += distance_to_axis(c, d * distance_along(c, {}, d)) < c.radius;
     }
-  return kPi * hits / (static_cast<double>(side) * side);
+  return std::numbers::pi * hits / (static_cast<double>(side) * side);
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ TEST(CapsuleIrradiance, OfNoLengthIsTheSpheres) {
   std::printf("largest difference %.2e, in float %.2e; over the length %.2f\n", worst, worst_float, worst_near);
   EXPECT_LT(worst, 1e-12);
   EXPECT_LT(worst_float, 1e-5);
-  EXPECT_LT(worst_near, 2 * kPi);
+  EXPECT_LT(worst_near, 2 * std::numbers::pi);
 }
 
 TEST(CapsuleIrradiance, AlongTheAxisIsTheNearerSpheres) {
@@ -106,7 +105,7 @@ TEST(CapsuleIrradiance, CountsTheRaysThatMeetIt) {
     const Vec3d normal = normalized(direction + random_direction(random));
     if (!(distance_to_axis(c, {}) > c.radius)) continue;
     // An outline crosses at most 8 cells of a row or column: the variance of each is at most a quarter of a cell's.
-    const double sigma = kPi * 0.5 * std::sqrt(8.0 * kSide) / (kSide * kSide);
+    const double sigma = std::numbers::pi * 0.5 * std::sqrt(8.0 * kSide) / (kSide * kSide);
     EXPECT_NEAR(capsule_irradiance(c, {}, normal), irradiance_by_rays(c, normal, kSide, random), 4 * sigma) << "tube " << i;
   }
 }
@@ -149,7 +148,7 @@ TEST(CapsuleIrradiance, OfAnyInputIsFiniteAndWithinPi) {
     const Vec3d position = i % 7 == 0 ? c.end_a * 0.5 : point(), normal = random_direction(random);
     for (double e : {capsule_irradiance(c, position, normal), static_cast<double>(capsule_irradiance_float(c, position, normal))}) {
       EXPECT_GE(e, 0.0) << i;  // not a number fails
-      EXPECT_LE(e, kPi + 1e-6) << i;
+      EXPECT_LE(e, std::numbers::pi + 1e-6) << i;
     }
     EXPECT_GE(line_irradiance(c.end_a, c.end_b, position, normal), 0.0) << i;
     EXPECT_GE(line_irradiance_float(c.end_a, c.end_b, position, normal), 0.0f) << i;
@@ -161,14 +160,14 @@ TEST(CapsuleIrradiance, OfAnyInputIsFiniteAndWithinPi) {
 
 TEST(CapsuleIrradiance, OfATubeAtTheSurfaceIsAllOfTheSky) {
   // Looking straight at a huge tube from close by: pi (1 - what escapes along it).
-  EXPECT_NEAR(capsule_irradiance({{-1e6, 0, 1}, {1e6, 0, 1}, 1 - 1e-9}, {}, {0, 0, 1}), kPi, 1e-4);
+  EXPECT_NEAR(capsule_irradiance({{-1e6, 0, 1}, {1e6, 0, 1}, 1 - 1e-9}, {}, {0, 0, 1}), std::numbers::pi, 1e-4);
   EXPECT_EQ(capsule_irradiance({{-1e6, 0, 1}, {1e6, 0, 1}, 1 - 1e-9}, {}, {0, 0, -1}), 0.0);
 }
 
 TEST(LineIrradiance, OfAnEndlessLineOverheadIsItsClosedForm) {
   for (double h : {0.01, 1.0, 300.0}) {
-    EXPECT_NEAR(line_irradiance({-1e9, 0, h}, {1e9, 0, h}, {}, {0, 0, 1}) * h, kPi / 2, 1e-12);
-    EXPECT_NEAR(static_cast<double>(line_irradiance_float({-1e4, 0, h}, {1e4, 0, h}, {}, {0, 0, 1})) * h, kPi / 2, 1e-4);
+    EXPECT_NEAR(line_irradiance({-1e9, 0, h}, {1e9, 0, h}, {}, {0, 0, 1}) * h, std::numbers::pi / 2, 1e-12);
+    EXPECT_NEAR(static_cast<double>(line_irradiance_float({-1e4, 0, h}, {1e4, 0, h}, {}, {0, 0, 1})) * h, std::numbers::pi / 2, 1e-4);
   }
 }
 
@@ -186,7 +185,9 @@ TEST(LineIrradiance, IsItsIntegral) {
     // ds = height / cos^2, d = height / cos, sine = cos: the integrand is (foot cos + height along sin) . normal cos / height^2.
     const double up = dot(foot, normal) / height, forward = dot(along, normal);
     const double crossing = std::atan2(-up, forward);  // where cos up + sin forward = 0, to within half a turn
-    const double edge = crossing > kPi / 2 ? crossing - kPi : crossing < -kPi / 2 ? crossing + kPi : crossing;
+    const double edge = crossing > std::numbers::pi / 2    ? crossing - std::numbers::pi
+                        : crossing < -std::numbers::pi / 2 ? crossing + std::numbers::pi
+                                                           : crossing;
     if (from < edge && edge < to) {
       ++cut;
       (up * std::cos(from) + forward * std::sin(from) < 0 ? from : to) = edge;
@@ -222,9 +223,9 @@ TEST(LineIrradiance, IsTheLimitOfThinCapsules) {
       worst = std::max(worst, std::fabs(over_width - line_irradiance(a, b, {}, normal)) * distance);
     }
     // Each end adds half a cap, of pi r^2/m^2 sr at most; the tube's own correction is of second order.
-    EXPECT_LE(worst, kPi / 2 * share * (1 + 4 * share) + 1e-9) << share;
+    EXPECT_LE(worst, std::numbers::pi / 2 * share * (1 + 4 * share) + 1e-9) << share;
     std::printf("radius over distance %.0e: difference over 1/distance %.2e, bound %.2e\n", share, worst,
-                kPi / 2 * share * (1 + 4 * share));
+                std::numbers::pi / 2 * share * (1 + 4 * share));
   }
 }
 
@@ -278,7 +279,7 @@ TEST(CapsulePolygons, GgxHoldsItsError) {
   double worst[2] = {}, sum[2] = {};
   int count = 0;
   for (int i = 0; i < 400; ++i) {
-    const double view = random.uniform(5, 75) * kPi / 180;
+    const double view = random.uniform(5, 75) * std::numbers::pi / 180;
     const ShadingPoint at = {{}, {0, 0, 1}, {-std::sin(view), 0, std::cos(view)}};
     const Vec3d mirror{std::sin(view), 0, std::cos(view)};
     const Capsule c = random_tube(random, normalized(mirror + random_direction(random) * 0.4));
@@ -314,7 +315,7 @@ TEST(CapsulePolygons, LieInFrontOfThePointEvenAtTheSurface) {
       ASSERT_EQ(polygon.side_of({}), 1) << i;
       ASSERT_EQ(even.side_of({}), 1) << i;
       // Chords of steps d leave out 1 - sin(d)/d = d^2/6 - d^4/120 of a circle; of equal steps, equal areas give back the first.
-      const double exact = capsule_irradiance(c, {}, aside), d = 2 * kPi / vertices;
+      const double exact = capsule_irradiance(c, {}, aside), d = 2 * std::numbers::pi / vertices;
       EXPECT_NEAR(polygon_irradiance(polygon, {}, aside), exact, exact * d * d / 6) << i << " with " << vertices;
       EXPECT_NEAR(polygon_irradiance(even, {}, aside), exact, exact * d * d * d * d / 120) << i << " with " << vertices;
     }
@@ -336,4 +337,4 @@ TEST(Capsule, KnowsItsDistances) {
   EXPECT_DOUBLE_EQ(distance_along(c, {0, 0, -2}, {0, 0, -1}), 0) << "behind";
 }
 
-}  // namespace steradian
+}  // namespace steradian::capsule_light_test

@@ -12,16 +12,15 @@
 #include "steradian/kernels.h"
 #include "steradian/phong.h"
 
-namespace steradian {
+namespace steradian::ellipse_light_test {
 namespace {
 
 using reference::Random;
 using reference::random_direction;
-constexpr double kPi = std::numbers::pi;
 
 // An ellipsoid or a tilted ellipse, axes 0.3 to 1.1 of a size that is seen under 3 to 45 degrees.
 Ellipse random_round_light(Random& random, Vec3d direction) {
-  const double size = std::tan(random.uniform(3, 45) * kPi / 180) * 0.7;
+  const double size = std::tan(random.uniform(3, 45) * std::numbers::pi / 180) * 0.7;
   const Frame f = Frame::from_normal(random_direction(random));
   const auto axis = [&](Vec3d a) { return a * (size * random.uniform(0.3, 1.1)); };
   if (random.uniform() < 0.6) return *silhouette({direction, axis(f.x), axis(f.y), axis(f.z)}, {});
@@ -40,7 +39,7 @@ TEST(EllipseIrradiance, OfASphereIsItsClosedForm) {
     const Vec3d center = random_direction(random), normal = random_direction(random);
     const double cosine = dot(center, normal);
     if (cosine < radius) continue;  // all of it above the horizon
-    const double expected = kPi * radius * radius * cosine;
+    const double expected = std::numbers::pi * radius * radius * cosine;
     const double value = ellipsoid_irradiance({center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}, normal);
     const auto outline = silhouette({center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {});
     worst = std::max(worst, std::fabs(value - expected));
@@ -53,7 +52,7 @@ TEST(EllipseIrradiance, OfASphereIsItsClosedForm) {
 
 TEST(EllipseIrradiance, OfADiskOnTheAxisIsItsClosedForm) {
   for (double radius : {0.01, 0.5, 1.0, 3.0, 100.0}) {
-    const double expected = kPi * radius * radius / (1 + radius * radius);
+    const double expected = std::numbers::pi * radius * radius / (1 + radius * radius);
     EXPECT_NEAR(ellipse_irradiance({{0, 0, 1}, {0, radius, 0}, {radius, 0, 0}}, {}, {0, 0, 1}), expected, 1e-12);
     EXPECT_EQ(ellipse_irradiance({{0, 0, 1}, {radius, 0, 0}, {0, radius, 0}}, {}, {0, 0, 1}), 0.0) << "from behind";
     // Upright: half of it is above the horizon, and the other half looks the same.
@@ -155,7 +154,7 @@ TEST(EllipsePolygons, GgxHoldsItsErrorWithTwelveVertices) {
   double worst = 0, sum = 0;
   int count = 0;
   for (int i = 0; i < 300; ++i) {
-    const double view = random.uniform(5, 75) * kPi / 180;
+    const double view = random.uniform(5, 75) * std::numbers::pi / 180;
     ShadingPoint at;
     at.normal = {0, 0, 1};
     at.view = {-std::sin(view), 0, std::cos(view)};
@@ -194,7 +193,7 @@ TEST(EllipsePolygons, HoldTheirErrorNearTheRim) {
     for (const double side : {1.0, -1.0})
       for (const double alpha : {0.04, 0.1, 0.25, 0.7})
         for (int i = 0; i < 8; ++i) {
-          const double around = random.uniform(-kPi, kPi), radius = 1 + side * gap;
+          const double around = random.uniform(-std::numbers::pi, std::numbers::pi), radius = 1 + side * gap;
           const Vec3d p{radius * std::cos(around), radius * std::sin(around), gap * std::pow(10, random.uniform(-1.5, 0.5))};
           ShadingPoint at;
           at.position = p;
@@ -259,4 +258,4 @@ TEST(EllipsePolygons, RefuseOddNumbersOfVertices) {
   EXPECT_THROW(polygon_for_lobe(e, {}, {{0, 0, 1}, 0.1}, 4), Error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::ellipse_light_test

@@ -1,26 +1,26 @@
 #include "steradian/light_units.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "steradian/area_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/polygon_light.h"
 
-namespace steradian {
+namespace steradian::light_units_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // All that a light sends arrives on the walls of a ball about it: 600 x 300 midpoints.
 double power_by_quadrature(const auto& irradiance, double radius) {
   double sum = 0;
   for (int i = 0; i < 300; ++i)
     for (int k = 0; k < 600; ++k) {
-      const double z = -1 + 2 * (i + 0.5) / 300, phi = 2 * kPi * (k + 0.5) / 600, s = std::sqrt(1 - z * z);
+      const double z = -1 + 2 * (i + 0.5) / 300, phi = 2 * std::numbers::pi * (k + 0.5) / 600, s = std::sqrt(1 - z * z);
       const Vec3d u{s * std::cos(phi), s * std::sin(phi), z};
       sum += irradiance(u * radius, -u);
     }
-  return sum * 4 * kPi * radius * radius / (300 * 600);
+  return sum * 4 * std::numbers::pi * radius * radius / (300 * 600);
 }
 
 TEST(LightUnits, PowerIsWhatArrives) {
@@ -32,15 +32,15 @@ TEST(LightUnits, PowerIsWhatArrives) {
   EXPECT_DOUBLE_EQ(power_from_radiance(radiance, 0.5), 100);
   // A ball's surface sends to one side, too: outwards.
   const Ellipsoid ball{{}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
-  const double of_ball = radiance_from_power(100, 4 * kPi * 0.01);
+  const double of_ball = radiance_from_power(100, 4 * std::numbers::pi * 0.01);
   EXPECT_NEAR(power_by_quadrature([&](Vec3d p, Vec3d n) { return of_ball * ellipsoid_irradiance(ball, p, n); }, 2), 100, 1e-9);
   EXPECT_DOUBLE_EQ(power_from_intensity(intensity_from_power(100)), 100);
 }
 
 TEST(LightUnits, ABlenderPointIsTheSameWithAndWithoutARadius) {
-  const double area = 4 * kPi * 0.01 * 0.01;
+  const double area = 4 * std::numbers::pi * 0.01 * 0.01;
   // Radiance times the disk that one sees of the ball is its intensity.
-  EXPECT_NEAR(light_factor(LightSystem::blender, EmitterKind::sphere, area) * kPi * 0.01 * 0.01,
+  EXPECT_NEAR(light_factor(LightSystem::blender, EmitterKind::sphere, area) * std::numbers::pi * 0.01 * 0.01,
               light_factor(LightSystem::blender, EmitterKind::point), 1e-15);
 }
 
@@ -64,4 +64,4 @@ TEST(LightUnits, SunnySixteen) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::light_units_test

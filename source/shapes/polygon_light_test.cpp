@@ -8,14 +8,12 @@
 
 #include "reference/random_configurations.h"
 
-namespace steradian {
+namespace steradian::polygon_light_test {
 namespace {
 
 using reference::Random;
 using reference::random_configuration;
 using reference::random_direction;
-
-constexpr double kPi = std::numbers::pi;
 
 PreparedPolygon polygon(std::vector<Vec3d> vertices, bool two_sided = true) {
   PolygonLight light;
@@ -25,7 +23,7 @@ PreparedPolygon polygon(std::vector<Vec3d> vertices, bool two_sided = true) {
 }
 
 double factor(const PreparedPolygon& light, Vec3d position = {}, Vec3d normal = {0, 0, 1}) {
-  return polygon_irradiance(light, position, normal) / kPi;
+  return polygon_irradiance(light, position, normal) / std::numbers::pi;
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ TEST(PolygonIrradiance, OfAParallelRectangleUnderItsCornerIsTheLiteratures) {
   for (double a : {0.01, 0.5, 1.0, 3.0, 100.0})
     for (double b : {0.1, 1.0, 20.0}) {
       const double x = std::sqrt(1 + a * a), y = std::sqrt(1 + b * b);
-      const double expected = (a / x * std::atan(b / x) + b / y * std::atan(a / y)) / (2 * kPi);
+      const double expected = (a / x * std::atan(b / x) + b / y * std::atan(a / y)) / (2 * std::numbers::pi);
       EXPECT_NEAR(factor(polygon({{0, 0, 1}, {a, 0, 1}, {a, b, 1}, {0, b, 1}})), expected, 1e-12) << a << " " << b;
     }
 }
@@ -46,7 +44,7 @@ TEST(PolygonIrradiance, OfAPerpendicularRectangleIsTheLiteratures) {
   for (double a : {0.01, 0.5, 1.0, 3.0, 100.0})
     for (double b : {0.1, 1.0, 20.0}) {
       const double d = std::sqrt(1 + a * a);
-      const double expected = (std::atan(b) - std::atan(b / d) / d) / (2 * kPi);
+      const double expected = (std::atan(b) - std::atan(b / d) / d) / (2 * std::numbers::pi);
       EXPECT_NEAR(factor(polygon({{1, 0, 0}, {1, b, 0}, {1, b, a}, {1, 0, a}})), expected, 1e-12) << a << " " << b;
       // What is below the horizon adds nothing.
       EXPECT_NEAR(factor(polygon({{1, 0, -7}, {1, b, -7}, {1, b, a}, {1, 0, a}})), expected, 1e-12) << a << " " << b;
@@ -64,7 +62,7 @@ TEST(PolygonIrradiance, OfAnInclinedRectangleIsTheLiteratures) {
         const double root = std::sqrt(b * b + s * s);
         const double expected =
             (std::atan(b) + (a * c - 1) / v * std::atan(b / v) + b * c / root * (std::atan((a - c) / root) + std::atan(c / root))) /
-            (2 * kPi);
+            (2 * std::numbers::pi);
         const double x = 1 + a * std::cos(phi), z = a * s;
         EXPECT_NEAR(factor(polygon({{1, 0, 0}, {1, b, 0}, {x, b, z}, {x, 0, z}})), expected, 1e-12) << phi << " " << a << " " << b;
       }
@@ -77,17 +75,17 @@ TEST(PolygonIrradiance, OfRegularPolygonsIsTheirClosedFormAndTendsToTheDisk) {
   for (int n = 3; n <= 3000; n *= 10) {
     std::vector<Vec3d> vertices;
     for (int i = 0; i < n; ++i) {
-      const double phi = 2 * kPi * i / n;
+      const double phi = 2 * std::numbers::pi * i / n;
       vertices.push_back({radius * std::cos(phi), radius * std::sin(phi), 1});
     }
-    const double apothem = radius * std::cos(kPi / n), half_side = radius * std::sin(kPi / n);
+    const double apothem = radius * std::cos(std::numbers::pi / n), half_side = radius * std::sin(std::numbers::pi / n);
     const double slant = std::hypot(1, apothem);
-    const double expected = n / kPi * apothem / slant * std::atan(half_side / slant);
+    const double expected = n / std::numbers::pi * apothem / slant * std::atan(half_side / slant);
     const double found = factor(polygon(vertices));
     EXPECT_NEAR(found, expected, 1e-12) << n;
     EXPECT_LT(disk - found, previous) << n;
     // The polygon lacks segments of the disk: area of the disk times (2/3) (pi/n)^2 to first order, at most doubled.
-    EXPECT_LE(disk - found, radius * radius * (2.0 / 3) * (kPi / n) * (kPi / n) * 2 + 1e-12) << n;
+    EXPECT_LE(disk - found, radius * radius * (2.0 / 3) * (std::numbers::pi / n) * (std::numbers::pi / n) * 2 + 1e-12) << n;
     EXPECT_GT(disk - found, 0) << n;
     previous = disk - found;
   }
@@ -198,4 +196,4 @@ TEST(PreparedPolygon, APointInItsPlaneHasNoSide) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::polygon_light_test

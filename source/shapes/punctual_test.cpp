@@ -8,7 +8,7 @@
 #include "steradian/kernels.h"
 #include "steradian/vector.h"
 
-namespace steradian {
+namespace steradian::punctual_test {
 namespace {
 
 TEST(Punctual, FallsOffByDistanceRangeAndCone) {
@@ -44,4 +44,4 @@ TEST(Punctual, FallsOffByDistanceRangeAndCone) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::punctual_test

@@ -9,7 +9,7 @@
 #include "paths.h"
 #include "targets.h"
 
-namespace steradian {
+namespace steradian::corpus_test {
 namespace {
 
 void run_all(const char* target, void (*run)(fuzz::Input)) {
@@ -35,4 +35,4 @@ TEST(FuzzCorpus, Samples) { run_all("samples", fuzz::samples); }
 TEST(FuzzCorpus, Profile) { run_all("profile", fuzz::profile); }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::corpus_test

@@ -13,12 +13,11 @@
 #include "reference/random_configurations.h"
 #include "steradian/capsule_light.h"
 
-namespace steradian::eval {
+namespace steradian::eval::capsule_light_test {
 namespace {
 
 using reference::Random;
 using reference::random_direction;
-constexpr double kPi = std::numbers::pi;
 
 Material material_of(Brdf brdf) {
   Material m;
@@ -194,7 +193,7 @@ TEST(EvalCapsule, ATinyOneIsAPointLight) {
   for (double size : {1e-6, 1e-7, 1e-8, 1e-12}) {
     const Vec3d center{1, 2, 2}, half = Vec3d{0.3, -0.1, 0.2} * size;
     const double sine = length(cross(normalized(half), normalized(center)));
-    const double area = 2 * length(half) * 2 * (0.2 * size) * sine + kPi * 0.04 * size * size;
+    const double area = 2 * length(half) * 2 * (0.2 * size) * sine + std::numbers::pi * 0.04 * size * size;
     const double expected = ask(PointLight{center, {area, area, area}}, kFloor, ggx(0.3)).radiance.x;
     EXPECT_NEAR(ask(tube(center - half, center + half, 0.2 * size), kFloor, ggx(0.3)).radiance.x / expected, 1, 1e-3) << size;
   }
@@ -239,7 +238,7 @@ TEST(EvalCapsule, ReadsItsKeysAndNamesWrongOnes) {
     answer_line(reader, std::string_view(padded).substr(0, line.size()), out);
     return out;
   };
-  const double expected = capsule_irradiance({{-1, 2, 0}, {1, 2, 0}, 0.25}, {}, {0, 1, 0}) / kPi * 3;
+  const double expected = capsule_irradiance({{-1, 2, 0}, {1, 2, 0}, 0.25}, {}, {0, 1, 0}) / std::numbers::pi * 3;
   const std::string out = read(R"({"type": "capsule", "ends": [[-1,2,0],[1,2,0]], "radius": 0.25, "radiance": 3})");
   EXPECT_NEAR(std::stod(out.substr(out.find('[') + 1)), expected, 1e-15) << out;
   const auto refuses = [&](const char* light, const char* problem) {
@@ -255,4 +254,4 @@ TEST(EvalCapsule, ReadsItsKeysAndNamesWrongOnes) {
   refuses(R"({"type": "capsule", "ends": [[0,1,0],[0,2,0]], "radius": 1, "two_sided": true})", "light.two_sided: unknown key");
 }
 
-}  // namespace steradian::eval
+}  // namespace steradian::eval::capsule_light_test

@@ -8,7 +8,7 @@
 #include "eval/answer.h"
 #include "steradian/polygon_light.h"
 
-namespace steradian::eval {
+namespace steradian::eval::eval_test {
 namespace {
 
 using nlohmann::json;
@@ -415,4 +415,4 @@ TEST(Eval, DerivativesAreRefusedWhereThereAreNone) {
 }
 
 }  // namespace
-}  // namespace steradian::eval
+}  // namespace steradian::eval::eval_test

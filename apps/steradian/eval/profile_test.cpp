@@ -8,7 +8,7 @@
 
 #include "eval/answer.h"
 
-namespace steradian::eval {
+namespace steradian::eval::profile_test {
 namespace {
 
 nlohmann::json answer_to(const std::string& light, const std::string& position = "[0,0,0]") {
@@ -99,4 +99,4 @@ TEST(EvalProfile, ABadFileIsNamedByTheKey) {
 }
 
 }  // namespace
-}  // namespace steradian::eval
+}  // namespace steradian::eval::profile_test

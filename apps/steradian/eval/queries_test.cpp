@@ -7,7 +7,7 @@
 
 #include "eval/answer.h"
 
-namespace steradian::eval {
+namespace steradian::eval::queries_test {
 namespace {
 
 using nlohmann::json;
@@ -121,4 +121,4 @@ TEST(EvalQueries, DerivativesByParametersAreThoseOfDifferences) {
   EXPECT_TRUE(lambert.contains("d_radiance") && !lambert.contains("d_f0") && !lambert.contains("d_roughness")) << lambert;
 }
 
-}  // namespace steradian::eval
+}  // namespace steradian::eval::queries_test

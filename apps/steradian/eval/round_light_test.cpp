@@ -9,12 +9,11 @@
 #include "eval/answer.h"
 #include "reference/random_configurations.h"
 
-namespace steradian::eval {
+namespace steradian::eval::round_light_test {
 namespace {
 
 using reference::Random;
 using reference::random_direction;
-constexpr double kPi = std::numbers::pi;
 
 AreaLight sphere(Vec3d center, double radius) { return {Ellipsoid{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}; }
 AreaLight disk(Vec3d center, Vec3d x, Vec3d y) { return {Ellipse{center, x, y}}; }
@@ -159,10 +158,10 @@ TEST(EvalRoundLight, DoesNotDependOnScale) {
 TEST(EvalRoundLight, ATinyOneIsAPointLight) {
   // On both sides of the size at which it becomes one: intensity pi R^2, up to the rounding of the polygon's vertices.
   for (double radius : {1e-8, 1e-10, 1e-14}) {
-    const double share = kPi * radius * radius;
-    const double expected = ask(sphere({1, 2, 2}, 1e-3), kFloor, ggx(0.3)).radiance.x * share / (kPi * 1e-6);
+    const double share = std::numbers::pi * radius * radius;
+    const double expected = ask(sphere({1, 2, 2}, 1e-3), kFloor, ggx(0.3)).radiance.x * share / (std::numbers::pi * 1e-6);
     EXPECT_NEAR(ask(sphere({1, 2, 2}, radius), kFloor, ggx(0.3)).radiance.x / expected, 1, 0.01) << radius;
   }
 }
 
-}  // namespace steradian::eval
+}  // namespace steradian::eval::round_light_test

@@ -10,7 +10,7 @@
 
 #include "eval/answer.h"
 
-namespace steradian::eval {
+namespace steradian::eval::shadowed_derivatives_test {
 namespace {
 
 using nlohmann::json;
@@ -219,4 +219,4 @@ TEST(ShadowedDerivatives, WithNothingInTheWayAreThoseOfTheWholeLight) {
 }
 
 }  // namespace
-}  // namespace steradian::eval
+}  // namespace steradian::eval::shadowed_derivatives_test

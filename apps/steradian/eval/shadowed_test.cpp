@@ -6,7 +6,7 @@
 
 #include "eval/answer.h"
 
-namespace steradian::eval {
+namespace steradian::eval::shadowed_test {
 namespace {
 
 using nlohmann::json;
@@ -104,4 +104,4 @@ TEST(ShadowedEval, NamesWhatIsWrongWithOccluders) {
 }
 
 }  // namespace
-}  // namespace steradian::eval
+}  // namespace steradian::eval::shadowed_test

@@ -12,7 +12,7 @@
 #include "steradian/ltc.h"
 #include "steradian/reference.h"
 
-namespace steradian {
+namespace steradian::albedo_test {
 namespace {
 
 Material ggx(double alpha_x, double alpha_y) {
@@ -142,4 +142,4 @@ TEST(MultipleScattering, StaysInBoundsAtGrazingViews) {
       }
 }
 
-}  // namespace steradian
+}  // namespace steradian::albedo_test

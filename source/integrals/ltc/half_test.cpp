@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace steradian {
+namespace steradian::half_test {
 
 TEST(Half, EveryFiniteHalfComesBack) {
   for (unsigned bits = 0; bits < 0x10000; ++bits) {
@@ -31,4 +31,4 @@ TEST(Half, OverflowsToInfinityAndKeepsNan) {
   EXPECT_TRUE(std::isnan(float_from_half(half_from_float(NAN))));
 }
 
-}  // namespace steradian
+}  // namespace steradian::half_test

@@ -14,19 +14,17 @@
 #include "reference/spherical_region.h"
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::ltc_kernel_test {
 namespace {
 
 using namespace fit;
-
-constexpr double kPi = std::numbers::pi;
 
 // Gauss-Legendre on [0, 1] by Newton's method on Legendre's polynomial.
 struct Rule {
   std::vector<double> x, w;
   explicit Rule(int n) {
     for (int i = 0; i < n; ++i) {
-      double t = std::cos(kPi * (i + 0.75) / (n + 0.5)), derivative = 1;
+      double t = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), derivative = 1;
       for (int iteration = 0; iteration < 20; ++iteration) {
         double p = 1, previous = 0;
         for (int k = 1; k <= n; ++k) {
@@ -95,7 +93,7 @@ double quadrature(const PreparedPolygon& light, const LtcInverse& m) {
       sum += volume * inner;
     }
   }
-  return sum * determinant / kPi;
+  return sum * determinant / std::numbers::pi;
 }
 
 // Tilts, shears and widths that the fits have, short of the narrow ones that defeat a fixed rule.
@@ -220,10 +218,10 @@ TEST(ClippedSphere, IsItsQuadrature) {
       double sum = 0;
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
-          const double h = 1 - (1 - cap) * (i + 0.5) / n, phi = kPi * (j + 0.5) / n;
+          const double h = 1 - (1 - cap) * (i + 0.5) / n, phi = std::numbers::pi * (j + 0.5) / n;
           sum += std::max(h * cosine + std::sqrt(1 - h * h) * std::cos(phi) * sine, 0.0);
         }
-      const double expected = sum * 2 * kPi * (1 - cap) / (n * n) / (kPi * f);
+      const double expected = sum * 2 * std::numbers::pi * (1 - cap) / (n * n) / (std::numbers::pi * f);
       // The integrand has a kink; the midpoint rule's error there is a few times 1/n^2.
       EXPECT_NEAR(clipped_sphere_form_factor(cosine, f), expected, 2e-5) << cosine << " " << f;
     }
@@ -258,4 +256,4 @@ TEST(LtcLayers, KeepTheirEnergyBudget) {
   EXPECT_DOUBLE_EQ(k.ltc_specular_with_fresnel_lobe(0.04, 1.0, 0.9, 0.5, 0.1, 0.7).v, 0.04 * 0.45 + 0.96 * 0.07);
 }
 
-}  // namespace steradian
+}  // namespace steradian::ltc_kernel_test

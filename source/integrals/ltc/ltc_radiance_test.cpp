@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/random.h"
 #include "fit/lobe.h"
@@ -12,10 +13,9 @@
 #include "steradian/error.h"
 #include "steradian/ltc.h"
 
-namespace steradian {
+namespace steradian::ltc_radiance_test {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
 constexpr LtcMethod kMethods[] = {LtcMethod::classic, LtcMethod::fresnel, LtcMethod::compact, LtcMethod::clipless,
                                   LtcMethod::representative_point};
 
@@ -148,7 +148,7 @@ TEST(RepresentativePoint, IsTheReferenceForASmallLightOnARoughSurface) {
     // is below 1/l_z. A tenth more for the second order: radius/alpha is at most 0.03.
     const double v_dot_h = dot(view, normalized(view + to));
     const double bound =
-        1.1 * (2 * std::sqrt(solid_angle / (4 * kPi * v_dot_h)) / m.alpha_x + radius / m.alpha_x + radius / (to.z - radius));
+        1.1 * (2 * std::sqrt(solid_angle / (4 * std::numbers::pi * v_dot_h)) / m.alpha_x + radius / m.alpha_x + radius / (to.z - radius));
     EXPECT_NEAR(found / expected, 1, bound) << "roughness " << std::sqrt(m.alpha_x) << " l_z " << to.z << " v_z " << view.z;
     worst = std::max(worst, std::fabs(found / expected - 1));
   }
@@ -158,7 +158,7 @@ TEST(RepresentativePoint, IsTheReferenceForASmallLightOnARoughSurface) {
 // The other end: a mirror that sees the light sends its radiance, at every view.
 TEST(RepresentativePoint, OfAMirrorIsTheLightsRadiance) {
   for (double degrees : {0.0, 30.0, 60.0, 80.0, 86.0}) {
-    const double t = degrees * kPi / 180;
+    const double t = degrees * std::numbers::pi / 180;
     const Vec3d view = {std::sin(t), 0, std::cos(t)}, mirror = {-view.x, 0, view.z};
     const Frame frame = Frame::from_normal(mirror);
     const double half_side = 0.04;  // wholly above the horizon up to 86 degrees: 0.04 sqrt(2) < cos 86
@@ -288,4 +288,4 @@ TEST(LtcPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
     }
 }
 
-}  // namespace steradian
+}  // namespace steradian::ltc_radiance_test

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "steradian/kernels.h"
 
-namespace steradian {
+namespace steradian::textured_light_test {
 namespace {
 
 using namespace fit;
@@ -307,4 +307,4 @@ TEST(TexturedLight, ColoursOfOneLuminance) {
   EXPECT_LT(std::sqrt(error / signal), 0.02);
 }
 
-}  // namespace steradian
+}  // namespace steradian::textured_light_test

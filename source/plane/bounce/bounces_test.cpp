@@ -9,7 +9,7 @@
 #include "plane/exact/world.h"
 #include "steradian/plane_bounce.h"
 
-namespace steradian::plane {
+namespace steradian::plane::bounces_test {
 namespace {
 
 using std::numbers::pi;
@@ -318,4 +318,4 @@ TEST(PlaneBounces, FramesEqualTheQuery) {
                          [](const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }));
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::bounces_test

@@ -10,7 +10,7 @@
 #include "plane/bounce/weigh.h"
 #include "plane/exact/random.h"
 
-namespace steradian::plane {
+namespace steradian::plane::outlook_test {
 namespace {
 
 using std::numbers::pi;
@@ -148,4 +148,4 @@ TEST(PlaneOutlook, WeighsPiecesAsQuadratureDoes) {
   std::printf("weights: within %.1e of quadrature\n", worst);
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::outlook_test

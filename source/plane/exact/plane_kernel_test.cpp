@@ -6,7 +6,7 @@
 #include "plane/exact/random.h"
 #include "steradian/kernels.h"
 
-namespace steradian::plane {
+namespace steradian::plane::plane_kernel_test {
 namespace {
 
 // The window (1 - r^2)^2 over the near side of a disk, between two slopes within its tangents: Simpson's rule.
@@ -42,4 +42,4 @@ TEST(PlaneKernels, DiskWindowAgreesWithQuadrature) {
   EXPECT_LE(worst_whole, 1e-13);  // a few dozen roundings of sums of order 1
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::plane_kernel_test

@@ -11,7 +11,7 @@
 #include "plane/exact/world.h"
 #include "steradian/error.h"
 
-namespace steradian::plane {
+namespace steradian::plane::world_test {
 namespace {
 
 using std::numbers::pi;
@@ -390,4 +390,4 @@ TEST(PlaneWorld, RefusesWhatIsNotANumberWithTheBodysName) {
   }
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::world_test

@@ -15,7 +15,7 @@
 #include "steradian/plane_normals.h"
 #include "steradian/plane_stage.h"
 
-namespace steradian::plane {
+namespace steradian::plane::extras_test {
 namespace {
 
 using std::numbers::pi;
@@ -479,4 +479,4 @@ TEST(PlaneExtras, ValuesThatMeanNothingAreRefused) {
   refused([](PlaneScene& s) { s.suns[0].direction = INFINITY; });
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::extras_test

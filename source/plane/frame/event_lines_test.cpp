@@ -12,7 +12,7 @@
 #include "plane/exact/world.h"
 #include "steradian/plane.h"
 
-namespace steradian::plane {
+namespace steradian::plane::event_lines_test {
 namespace {
 
 using D = Real<double>;
@@ -181,4 +181,4 @@ TEST(EventLines, KnowTheShadowOfASquare) {
   }
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::event_lines_test

@@ -9,7 +9,7 @@
 #include "plane/exact/families.h"
 #include "steradian/plane.h"
 
-namespace steradian::plane {
+namespace steradian::plane::frame_picture_test {
 
 TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   const PlaneWorld world(make_plane_family(8, 2));
@@ -95,4 +95,4 @@ TEST(PlaneFrame, MomentsPointTowardsTheLight) {
     }
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::frame_picture_test

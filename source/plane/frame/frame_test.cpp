@@ -16,7 +16,7 @@
 #include "plane/frame/light_field.h"
 #include "plane/frame/scene.h"
 
-namespace steradian::plane {
+namespace steradian::plane::frame_test {
 namespace {
 
 double largest_radiance(const PlaneScene& scene) {
@@ -497,4 +497,4 @@ TEST(PlaneFrame, EqualsTheQueryInASmallWindow) {
   }
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::frame_test

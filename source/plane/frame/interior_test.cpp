@@ -6,7 +6,7 @@
 
 #include "plane/exact/world.h"
 
-namespace steradian::plane {
+namespace steradian::plane::interior_test {
 namespace {
 
 // A snake that winds about itself and a comb: from most of their places a chain of their own edges hides what reaches into them.
@@ -65,4 +65,4 @@ TEST(PlaneInterior, EqualsTheQueryWithinWindingLights) {
   EXPECT_LE(worst, 2e-7);
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::interior_test

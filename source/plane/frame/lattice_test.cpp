@@ -8,7 +8,7 @@
 #include "plane/frame/light_field.h"
 #include "steradian/plane_bounce.h"
 
-namespace steradian::plane {
+namespace steradian::plane::lattice_test {
 namespace {
 
 PlaneScene closed_room() {
@@ -69,4 +69,4 @@ TEST(PlaneLattice, IsOffByWhatItsToleranceSays) {
   EXPECT_LT(compare(whole, render_plane(world, options, &stats)).worst, 1e-5);
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::lattice_test

@@ -8,7 +8,7 @@
 #include "plane/frame/light_field.h"
 #include "steradian/plane_stage.h"
 
-namespace steradian::plane {
+namespace steradian::plane::stage_test {
 namespace {
 
 PlaneBody random_body(SceneRandom& random, const PlaneScene& scene) {
@@ -118,4 +118,4 @@ TEST(PlaneStage, DrawsNothingWhereNothingHasChanged) {
   EXPECT_THROW(stage.remove(1000), std::exception);
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::stage_test

@@ -5,7 +5,7 @@
 #include "plane/svg/values.h"
 #include "steradian/plane_animation.h"
 
-namespace steradian::plane::svg {
+namespace steradian::plane::svg::animate_test {
 namespace {
 
 PlaneSvg at(const std::string& shapes, double seconds) {
@@ -124,4 +124,4 @@ TEST(PlaneAnimation, NamesWhatItLeavesOut) {
     EXPECT_THROW(ignored(bad), std::exception) << bad;
 }
 
-}  // namespace steradian::plane::svg
+}  // namespace steradian::plane::svg::animate_test

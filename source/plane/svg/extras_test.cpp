@@ -7,7 +7,7 @@
 #include "steradian/error.h"
 #include "steradian/plane.h"
 
-namespace steradian {
+namespace steradian::extras_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -116,4 +116,4 @@ TEST(PlaneSvgExtras, WhatMeansNothingIsRefusedWithItsPlace) {
   EXPECT_THROW(read("", " data-fog-density=\"-1\""), Error);
 }
 
-}  // namespace steradian
+}  // namespace steradian::extras_test

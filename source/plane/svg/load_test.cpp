@@ -10,7 +10,7 @@
 #include "steradian/error.h"
 #include "steradian/plane.h"
 
-namespace steradian::plane {
+namespace steradian::plane::load_test {
 namespace {
 
 PlaneSvg load(const std::string& inside, const std::string& attributes = "viewBox=\"0 0 100 100\"") {
@@ -481,4 +481,4 @@ TEST(PlaneSvg, ReadsAndWritesAlbedos) {
   }
 }
 
-}  // namespace steradian::plane
+}  // namespace steradian::plane::load_test

@@ -8,7 +8,7 @@
 
 #include "core/simd.h"
 
-namespace steradian {
+namespace steradian::batch_test {
 namespace {
 
 struct Points {
@@ -124,4 +124,4 @@ TEST(Batch, WhatIsNoSurfaceIsDarkAndWhatIsNoNumberIsNone) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::batch_test

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace steradian {
+namespace steradian::camera_rays_test {
 namespace {
 
 // Each of `count` columns and rows holds one place, in its middle: so their mean is the pixel's centre, but for roundings of floats.
@@ -39,4 +39,4 @@ TEST(CameraRays, PlacesInAPixelFillItsQuarters) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::camera_rays_test

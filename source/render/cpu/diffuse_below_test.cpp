@@ -14,7 +14,7 @@
 #include "steradian/ltc.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::diffuse_below_test {
 namespace {
 
 using namespace scene;
@@ -144,4 +144,4 @@ TEST(LambertUnderFresnel, PicturesShowIt) {
     }
 }
 
-}  // namespace steradian
+}  // namespace steradian::diffuse_below_test

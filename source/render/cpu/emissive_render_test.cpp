@@ -4,7 +4,7 @@
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::emissive_render_test {
 namespace {
 
 using namespace scene;
@@ -80,4 +80,4 @@ TEST(EmissiveRender, APanelIsNotLitByItself) {
         }
 }
 
-}  // namespace steradian
+}  // namespace steradian::emissive_render_test

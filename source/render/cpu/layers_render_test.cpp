@@ -4,7 +4,7 @@
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::layers_render_test {
 namespace {
 
 using namespace scene;
@@ -97,4 +97,4 @@ TEST(Layers, TransmissionTakesFromTheDiffuseLobe) {
   expect_near(middle(scene, "reference"), whole * 0.5f);
 }
 
-}  // namespace steradian
+}  // namespace steradian::layers_render_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace steradian {
+namespace steradian::light_bounds_test {
 namespace {
 
 struct Random {
@@ -100,4 +100,4 @@ TEST(LightBounds, ARoundLightThatCountsAsLargerIsNoLongerSeenWhole) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::light_bounds_test

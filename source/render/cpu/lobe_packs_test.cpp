@@ -13,7 +13,7 @@
 #include "render/cpu/phong.h"
 #include "steradian/ellipse_light.h"
 
-namespace steradian {
+namespace steradian::lobe_packs_test {
 namespace {
 
 using reference::Random;
@@ -206,4 +206,4 @@ TEST(LobePacks, NeighboursNextToTheRimChangeNothing) {
     }
 }
 
-}  // namespace steradian
+}  // namespace steradian::lobe_packs_test

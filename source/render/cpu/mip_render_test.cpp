@@ -9,7 +9,7 @@
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::mip_render_test {
 namespace {
 
 // A floor of squares to the horizon, that shines by itself.
@@ -118,4 +118,4 @@ TEST(Textures, FootprintsFollowTheNextPixel) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::mip_render_test

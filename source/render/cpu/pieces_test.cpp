@@ -5,7 +5,7 @@
 
 #include "render/cpu/closed_form.h"
 
-namespace steradian {
+namespace steradian::pieces_test {
 namespace {
 
 constexpr std::size_t kPoints = 16;
@@ -50,4 +50,4 @@ TEST(Pieces, NearPartsDoNotMindFarOnesInTheirPack) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::pieces_test

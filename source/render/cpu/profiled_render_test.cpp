@@ -14,7 +14,7 @@
 #include "steradian/radiance.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::profiled_render_test {
 namespace {
 
 std::shared_ptr<const LightProfile> lamp_profile() {
@@ -199,4 +199,4 @@ TEST(ProfiledRender, TheCameraSeesTheEmission) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::profiled_render_test

@@ -18,7 +18,7 @@
 #include "steradian/ltc.h"
 #include "steradian/radiance.h"
 
-namespace steradian {
+namespace steradian::render_test {
 namespace {
 
 using namespace scene;
@@ -496,4 +496,4 @@ TEST(Render, MultipleScatteringBrightensARoughMetal) {
   }
 }
 
-}  // namespace steradian
+}  // namespace steradian::render_test

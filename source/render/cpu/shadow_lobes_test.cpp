@@ -12,7 +12,7 @@
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::shadow_lobes_test {
 namespace {
 
 using scene::quad_mesh;
@@ -302,4 +302,4 @@ TEST(ShadowedLobes, CutOutsLetThroughWhatRaysFind) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::shadow_lobes_test

@@ -9,7 +9,7 @@
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::shadow_render_test {
 namespace {
 
 using namespace scene;
@@ -176,4 +176,4 @@ TEST(ShadowRender, NothingBetweenChangesNothing) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::shadow_render_test

@@ -6,7 +6,7 @@
 
 #include "reference/random_configurations.h"
 
-namespace steradian {
+namespace steradian::surface_pack_test {
 namespace {
 
 using reference::Random;
@@ -193,4 +193,4 @@ TEST(SurfacePacks, FollowTheSurfaceOfEverySlot) {
     }
 }
 
-}  // namespace steradian
+}  // namespace steradian::surface_pack_test

@@ -10,7 +10,7 @@
 #include "steradian/closed_form.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::surface_test {
 namespace {
 
 using namespace scene;
@@ -166,4 +166,4 @@ TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
   EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold " << test.threshold;
 }
 
-}  // namespace steradian
+}  // namespace steradian::surface_test

@@ -9,7 +9,7 @@
 #include "reference/random_configurations.h"
 #include "render/cpu/tile.h"
 
-namespace steradian {
+namespace steradian::textured_means_test {
 namespace {
 
 using reference::Random;
@@ -45,9 +45,7 @@ void put(TileVector& v, std::size_t i, Vec3d a) {
   v.y[i] = static_cast<float>(a.y);
   v.z[i] = static_cast<float>(a.z);
 }
-Vec3d get(const TileVector& v, std::size_t i) {
-  return {static_cast<double>(v.x[i]), static_cast<double>(v.y[i]), static_cast<double>(v.z[i])};
-}
+Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(get(v, i)); }
 
 }  // namespace
 
@@ -89,10 +87,10 @@ TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
           EXPECT_TRUE(tile->sheen_alpha[i] > 0 || out->coat[i] == 0);
           continue;
         }
-        const ShadingPoint at{get(tile->position, i), normalized(get(tile->normal, i)), normalized(get(tile->view, i))};
+        const ShadingPoint at{double_of(tile->position, i), normalized(double_of(tile->normal, i)), normalized(double_of(tile->view, i))};
         const double width = std::sqrt(static_cast<double>(tile->alpha_x[i]) * static_cast<double>(tile->alpha_y[i]));
         const auto truth = static_cast<Vec3d>(ggx ? window.textured->seen_by_ggx(at, width) : window.textured->seen_by_diffuse(at));
-        const Vec3d off = get(out->radiance, i) - truth;
+        const Vec3d off = double_of(out->radiance, i) - truth;
         const double error = length(off) / length(truth);
         worst = std::max(worst, error);
         square += error * error;
@@ -104,4 +102,4 @@ TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
     }
 }
 
-}  // namespace steradian
+}  // namespace steradian::textured_means_test

@@ -11,7 +11,7 @@
 #include "steradian/render.h"
 #include "paths.h"
 
-namespace steradian {
+namespace steradian::textured_render_test {
 namespace {
 
 using namespace image;
@@ -149,4 +149,4 @@ TEST(TexturedRender, SaysWhichLobesSeeTheMean) {
   EXPECT_TRUE(stats.warnings.empty());
 }
 
-}  // namespace steradian
+}  // namespace steradian::textured_render_test

@@ -7,17 +7,17 @@
 
 #include "core/random.h"
 #include "image/z_test.h"
+#include "reference/random_configurations.h"
 #include "render/environment/environment_light.h"
 #include "scene/test_meshes.h"
 #include "steradian/area_light.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::environment_test {
 namespace {
 
 using namespace environment;
 using namespace scene;
-constexpr double kPi = std::numbers::pi;
 constexpr int kSide = 24;               // of pictures
 constexpr double kTargetError = 0.008;  // of the reference: an error below is lost in its noise
 
@@ -53,18 +53,13 @@ Vec3d irradiance_by_texels(const DirectionGrid& grid, Vec3d normal) {
   return sum;
 }
 
-Vec3d random_direction(reference::Random& random) {
-  const double z = random.uniform(-1, 1), phi = random.uniform(0, 2 * kPi), r = std::sqrt(1 - z * z);
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 // A ball of triangles with smooth normals, radius 1 about the origin.
 Mesh ball() {
   Mesh mesh;
   constexpr int kAround = 128, kDown = 64;
   for (int j = 0; j <= kDown; ++j)
     for (int i = 0; i <= kAround; ++i) {
-      const double theta = kPi * j / kDown, phi = 2 * kPi * i / kAround;
+      const double theta = std::numbers::pi * j / kDown, phi = 2 * std::numbers::pi * i / kAround;
       const Vec3f p = static_cast<Vec3f>(Vec3d{std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)});
       mesh.positions.push_back(p);
       mesh.normals.push_back(p);
@@ -144,7 +139,7 @@ TEST(EnvironmentHarmonics, CosineCoefficientsAreTheIntegrals) {
       }
       sum += (l == 0 ? 1 : at) * x;
     }
-    EXPECT_NEAR(cosine_coefficient(l), 2 * kPi * sum / kSteps, 1e-9) << "degree " << l;
+    EXPECT_NEAR(cosine_coefficient(l), 2 * std::numbers::pi * sum / kSteps, 1e-9) << "degree " << l;
   }
 }
 
@@ -247,7 +242,7 @@ TEST(EnvironmentSampling, DensityAndSamplesAgree) {
   Vec3d power{};
   constexpr int kSamples = 200000;
   for (int i = 0; i < kSamples; ++i) {
-    density += sampler.pdf(random_direction(random)) * 4 * kPi / kSamples;
+    density += sampler.pdf(random_direction(random)) * 4 * std::numbers::pi / kSamples;
     const double u = random.uniform(), v = random.uniform();
     const Vec3d d = sampler.sample(u, v);
     power += sampler.radiance(d) / sampler.pdf(d) / double{kSamples};
@@ -338,4 +333,4 @@ TEST(EnvironmentRender, TheBackgroundIsTheMap) {
   EXPECT_NEAR(seen.y, map.y, 0.01);
 }
 
-}  // namespace steradian
+}  // namespace steradian::environment_test

@@ -8,7 +8,7 @@
 #include "render/indirect/virtual_lights.h"
 #include "core/random.h"
 
-namespace steradian::indirect {
+namespace steradian::indirect::cull_test {
 namespace {
 
 struct Draw {
@@ -116,4 +116,4 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
 }
 
 }  // namespace
-}  // namespace steradian::indirect
+}  // namespace steradian::indirect::cull_test

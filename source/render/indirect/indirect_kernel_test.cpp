@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "render/indirect/light_sets.h"
@@ -14,20 +15,20 @@
 #include "lobes/lobe.h"
 #include "core/random.h"
 #include "paths.h"
+#include "reference/random_configurations.h"
 #include "steradian/kernels.h"
 
-namespace steradian::indirect {
+namespace steradian::indirect::indirect_kernel_test {
 namespace {
 
 using namespace fit;
 
 using D = Kernels<double>;
-constexpr double kPi = 3.14159265358979324;
 
 const double kRoughness[] = {0.2, 0.3, 0.4, 0.6, 0.8, 1.0};
 const double kAngles[] = {0, 20, 40, 60, 80};
 
-double cosine(double degrees) { return std::cos(degrees * kPi / 180); }
+double cosine(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 double median(std::vector<double> v) {
   std::sort(v.begin(), v.end());
@@ -45,11 +46,6 @@ typename K::LtcMatrix matrix(const LtcInverse& m) {
   typename K::LtcMatrix k;
   k.xx = m.xx, k.xz = m.xz, k.yy = m.yy, k.zx = m.zx, k.zz = m.zz;
   return k;
-}
-
-Vec3d random_direction(reference::Random& random) {
-  const double z = random.uniform(-1, 1), phi = random.uniform(0, 2 * kPi), s = std::sqrt(1 - z * z);
-  return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
 // A surface with its lobe, somehow turned.
@@ -164,7 +160,7 @@ TEST(IndirectKernel, LargestStretchIsTheLongestImageOfAUnitVector) {
     double least = std::fabs(end.value.inverse.yy);
     const LtcInverse& m = end.value.inverse;
     for (int s = 0; s < 20000; ++s) {
-      const double a = kPi * s / 20000, x = std::cos(a), z = std::sin(a);
+      const double a = std::numbers::pi * s / 20000, x = std::cos(a), z = std::sin(a);
       least = std::min(least, std::hypot(m.xx * x + m.xz * z, m.zx * x + m.zz * z));
     }
     EXPECT_GE(bound * least, 1 - 1e-9);
@@ -285,13 +281,13 @@ TEST(IndirectCulling, SpheroidIsSmall) {
         }
       const auto lobe = k.indirect_lobe(m, k.frame_from_normal_and_view({0.0, 0.0, 1.0}, vector<D>(view)));
       const double scale = lobe.scale.v, range2 = scale * k.indirect_largest_stretch(m).v;
-      const double determinant = scale * kPi;  // of M^-1
-      const double bound = 4 * kPi / 3 * 0.54 * 0.628 * 0.628 * std::pow(range2, 1.5) / determinant;
+      const double determinant = scale * std::numbers::pi;  // of M^-1
+      const double bound = 4 * std::numbers::pi / 3 * 0.54 * 0.628 * 0.628 * std::pow(range2, 1.5) / determinant;
       ratios.push_back(bound / volume);
-      balls.push_back(4 * kPi / 3 * std::pow(most, 1.5) / volume);
+      balls.push_back(4 * std::numbers::pi / 3 * std::pow(most, 1.5) / volume);
       // Far from the light, pairs are kept with probability bound / (d^2 threshold): per length of the way out, a ball
       // costs 4 pi most and its variance is squares / most; a tight bound costs its volume's share and varies by total.
-      gains.push_back(4 * kPi * most * (squares / most) / (ratios.back() * total * total));
+      gains.push_back(4 * std::numbers::pi * most * (squares / most) / (ratios.back() * total * total));
     }
   std::cout << "volume over the true one: spheroid median " << median(ratios) << ", worst "
             << *std::max_element(ratios.begin(), ratios.end()) << "; ball median " << median(balls) << ", worst "
@@ -315,4 +311,4 @@ TEST(IndirectCulling, WhatIsKeptWeighsWhatIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace steradian::indirect
+}  // namespace steradian::indirect::indirect_kernel_test

@@ -5,7 +5,7 @@
 
 #include "render/indirect/test_corner.h"
 
-namespace steradian::indirect {
+namespace steradian::indirect::picture_test {
 namespace {
 
 RenderOptions uncut(int lights) {
@@ -115,4 +115,4 @@ TEST(IndirectPicture, RangesThatStayDoNotFlicker) {
 }
 
 }  // namespace
-}  // namespace steradian::indirect
+}  // namespace steradian::indirect::picture_test

@@ -14,7 +14,7 @@
 #include "steradian/compare.h"
 #include "steradian/render.h"
 
-namespace steradian::indirect {
+namespace steradian::indirect::pipeline_test {
 namespace {
 
 TEST(IndirectShadowMap, CarriesTheConesFlux) {
@@ -365,4 +365,4 @@ TEST(IndirectFilter, WeighsAllPlacesOfThePatternAlike) {
 }
 
 }  // namespace
-}  // namespace steradian::indirect
+}  // namespace steradian::indirect::pipeline_test

@@ -10,7 +10,7 @@
 #include "render/lights/lobe_elements.h"
 #include "steradian/radiance.h"
 
-namespace steradian {
+namespace steradian::ggx_elements_test {
 namespace {
 
 constexpr std::size_t kPoints = 16;  // one block
@@ -116,4 +116,4 @@ TEST(GgxElements, AreWithinTheirBoundOfQuadrature) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::ggx_elements_test

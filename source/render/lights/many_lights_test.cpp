@@ -11,7 +11,7 @@
 #include "scene/test_meshes.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::many_lights_test {
 namespace {
 
 using namespace scene;
@@ -356,4 +356,4 @@ TEST(ManyLights, ShadowsStayWhereTheyAre) {
   EXPECT_GT(d.mean_bound, 0);
 }
 
-}  // namespace steradian
+}  // namespace steradian::many_lights_test

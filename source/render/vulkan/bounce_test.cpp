@@ -14,7 +14,7 @@
 #include "steradian/load_scene.h"
 #include "steradian/render_cache.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::bounce_test {
 namespace {
 
 Scene scene_of(const std::string& name) { return load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene; }
@@ -192,4 +192,4 @@ TEST_F(VulkanBounce, LeavesPathsAndShadowRaysToTheHostAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::bounce_test

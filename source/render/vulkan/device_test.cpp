@@ -14,7 +14,7 @@
 #include "render/vulkan/shaders.h"
 #include "steradian/error.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::device_test {
 
 TEST(VulkanDevice, UnknownNameIsRefusedWithTheNamesThereAre) {
   const auto devices = list_devices();
@@ -96,4 +96,4 @@ TEST(VulkanDevice, ItsLossIsAnErrorThatSaysWhatWasBeingDone) {
   }
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::device_test

@@ -14,7 +14,7 @@
 #include "render/indirect/test_corner.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::first_hits_test {
 namespace {
 
 using indirect::FirstHit;
@@ -281,4 +281,4 @@ TEST_F(VulkanMap, AsksTheHostWhereAWalkDoesNotEnd) {
   EXPECT_EQ(unlike, 0u);
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::first_hits_test

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::frame_lobes_test {
 namespace {
 
 Material phong(double exponent, bool foreshortening = false) {
@@ -151,4 +151,4 @@ TEST_F(VulkanFrame, SaysWhichLobesTheHostLights) {
   expect_same("a lobe by the host", scene, tiny("auto"));
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::frame_lobes_test

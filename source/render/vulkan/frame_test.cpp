@@ -10,7 +10,7 @@
 #include "render/vulkan/test_frames.h"
 #include "steradian/error.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::frame_test {
 namespace {
 
 // A circle of corners about a centre, in a plane z = constant, whose lit side looks along z.
@@ -323,4 +323,4 @@ TEST_F(VulkanFrame, TenThousandFramesLeaveMemoryWhereItWas) {
 
 TEST_F(VulkanFrame, FramesWithShadowsLeaveMemoryWhereItWas) { expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on); }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::frame_test

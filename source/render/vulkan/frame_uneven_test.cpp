@@ -2,7 +2,7 @@
 // them.
 #include "render/vulkan/test_frames.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::frame_uneven_test {
 namespace {
 
 // Of a lamp that shines most aside, and a little up.
@@ -196,4 +196,4 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {
       << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::frame_uneven_test

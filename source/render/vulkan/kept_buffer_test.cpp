@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::kept_buffer_test {
 namespace {
 
 TEST(KeptBuffer, GrowsAndWritesWhatIsNew) {
@@ -38,4 +38,4 @@ TEST(KeptBuffer, GrowsAndWritesWhatIsNew) {
 }
 
 }  // namespace
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::kept_buffer_test

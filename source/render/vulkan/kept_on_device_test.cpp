@@ -9,7 +9,7 @@
 #include "render/vulkan/handles.h"
 #include "render/vulkan/test_frames.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::kept_on_device_test {
 namespace {
 
 // Pictures by one cache, each held to one that is made without, on the same device.
@@ -239,4 +239,4 @@ TEST_F(KeptOnVulkan, ACacheKeepsTheDeviceAndItsPipelines) {
   EXPECT_EQ(cache.parts().on_device.first, nullptr);
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::kept_on_device_test

@@ -16,7 +16,7 @@
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::raster_surfaces_test {
 namespace {
 
 #include "shaders/layout.glsl"
@@ -416,4 +416,4 @@ TEST_F(VulkanSurfaces, LeaveTilesToTheHost) {
   expect("thin, shadows", [](SurfaceMaterial& m) { m.transmission = 0.5f; });
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::raster_surfaces_test

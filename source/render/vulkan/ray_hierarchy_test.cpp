@@ -17,7 +17,7 @@
 #include "shadow/triangle_rays.h"
 #include "steradian/load_scene.h"
 
-namespace steradian::vulkan {
+namespace steradian::vulkan::ray_hierarchy_test {
 namespace {
 
 #include "shaders/shadow_layout.glsl"
@@ -236,4 +236,4 @@ TEST_F(VulkanRays, SayWhereAWalkDoesNotEnd) {
   }
 }
 
-}  // namespace steradian::vulkan
+}  // namespace steradian::vulkan::ray_hierarchy_test

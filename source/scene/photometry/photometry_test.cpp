@@ -11,10 +11,10 @@
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 
-namespace steradian {
+namespace steradian::photometry_test {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<double> steps(double from, double to, double step) {
   std::vector<double> result;
@@ -149,17 +149,18 @@ double flux_by_quadrature(const LightProfile& profile) {
   for (int i = 0; i < kZ; ++i) {
     const double z = -1 + 2 * (i + 0.5) / kZ, s = std::sqrt(1 - z * z);
     for (int k = 0; k < kPhi; ++k) {
-      const double phi = 2 * kPi * (k + 0.5) / kPhi;
+      const double phi = 2 * std::numbers::pi * (k + 0.5) / kPhi;
       sum += intensity(profile, {s * std::cos(phi), s * std::sin(phi), z});
     }
   }
-  return sum * 4 * kPi / (kZ * kPhi);
+  return sum * 4 * std::numbers::pi / (kZ * kPhi);
 }
 
 TEST(LightProfile, FluxIsTheIntegralOfTheIntensity) {
   Ies fine;
   fine.vertical = steps(0, 90, 0.5);
-  EXPECT_NEAR(luminous_flux(read(fine)), 100 * kPi, 100 * kPi * 2e-5);  // of the chords of a cosine in steps of 0.5 degrees: 6e-6
+  EXPECT_NEAR(luminous_flux(read(fine)), 100 * std::numbers::pi,
+              100 * std::numbers::pi * 2e-5);  // of the chords of a cosine in steps of 0.5 degrees: 6e-6
   Ies c;
   c.vertical = steps(0, 180, 15);
   c.horizontal = steps(0, 90, 22.5);
@@ -382,7 +383,7 @@ LoadedScene lit_floor(const nlohmann::json& rotation) {
   f.append("nodes", {{"translation", {0, 2, 0}},
                      {"rotation", rotation},
                      {"extensions", {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {1, 0.5, 0.25}}}}}}});
-  f.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", kPi / 2}, {"znear", 0.1}}}});
+  f.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", std::numbers::pi / 2}, {"znear", 0.1}}}});
   const double s = std::sqrt(0.5);
   f.append("nodes", {{"translation", {0, 3, 0}}, {"rotation", {-s, 0, 0, s}}, {"camera", 0}});
   f.json["scenes"] = {{{"nodes", {0, 1, 2}}}};
@@ -415,7 +416,7 @@ TEST(IesInAScene, LightsAFloorByItsIntensity) {
         const Vec3d p = {(x - 15) / 15.5 * 3, 0, (y - 15) / 15.5 * 3}, from = p - light.position;
         const double d2 = dot(from, from), cosine = 2 / std::sqrt(d2);
         const double v = std::acos(cosine), h = std::atan2(-p.z, p.x) - turn;
-        const double candela = 2 * (100 + 40 * std::cos(2 * h) * std::sin(v)), want = candela * cosine / d2 / kPi;
+        const double candela = 2 * (100 + 40 * std::cos(2 * h) * std::sin(v)), want = candela * cosine / d2 / std::numbers::pi;
         // Linear between planes 15 degrees apart: a chord of cos 2h is off by (0.26)^2 / 2 of 40; of sin v by far less.
         EXPECT_NEAR(static_cast<double>(picture.at(x, y).x), want, 0.03 * want) << x << " " << y;
         EXPECT_NEAR(picture.at(x, y).y, picture.at(x, y).x / 2, 1e-5);
@@ -441,4 +442,4 @@ TEST(IesInAScene, ABadProfileIsRefusedByItsPlace) {
 }
 
 }  // namespace
-}  // namespace steradian
+}  // namespace steradian::photometry_test

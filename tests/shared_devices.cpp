@@ -1,0 +1,18 @@
+// All tests of a process share one Vulkan device, and so the pipelines that it has made.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "render/vulkan/device.h"
+
+namespace {
+
+class SharedDevicesOfTests : public testing::Environment {
+  void SetUp() override { devices_.emplace(); }
+  void TearDown() override { devices_.reset(); }
+  std::optional<steradian::vulkan::SharedDevices> devices_;
+};
+
+const testing::Environment* const kShared = testing::AddGlobalTestEnvironment(new SharedDevicesOfTests);
+
+}  // namespace
