@@ -49,6 +49,8 @@ struct PlaneEmission {
   double range = std::numeric_limits<double>::infinity();  // times (1 - (r/range)^2)^2, r to the light's surface
   Vec2d spot_axis;                                         // light leaves within spot_half_angle of this direction; zero: everywhere
   double spot_half_angle = 0;                              // radians, up to pi
+
+  bool is_spot() const { return spot_axis.x != 0 || spot_axis.y != 0; }
 };
 
 struct PlaneBody {

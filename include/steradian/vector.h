@@ -60,9 +60,16 @@ bool is_finite(Vector3<T> a) {
 
 // Columns of an orthonormal right-handed frame with z along the unit vector n.
 // Source: Duff et al., "Building an orthonormal basis, revisited", 2017.
+// Rodrigues' rotation of a vector about a unit axis.
+inline Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
+}
+
 struct Frame {
   Vec3d x, y, z;
 
+  static Frame world() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
   static Frame from_normal(Vec3d n) {
     const double s = std::copysign(1.0, n.z);
     const double a = -1.0 / (s + n.z);
@@ -83,5 +90,8 @@ struct Frame {
   Vec3d to_local(Vec3d w) const { return {dot(x, w), dot(y, w), dot(z, w)}; }
   Vec3d to_world(Vec3d l) const { return x * l.x + y * l.y + z * l.z; }
 };
+
+// True where a channel of a weight is positive.
+constexpr bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
 }  // namespace steradian

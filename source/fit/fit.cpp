@@ -16,7 +16,6 @@
 namespace steradian::fit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::uint64_t kLightSeed = 1;
 
 // Fixed directions with the lobe's values: structure of arrays, so that the objective's loop becomes vectors.
@@ -36,7 +35,7 @@ Nodes place_nodes(const Lobe& lobe, int n) {
     nodes.x.push_back(l.x);
     nodes.y2.push_back(l.y * l.y);
     nodes.z.push_back(l.z);
-    nodes.weight.push_back(scale / (share * lobe.pdf(l) + (1 - share) * l.z / kPi));
+    nodes.weight.push_back(scale / (share * lobe.pdf(l) + (1 - share) * l.z / std::numbers::pi));
     nodes.value.push_back(lobe.evaluate(l));
   };
   const auto midpoint = [](int i, int count) { return (i + 0.5) / count; };
@@ -93,7 +92,7 @@ struct Objective {
   double distance(const LtcInverse& m, FitNorm power) const {
     const double magnitude = albedo / ltc_above_horizon(m);
     const double determinant = m.yy * (m.xx * m.zz - m.xz * m.zx);
-    const double k = magnitude * determinant / kPi;
+    const double k = magnitude * determinant / std::numbers::pi;
     const double yy2 = m.yy * m.yy;
     const std::size_t count = nodes.x.size();
     double sum = 0;

@@ -13,7 +13,6 @@
 namespace steradian::fit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSteepestCosine = 0.156434465040230869;  // of 81 degrees
 
 }  // namespace
@@ -25,7 +24,7 @@ ReportOptions whole_grid() {
 ReportOptions node_grid() {
   ReportOptions options;
   for (int i : {4, 9, 16, 25, 34, 43, 53, 63}) options.roughness.push_back(ltc_roughness_at(i, 64));
-  for (int j : {0, 24, 42, 53, 60}) options.degrees.push_back(std::acos(ltc_cosine_at(j, 64)) * 180 / kPi);
+  for (int j : {0, 24, 42, 53, 60}) options.degrees.push_back(std::acos(ltc_cosine_at(j, 64)) * 180 / std::numbers::pi);
   options.rectangles = 32;
   return options;
 }
@@ -51,7 +50,7 @@ Report measure(const LobeFamily& family, const LookUp& table, const ReportOption
     CellError& cell = report.cells[index];
     cell.roughness = options.roughness[index % columns];
     cell.degrees = options.degrees[index / columns];
-    const double cosine = std::max(std::cos(cell.degrees * kPi / 180), kSmallestCosine);
+    const double cosine = std::max(std::cos(cell.degrees * std::numbers::pi / 180), kSmallestCosine);
     const Lobe lobe = family.at(cell.roughness, cosine);
     const LtcValue value = table(cell.roughness, cosine);
     const auto rectangles = test_rectangles(options.rectangles, options.seed + index);
@@ -85,7 +84,7 @@ FresnelError measure_fresnel(const LobeFamily& family, const LookUp& table, cons
   std::vector<Sums> cells(columns * options.degrees.size());
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t index) {
     const double roughness = options.roughness[index % columns];
-    const double cosine = std::max(std::cos(options.degrees[index / columns] * kPi / 180), kSmallestCosine);
+    const double cosine = std::max(std::cos(options.degrees[index / columns] * std::numbers::pi / 180), kSmallestCosine);
     const Lobe lobe = family.at(roughness, cosine);
     const LtcValue value = table(roughness, cosine), fresnel = fresnel_table(roughness, cosine);
     const auto rectangles = test_rectangles(options.rectangles, options.seed + index);

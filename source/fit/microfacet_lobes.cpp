@@ -10,8 +10,6 @@
 namespace steradian::fit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3<Real<double>> to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
@@ -38,7 +36,7 @@ Lobe beckmann_lobe(double alpha, Vec3d v) {
     const double t = std::sqrt(std::max(1 - z * z, 0.0)) / z;
     if (alpha * t < 1e-9) return 0.0;
     const double a = 1 / (alpha * t);
-    return -0.5 * std::erfc(a) + std::exp(-a * a) / (2 * a * std::sqrt(kPi));
+    return -0.5 * std::erfc(a) + std::exp(-a * a) / (2 * a * std::sqrt(std::numbers::pi));
   };
   const double lambda_v = lambda(v.z);
   Lobe lobe;

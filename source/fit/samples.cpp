@@ -21,8 +21,7 @@
 namespace steradian::fit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 // f, three channels.
 class Measured {
@@ -56,11 +55,11 @@ class Merl : public Measured {
     const Vec3d x = along * h.z - Vec3d{0, 0, sine}, y = cross(h, x);
     const double theta_d = std::acos(std::clamp(dot(light, h), -1.0, 1.0));
     double phi_d = std::atan2(dot(light, y), dot(light, x));
-    if (phi_d < 0) phi_d += kPi;  // reciprocity: light and view change places
+    if (phi_d < 0) phi_d += std::numbers::pi;  // reciprocity: light and view change places
     const auto of = [&](double share, std::size_t axis) { return between_cells(share * static_cast<double>(sizes_[axis]), sizes_[axis]); };
-    const Between a = of(std::sqrt(theta_h / (0.5 * kPi)), 0), b = of(theta_d / (0.5 * kPi), 1);
+    const Between a = of(std::sqrt(theta_h / (0.5 * std::numbers::pi)), 0), b = of(theta_d / (0.5 * std::numbers::pi), 1);
     // The azimuth goes round.
-    const double at = phi_d / kPi * static_cast<double>(sizes_[2]) - 0.5, floor = std::floor(at);
+    const double at = phi_d / std::numbers::pi * static_cast<double>(sizes_[2]) - 0.5, floor = std::floor(at);
     const auto round = [&](double i) {
       const auto n = static_cast<double>(sizes_[2]);
       return static_cast<std::size_t>(i - n * std::floor(i / n));

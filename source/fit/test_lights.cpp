@@ -11,8 +11,6 @@
 namespace steradian::fit {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vec3d on_sphere(double z, double turn) { return lobes::direction_at(z, std::sqrt(std::max(1 - z * z, 0.0)), turn); }
 
 // The four planes of origin and edge: inside is the positive side of each.
@@ -30,7 +28,7 @@ TestRectangle rectangle_about(Vec3d centre, reference::Random& random) {
   const Frame about = Frame::from_normal(-centre);
   const double tilt = 1 - 0.5 * random.uniform();
   const Frame frame = Frame::from_normal(normalized(about.to_world(on_sphere(tilt, random.uniform()))));
-  const double turn = 2 * kPi * random.uniform();
+  const double turn = 2 * std::numbers::pi * random.uniform();
   const Vec3d u = (frame.x * std::cos(turn) + frame.y * std::sin(turn)) * (0.2 + 0.8 * random.uniform());
   const Vec3d v = (frame.y * std::cos(turn) - frame.x * std::sin(turn)) * (0.2 + 0.8 * random.uniform());
   return {centre - u - v, centre + u - v, centre + u + v, centre - u + v};

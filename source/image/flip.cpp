@@ -9,8 +9,6 @@
 namespace steradian::image {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Linear sRGB to XYZ, and the white of the primaries: the sums of the rows.
 constexpr double kToXyz[3][3] = {
     {0.41238656, 0.35759149, 0.18045049}, {0.21263682, 0.71518298, 0.0721802}, {0.01933062, 0.11919716, 0.95037259}};
@@ -99,11 +97,12 @@ struct Sensitivity {
 constexpr Sensitivity kAchromatic{1, 0.0047, 0, 1e-5}, kRedGreen{1, 0.0053, 0, 1e-5}, kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
 std::vector<double> filtered(const std::vector<double>& plane, int width, int height, const Sensitivity& s, double pixels_per_degree) {
-  const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow.b1 / (2 * kPi * kPi)) * pixels_per_degree));
+  const int radius =
+      static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow.b1 / (2 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree));
   const auto gauss = [&](double b) {
     return samples(radius, [&](double k) {
       const double d = k / pixels_per_degree;
-      return std::exp(-kPi * kPi * d * d / b);
+      return std::exp(-std::numbers::pi * std::numbers::pi * d * d / b);
     });
   };
   std::vector<double> result(plane.size());
@@ -113,7 +112,7 @@ std::vector<double> filtered(const std::vector<double>& plane, int width, int he
     std::vector<double> g = gauss(b);
     double sum = 0;
     for (const double v : g) sum += v;
-    const double weight = a * std::sqrt(kPi / b) * sum * sum;  // of the whole two-dimensional Gaussian
+    const double weight = a * std::sqrt(std::numbers::pi / b) * sum * sum;  // of the whole two-dimensional Gaussian
     scale_to_sum_1(g);
     const std::vector<double> part = convolved(plane, width, height, {g, g});
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += weight * part[i];

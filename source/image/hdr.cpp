@@ -14,7 +14,7 @@ namespace {
 
 // As many as the largest picture that render makes, 16384 x 16384.
 constexpr std::size_t kMostPixels = std::size_t{1} << 28;
-constexpr std::size_t kLargestSide = 65536;
+constexpr std::size_t kLargestHdrSide = 65536;
 constexpr std::size_t kLongestLine = 4096;
 constexpr std::size_t kShortestRuns = 8, kLongestRuns = 32767;  // widths that may be stored in runs
 
@@ -127,9 +127,9 @@ Vec3f radiance_of(const Rgbe& p, double scale) {
 Picture decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget) {
   Reader in(bytes, place);
   const Header header = read_header(in, place);
-  if (header.width > kLargestSide || header.height > kLargestSide)
+  if (header.width > kLargestHdrSide || header.height > kLargestHdrSide)
     throw Error(place, "the picture claims " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                           " pixels; a side may have " + std::to_string(kLargestSide));
+                           " pixels; a side may have " + std::to_string(kLargestHdrSide));
   const std::size_t pixels = checked_texels(header.width, header.height, place, kMostPixels);
   if (in.left() / fewest_bytes_of_row(in, header.width) < header.height) in.damaged("is cut off: its size asks for more bytes");
   budget.take_memory(place, "the picture's pixels", sizeof(Vec3f) * pixels);

@@ -21,7 +21,7 @@ constexpr std::size_t kRoundedUp = 2 * 64 * 65536;
 constexpr std::size_t kWorkingBytes = 32 << 20;  // the codec's rows and tables
 
 // What libjpeg knows of us; its errors jump out of its calls, so nothing here may need a destructor.
-struct Reader {
+struct JpegReader {
   jpeg_decompress_struct codec;
   jpeg_error_mgr errors;
   jpeg_progress_mgr progress;
@@ -29,10 +29,10 @@ struct Reader {
   char message[JMSG_LENGTH_MAX];
 };
 
-Reader& reader_of(j_common_ptr codec) { return *static_cast<Reader*>(codec->client_data); }
+JpegReader& reader_of(j_common_ptr codec) { return *static_cast<JpegReader*>(codec->client_data); }
 
 [[noreturn]] void fail(j_common_ptr codec) {
-  Reader& reader = reader_of(codec);
+  JpegReader& reader = reader_of(codec);
   reader.errors.format_message(codec, reader.message);
   std::longjmp(reader.failed, 1);
 }
@@ -46,13 +46,13 @@ void judge_message(j_common_ptr codec, int level) {
 
 void count_scans(j_common_ptr codec) {
   if (reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number <= kMostScans) return;
-  Reader& reader = reader_of(codec);
+  JpegReader& reader = reader_of(codec);
   std::snprintf(reader.message, sizeof reader.message, "it has more than %d scans", kMostScans);
   std::longjmp(reader.failed, 1);
 }
 
 // The header's size; false, with a message, where it is broken.
-bool read_header(Reader& reader, std::span<const std::uint8_t> bytes) {
+bool read_header(JpegReader& reader, std::span<const std::uint8_t> bytes) {
   reader.codec.err = jpeg_std_error(&reader.errors);
   reader.errors.error_exit = fail;
   reader.errors.emit_message = judge_message;
@@ -68,7 +68,7 @@ bool read_header(Reader& reader, std::span<const std::uint8_t> bytes) {
 }
 
 // rgba has four bytes for each of the header's pixels.
-bool read_pixels(Reader& reader, std::uint8_t* rgba, std::size_t memory) {
+bool read_pixels(JpegReader& reader, std::uint8_t* rgba, std::size_t memory) {
   if (setjmp(reader.failed)) return false;
   reader.codec.mem->max_memory_to_use = static_cast<long>(memory);
   jpeg_start_decompress(&reader.codec);
@@ -81,15 +81,15 @@ bool read_pixels(Reader& reader, std::uint8_t* rgba, std::size_t memory) {
 }
 
 // Owns the codec's memory. Constructed before the first jump, so that a jump passes over no destructor.
-struct OpenReader {
-  Reader reader{};
-  ~OpenReader() { jpeg_destroy_decompress(&reader.codec); }
+struct OpenJpeg {
+  JpegReader reader{};
+  ~OpenJpeg() { jpeg_destroy_decompress(&reader.codec); }
 };
 
 }  // namespace
 
 Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
-  OpenReader open;
+  OpenJpeg open;
   const auto refuse = [&] { throw Error(place, std::string("cannot read the JPEG picture: ") + open.reader.message, "save it again"); };
   if (!read_header(open.reader, bytes)) refuse();
   jpeg_decompress_struct& codec = open.reader.codec;

@@ -54,9 +54,9 @@ void give_bytes(png_structp png, png_bytep from, std::size_t n) {
   if (!done) fail(png, "out of memory");
 }
 
-struct OpenReader {
+struct OpenPng {
   Codec codec;
-  ~OpenReader() { png_destroy_read_struct(&codec.png, &codec.info, nullptr); }
+  ~OpenPng() { png_destroy_read_struct(&codec.png, &codec.info, nullptr); }
 };
 
 struct OpenWriter {
@@ -161,7 +161,7 @@ std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve c
 std::string encode_png_bytes(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgb, {}, fill); }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
-  OpenReader open;
+  OpenPng open;
   open.codec.at = bytes.data();
   open.codec.left = bytes.size();
   const auto refuse = [&] { throw Error(place, std::string("cannot read the PNG picture: ") + open.codec.message, "save it again"); };

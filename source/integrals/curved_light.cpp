@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "integrals/outline_answer.h"
@@ -13,8 +14,6 @@
 
 namespace steradian::methods {
 namespace {
-
-constexpr double kPi = 3.14159265358979324;
 
 // Calls use(length) with each of a shape's vectors and numbers, seen from the position.
 void each_length(Polygon& polygon, Vec3d position, auto use) {
@@ -89,7 +88,7 @@ RadianceResult ellipse_answer(const Ellipse& outline, Vec3d radiance, const Shad
                               [&] { return ellipse_irradiance_float(outline, {}, at.normal); }),
                           radiance, m);
   if (length(outline.x) + length(outline.y) < 1e-9 * length(outline.center)) {
-    const double area = -dot(cross(outline.x, outline.y) * kPi, outline.center) / length(outline.center);
+    const double area = -dot(cross(outline.x, outline.y) * std::numbers::pi, outline.center) / length(outline.center);
     return small_answer(outline.center, radiance * area, at, m, entry);
   }
   return outline_answer([&](const LobeAxis& lobe, int vertices) { return polygon_for_lobe(outline, {}, lobe, vertices); },
@@ -178,7 +177,7 @@ struct AnswerOfShape {
     const Axis axis = axis_of(c);
     if (!(axis.distance > c.radius)) return nothing(entry.method);
     if (is_small(c, axis))
-      return small_answer(middle(c), light.radiance * (2 * c.radius * across(axis) + kPi * c.radius * c.radius), at, m, entry);
+      return small_answer(middle(c), light.radiance * (2 * c.radius * across(axis) + std::numbers::pi * c.radius * c.radius), at, m, entry);
     if (is_exact_lambert(m, entry))
       return lambert_answer(
           in_precision(

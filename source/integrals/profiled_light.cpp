@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "integrals/curved_light.h"
@@ -13,7 +14,6 @@
 namespace steradian {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A cell's span over which 3 x 3 points integrate cosine over distance squared to 1e-4.
@@ -39,13 +39,13 @@ double steepest_part(const LightProfile& profile) {
     if (v + 1 < n)
       slope = std::max(slope, std::fabs(profile.candela[i + 1] - profile.candela[i]) / (profile.vertical[v + 1] - profile.vertical[v]));
     if (h + 1 < profile.horizontal.size()) {
-      const double around = profile.type == LightProfile::Type::c ? std::sin(profile.vertical[v] * kPi / 180) : 1;
+      const double around = profile.type == LightProfile::Type::c ? std::sin(profile.vertical[v] * std::numbers::pi / 180) : 1;
       if (around > 0.1)  // near the pole the planes meet
         slope = std::max(
             slope, std::fabs(profile.candela[i + n] - profile.candela[i]) / ((profile.horizontal[h + 1] - profile.horizontal[h]) * around));
     }
   }
-  return slope > 0 ? std::max(peak / slope * kPi / 180, kNarrowest) : 1;
+  return slope > 0 ? std::max(peak / slope * std::numbers::pi / 180, kNarrowest) : 1;
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ class ProfiledLight::Cells {
     thread_local std::vector<Wide> cells;
     cells.clear();
     if (light_.round_)
-      for (int k = 0; k < 4; ++k) cells.push_back(judged({0, 1, k * kPi / 2, (k + 1) * kPi / 2}));
+      for (int k = 0; k < 4; ++k) cells.push_back(judged({0, 1, k * std::numbers::pi / 2, (k + 1) * std::numbers::pi / 2}));
     else
       cells.push_back(judged({-1, 1, -1, 1}));
     std::make_heap(cells.begin(), cells.end());

@@ -11,13 +11,15 @@ namespace steradian::lobes {
 namespace {
 
 Kernels<double> kernels;  // has no state
-Kernels<double>::vec3 to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
+Kernels<double>::vec3 kernel_vector(Vec3d v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
 Vec3d sample_blinn_phong_half_vector(double n, double u, double v) { return sample_cosine_power(n + 1, u, v); }
 
-double pdf_blinn_phong_half_vector(double n, Vec3d h) { return h.z > 0 ? kernels.blinn_phong_distribution(to_kernel(h), n).v * h.z : 0; }
+double pdf_blinn_phong_half_vector(double n, Vec3d h) {
+  return h.z > 0 ? kernels.blinn_phong_distribution(kernel_vector(h), n).v * h.z : 0;
+}
 
 // The slopes of Beckmann's surface are normally distributed.
 Vec3d sample_beckmann_half_vector(double ax, double ay, double u, double v) {
@@ -26,7 +28,7 @@ Vec3d sample_beckmann_half_vector(double ax, double ay, double u, double v) {
 }
 
 double pdf_beckmann_half_vector(double ax, double ay, Vec3d h) {
-  return h.z > 0 ? kernels.beckmann_distribution(to_kernel(h), ax, ay).v * h.z : 0;
+  return h.z > 0 ? kernels.beckmann_distribution(kernel_vector(h), ax, ay).v * h.z : 0;
 }
 
 Vec3d sample_ggx_visible_normal(Vec3d view, double ax, double ay, double u, double v) {
@@ -42,8 +44,8 @@ double pdf_ggx_visible_normal(Vec3d view, double ax, double ay, Vec3d h) {
   const double v_dot_h = dot(view, h);
   if (!(h.z > 0) || !(v_dot_h > 0)) return 0;
   // G1 / v_z = 2 / (v_z + stretched length)
-  const double stretched = kernels.ggx_stretched_length(to_kernel(view), ax, ay).v;
-  return kernels.ggx_distribution(to_kernel(h), ax, ay).v * v_dot_h * 2 / (view.z + stretched);
+  const double stretched = kernels.ggx_stretched_length(kernel_vector(view), ax, ay).v;
+  return kernels.ggx_distribution(kernel_vector(h), ax, ay).v * v_dot_h * 2 / (view.z + stretched);
 }
 
 Vec3d sample_reflection(Vec3d view, Vec3d h) {

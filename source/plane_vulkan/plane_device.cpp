@@ -268,8 +268,7 @@ void PlaneDevice::Impl::fill(const FrameScene& frame, const PlaneFrameOptions& o
   render_tiles(frame, silent, grid, picture, unused, &again);
 }
 
-PlaneDevice::PlaneDevice(const std::string& device)
-    : PlaneDevice(std::make_shared<const vulkan::Device>(vulkan::DeviceOptions{device, false})) {}
+PlaneDevice::PlaneDevice(const std::string& device) : PlaneDevice(vulkan::open_device({device, false})) {}
 PlaneDevice::PlaneDevice(std::shared_ptr<const vulkan::Device> device) : impl_(std::make_unique<Impl>(std::move(device))) {}
 PlaneDevice::~PlaneDevice() = default;
 PlaneDevice::PlaneDevice(PlaneDevice&&) noexcept = default;

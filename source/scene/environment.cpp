@@ -11,8 +11,6 @@
 namespace steradian {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Largest value of a map: the sun's disc has 2e9 nits.
 constexpr float kMostRadiance = 1e12f;
 
@@ -43,7 +41,7 @@ double clear_sky_luminance(double cos_zenith, double cos_from_sun) {
   constexpr double a = -1, b = -0.32, c = 10, d = -3, e = 0.45;
   const double gradation = 1 + a * std::exp(b / std::max(cos_zenith, 0.01));
   const double angle = std::acos(std::clamp(cos_from_sun, -1.0, 1.0));
-  return gradation * (1 + c * (std::exp(d * angle) - std::exp(d * kPi / 2)) + e * cos_from_sun * cos_from_sun);
+  return gradation * (1 + c * (std::exp(d * angle) - std::exp(d * std::numbers::pi / 2)) + e * cos_from_sun * cos_from_sun);
 }
 
 // Luminance 1; whiter towards the horizon. The hues are a choice, not a measurement.
@@ -58,7 +56,8 @@ Vec3d sky_colour(double cos_zenith) {
 
 Vec3d IrradianceCoefficients::at(Vec3d normal) const {
   const double nx = dot(normal, x), ny = dot(normal, y), nz = dot(normal, z);
-  const double k0 = std::sqrt(1 / (4 * kPi)), k1 = std::sqrt(3 / (4 * kPi)), k2 = std::sqrt(15 / (4 * kPi));
+  const double k0 = std::sqrt(1 / (4 * std::numbers::pi)), k1 = std::sqrt(3 / (4 * std::numbers::pi)),
+               k2 = std::sqrt(15 / (4 * std::numbers::pi));
   const double harmonics[9] = {k0,
                                k1 * ny,
                                k1 * nz,
@@ -73,10 +72,12 @@ Vec3d IrradianceCoefficients::at(Vec3d normal) const {
   return sum;
 }
 
-MapPlace place_of(Vec3d d) { return {0.5 + std::atan2(d.x, -d.z) / (2 * kPi), std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi}; }
+MapPlace place_of(Vec3d d) {
+  return {0.5 + std::atan2(d.x, -d.z) / (2 * std::numbers::pi), std::acos(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi};
+}
 
 Vec3d direction_of(MapPlace place) {
-  const double phi = 2 * kPi * (place.u - 0.5), theta = kPi * place.v;
+  const double phi = 2 * std::numbers::pi * (place.u - 0.5), theta = std::numbers::pi * place.v;
   return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
 }
 
@@ -101,18 +102,19 @@ Environment clear_sky() {
   Environment sky{"sky", Picture(512, 256), {}, 0};
   const Vec3d sun = normalized(Vec3d{-0.4, 0.8, 0.6});
   // A clear sky gives the ground about a sixth of what the sun does, and --light sun gives it pi.
-  constexpr double kIrradiance = kPi / 6, kGroundAlbedo = 0.2;
+  constexpr double kIrradiance = std::numbers::pi / 6, kGroundAlbedo = 0.2;
   double irradiance = 0;
   const auto texel = [&](int i, int j) { return direction_of({(i + 0.5) / sky.map.width, (j + 0.5) / sky.map.height}); };
   for (int j = 0; j < sky.map.height / 2; ++j)
     for (int i = 0; i < sky.map.width; ++i) {
       const Vec3d d = texel(i, j);
-      const double l = clear_sky_luminance(d.y, dot(d, sun)), top = kPi * j / sky.map.height, bottom = kPi * (j + 1) / sky.map.height;
+      const double l = clear_sky_luminance(d.y, dot(d, sun)), top = std::numbers::pi * j / sky.map.height,
+                   bottom = std::numbers::pi * (j + 1) / sky.map.height;
       sky.map.at(i, j) = static_cast<Vec3f>(sky_colour(d.y) * l);
-      irradiance += l * d.y * (std::cos(top) - std::cos(bottom)) * 2 * kPi / sky.map.width;
+      irradiance += l * d.y * (std::cos(top) - std::cos(bottom)) * 2 * std::numbers::pi / sky.map.width;
     }
   const auto scale = static_cast<float>(kIrradiance / irradiance);
-  const auto ground = static_cast<float>(kIrradiance * kGroundAlbedo / kPi);
+  const auto ground = static_cast<float>(kIrradiance * kGroundAlbedo / std::numbers::pi);
   for (int j = 0; j < sky.map.height; ++j)
     for (int i = 0; i < sky.map.width; ++i) {
       if (j < sky.map.height / 2)

@@ -1,11 +1,11 @@
 #include "scene/fit_capsule.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "scene/fit_ellipsoid.h"  // the tolerances
+#include "scene/symmetric_matrix.h"
 #include "steradian/capsule_light.h"
 
 namespace steradian::scene {
@@ -23,7 +23,7 @@ Vec3d twice_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 Surface measure(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
   Surface s;
   const Vec3d origin = triangles[part.front()][0];  // of a part far from the world's origin, nothing cancels
-  Eigen::Matrix3d faces = Eigen::Matrix3d::Zero();
+  SymmetricMatrix faces(3);
   for (const std::size_t index : part) {
     const Triangle& t = triangles[index];
     const Vec3d n = twice_area(t);
@@ -31,13 +31,11 @@ Surface measure(const std::vector<Triangle>& triangles, const std::vector<std::s
     if (!(area > 0)) continue;
     s.area += area;
     s.center += (t[0] + t[1] + t[2] - origin * 3) * (area / 3);
-    const Eigen::Vector3d v(n.x, n.y, n.z);
-    faces += v * v.transpose() / (4 * area);
+    faces.add_square({n.x, n.y, n.z}, 1 / (4 * area));
   }
   s.center = s.area > 0 ? origin + s.center / s.area : origin;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(faces);  // in increasing order
-  const Eigen::Vector3d axis = eigen.eigenvectors().col(0);
-  s.axis = {axis(0), axis(1), axis(2)};
+  const std::vector<double> axis = eigen_system(faces).vectors.front();
+  s.axis = {axis[0], axis[1], axis[2]};
   return s;
 }
 
@@ -69,12 +67,11 @@ std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const
     const double plane = std::fabs(dot(t[0] - s.center, n)) - half * std::fabs(dot(n, s.axis));
     if (length(n) > 0 && !(plane >= kNearestFace * radius - rounding(t[0]))) return {};
   }
-  constexpr double kPi = std::numbers::pi;
-  const double share = s.area / (4 * kPi * radius * (radius + half));
+  const double share = s.area / (4 * std::numbers::pi * radius * (radius + half));
   if (!(share > 0.9 && share < 1.0001)) return {};  // walked once around, not twice
 
   // 4 pi r (r + half) = area.
-  const double of_area = s.area / kPi / (2 * (half + std::sqrt(half * half + s.area / kPi)));
+  const double of_area = s.area / std::numbers::pi / (2 * (half + std::sqrt(half * half + s.area / std::numbers::pi)));
   return Capsule{around.end_a, around.end_b, of_area};
 }
 

@@ -1,11 +1,11 @@
 #include "scene/fit_ellipsoid.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "scene/symmetric_matrix.h"
 #include "steradian/vector.h"
 
 namespace steradian::scene {
@@ -25,6 +25,27 @@ Normalised normalise(const std::vector<Vec3d>& points) {
   for (const Vec3d& p : points) square += dot(p - n.center, p - n.center) / static_cast<double>(points.size());
   n.scale = std::sqrt(square);
   return n;
+}
+
+// The center of the quadric x'Qx + 2 q.x = 1, its axes and its level there.
+struct Center {
+  std::vector<double> at;
+  double level = 0;
+  EigenSystem axes;
+};
+
+// None where the quadric is no ellipse or ellipsoid.
+std::optional<Center> center_of(const SymmetricMatrix& q, const std::vector<double>& linear) {
+  Center c;
+  c.at = solve(q, linear);
+  for (double& x : c.at) x = -x;
+  c.level = 1;
+  for (std::size_t i = 0; i < q.n; ++i)
+    for (std::size_t j = 0; j < q.n; ++j) c.level += c.at[i] * q(i, j) * c.at[j];
+  c.axes = eigen_system(q);
+  const bool finite = std::all_of(c.at.begin(), c.at.end(), [](double x) { return std::isfinite(x); });
+  if (!finite || !(c.level > 0) || !(c.axes.values.front() > 0)) return {};
+  return c;
 }
 
 double triangle_area(const Triangle& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
@@ -47,32 +68,28 @@ std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, c
   if (!(local.scale > 0) || !std::isfinite(local.scale)) return {};
 
   // Least squares of x'Qx + 2 q.x = 1 over the corners.
-  Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
-  Eigen::Matrix<double, 9, 1> right = Eigen::Matrix<double, 9, 1>::Zero();
+  SymmetricMatrix normal(9);
+  std::vector<double> right(9, 0.0), row;
   for (const Vec3d& p : points) {
     const Vec3d v = local(p);
-    Eigen::Matrix<double, 9, 1> row;
-    row << v.x * v.x, v.y * v.y, v.z * v.z, 2 * v.y * v.z, 2 * v.z * v.x, 2 * v.x * v.y, 2 * v.x, 2 * v.y, 2 * v.z;
-    normal += row * row.transpose();
-    right += row;
+    row = {v.x * v.x, v.y * v.y, v.z * v.z, 2 * v.y * v.z, 2 * v.z * v.x, 2 * v.x * v.y, 2 * v.x, 2 * v.y, 2 * v.z};
+    normal.add_square(row);
+    for (std::size_t i = 0; i < row.size(); ++i) right[i] += row[i];
   }
-  const Eigen::Matrix<double, 9, 1> c = normal.ldlt().solve(right);
-  Eigen::Matrix3d q;
-  q << c(0), c(5), c(4), c(5), c(1), c(3), c(4), c(3), c(2);
-  const Eigen::Vector3d linear(c(6), c(7), c(8));
-  const Eigen::Vector3d middle = -q.ldlt().solve(linear);
-  const double level = 1 + middle.dot(q * middle);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(q);
-  if (!middle.allFinite() || !(level > 0) || !(eigen.eigenvalues().minCoeff() > 0)) return {};
+  const std::vector<double> c = solve(normal, right);
+  SymmetricMatrix q(3);
+  q.entries = {c[0], c[5], c[4], c[5], c[1], c[3], c[4], c[3], c[2]};
+  const std::optional<Center> center = center_of(q, {c[6], c[7], c[8]});
+  if (!center) return {};
 
   // Half axes; to_unit takes a corner to the unit sphere.
-  const Vec3d at = {middle(0), middle(1), middle(2)};
+  const Vec3d at = {center->at[0], center->at[1], center->at[2]};
   Vec3d axis[3];
   double half[3];
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d v = eigen.eigenvectors().col(i);
-    axis[i] = {v(0), v(1), v(2)};
-    half[i] = std::sqrt(level / eigen.eigenvalues()(i));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::vector<double>& v = center->axes.vectors[i];
+    axis[i] = {v[0], v[1], v[2]};
+    half[i] = std::sqrt(center->level / center->axes.values[i]);
   }
   const auto to_unit = [&](Vec3d p) {
     const Vec3d v = local(p) - at;
@@ -104,31 +121,27 @@ std::optional<Ellipse> fit_ellipse(const std::vector<Vec3d>& outline) {
   if (!(length(area) > 0)) return {};
   const Frame frame = Frame::from_normal(normalized(area));
 
-  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
-  Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
+  SymmetricMatrix normal(5);
+  std::vector<double> right(5, 0.0), row;
   for (const Vec3d& p : outline) {
     const Vec3d v = frame.to_local(local(p));
-    Eigen::Matrix<double, 5, 1> row;
-    row << v.x * v.x, v.y * v.y, 2 * v.x * v.y, 2 * v.x, 2 * v.y;
-    normal += row * row.transpose();
-    right += row;
+    row = {v.x * v.x, v.y * v.y, 2 * v.x * v.y, 2 * v.x, 2 * v.y};
+    normal.add_square(row);
+    for (std::size_t i = 0; i < row.size(); ++i) right[i] += row[i];
   }
-  const Eigen::Matrix<double, 5, 1> c = normal.ldlt().solve(right);
-  Eigen::Matrix2d q;
-  q << c(0), c(2), c(2), c(1);
-  const Eigen::Vector2d linear(c(3), c(4));
-  const Eigen::Vector2d middle = -q.ldlt().solve(linear);
-  const double level = 1 + middle.dot(q * middle);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(q);
-  if (!middle.allFinite() || !(level > 0) || !(eigen.eigenvalues().minCoeff() > 0)) return {};
+  const std::vector<double> c = solve(normal, right);
+  SymmetricMatrix q(2);
+  q.entries = {c[0], c[2], c[2], c[1]};
+  const std::optional<Center> center = center_of(q, {c[3], c[4]});
+  if (!center) return {};
 
   Vec3d axis[2];
   double half[2];
-  for (int i = 0; i < 2; ++i) {
-    axis[i] = {eigen.eigenvectors()(0, i), eigen.eigenvectors()(1, i), 0};
-    half[i] = std::sqrt(level / eigen.eigenvalues()(i));
+  for (std::size_t i = 0; i < 2; ++i) {
+    axis[i] = {center->axes.vectors[i][0], center->axes.vectors[i][1], 0};
+    half[i] = std::sqrt(center->level / center->axes.values[i]);
   }
-  const Vec3d at = {middle(0), middle(1), 0};
+  const Vec3d at = {center->at[0], center->at[1], 0};
   const auto to_unit = [&](Vec3d p) {
     const Vec3d v = frame.to_local(local(p)) - at;
     return Vec3d{dot(v, axis[0]) / half[0], dot(v, axis[1]) / half[1], 0};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace steradian::scene {
@@ -91,11 +92,9 @@ AreaLight square_light(const Scene& scene, const char* name, Vec3d towards, doub
   return light;
 }
 
-constexpr double kPi = 3.14159265358979324;
-
 }  // namespace
 
-AreaLight default_light(const Scene& scene) { return square_light(scene, "default", kTowardsKey, kPi); }
+AreaLight default_light(const Scene& scene) { return square_light(scene, "default", kTowardsKey, std::numbers::pi); }
 
 namespace {
 
@@ -185,7 +184,7 @@ bool wants_light(const Scene& scene, const Camera& camera) {
     if (mesh.is_emitter()) emitting += of_mesh;
   }
   if (power < default_light(scene).power / 30 && emitting > area / 2) return true;
-  return median_irradiance(scene, camera) < kPi / 1000;
+  return median_irradiance(scene, camera) < std::numbers::pi / 1000;
 }
 
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {
@@ -197,14 +196,14 @@ void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {
         sun.name = "sun";
         sun.kind = PunctualKind::directional;
         sun.direction = -normalized(kTowardsKey);
-        sun.intensity = {kPi, kPi, kPi};
+        sun.intensity = {std::numbers::pi, std::numbers::pi, std::numbers::pi};
         scene.punctual_lights.push_back(sun);
         break;
       }
       case AddedLight::studio:
-        scene.area_lights.push_back(square_light(scene, "key", {-0.8, 0.7, 0.8}, kPi));
-        scene.area_lights.push_back(square_light(scene, "fill", {1, 0.3, 0.7}, kPi / 4));
-        scene.area_lights.push_back(square_light(scene, "rim", {0.4, 0.8, -1}, kPi / 2));
+        scene.area_lights.push_back(square_light(scene, "key", {-0.8, 0.7, 0.8}, std::numbers::pi));
+        scene.area_lights.push_back(square_light(scene, "fill", {1, 0.3, 0.7}, std::numbers::pi / 4));
+        scene.area_lights.push_back(square_light(scene, "rim", {0.4, 0.8, -1}, std::numbers::pi / 2));
         break;
     }
 }

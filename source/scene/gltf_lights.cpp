@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -13,7 +14,6 @@
 namespace steradian::scene {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostIntensity = 1e30;
 // What the light's shape takes as a mesh of its own: an ellipsoid's rows, or a tube's, with its material.
@@ -73,7 +73,7 @@ Ellipse flat_axes(const Affine& world, double half_x, double half_y) {
 double ellipsoid_area(Vec3d x, Vec3d y, Vec3d z) {
   constexpr double p = 1.6075;
   const double a = std::pow(length(x), p), b = std::pow(length(y), p), c = std::pow(length(z), p);
-  return 4 * kPi * std::pow((a * b + a * c + b * c) / 3, 1 / p);
+  return 4 * std::numbers::pi * std::pow((a * b + a * c + b * c) / 3, 1 / p);
 }
 
 // "extras": {"steradian": ...}: what the draft has no word for (docs/lights.md, "EXT_lights_area").
@@ -113,7 +113,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     const double aspect = ours ? ours->number("aspect", 1, 0, 1e9) : 1;
     const Ellipse e = flat_axes(world, half * aspect, half);
     light.shape = e;
-    area = kPi * length(cross(e.x, e.y));
+    area = std::numbers::pi * length(cross(e.x, e.y));
   } else if (type == "sphere") {
     const Ellipsoid e{world.t, world.x * half, world.y * half, world.z * half};
     light.shape = e;
@@ -125,7 +125,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     const Vec3d half_axis = world.x * (between / 2);
     const Capsule c{world.t - half_axis, world.t + half_axis, half * std::sqrt(length(world.y)) * std::sqrt(length(world.z))};
     light.shape = c;
-    area = 4 * kPi * c.radius * (c.radius + length(half_axis));
+    area = 4 * std::numbers::pi * c.radius * (c.radius + length(half_axis));
   } else {
     json.at("type").fail("\"" + type + "\" is not an area light", "known are rect, disk, sphere and capsule");
   }
@@ -166,7 +166,7 @@ Mesh mesh_of(const Ellipsoid& ellipsoid) {
   Mesh mesh;
   for (std::uint32_t j = 0; j <= kDown; ++j)
     for (std::uint32_t i = 0; i < kAround; ++i) {
-      const double theta = kPi * j / kDown, phi = 2 * kPi * i / kAround;
+      const double theta = std::numbers::pi * j / kDown, phi = 2 * std::numbers::pi * i / kAround;
       const Vec3d u{std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)};
       mesh.positions.push_back(static_cast<Vec3f>(m.point(u)));
       mesh.normals.push_back(static_cast<Vec3f>(m.normal(u)));
@@ -191,7 +191,7 @@ Mesh mesh_of(const Capsule& capsule) {
   for (std::uint32_t j = 0; j < kRows; ++j)
     for (std::uint32_t i = 0; i < kAround; ++i) {
       const bool second = j >= kRows / 2;
-      const double theta = kPi * (second ? j - 1 : j) / (kRows - 2), phi = 2 * kPi * i / kAround;
+      const double theta = std::numbers::pi * (second ? j - 1 : j) / (kRows - 2), phi = 2 * std::numbers::pi * i / kAround;
       const Vec3d u = frame.to_world({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
       mesh.positions.push_back(static_cast<Vec3f>((second ? capsule.end_a : capsule.end_b) + u * capsule.radius));
       mesh.normals.push_back(static_cast<Vec3f>(u));
@@ -333,8 +333,8 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
     light.intensity = read_emission(json, 1);
     light.range = json.number("range", kInfinity, 1e-30, kInfinity);
     if (const auto spot = json.find("spot")) {
-      const double outer = spot->number("outerConeAngle", kPi / 4, 1e-9, kPi / 2 + 1e-6);
-      const double inner = spot->number("innerConeAngle", 0, 0, kPi / 2);
+      const double outer = spot->number("outerConeAngle", std::numbers::pi / 4, 1e-9, std::numbers::pi / 2 + 1e-6);
+      const double inner = spot->number("innerConeAngle", 0, 0, std::numbers::pi / 2);
       if (inner >= outer) spot->fail("innerConeAngle must be less than outerConeAngle");
       light.cos_inner = std::cos(inner);
       light.cos_outer = std::fmax(std::cos(outer), 0.0);

@@ -5,8 +5,6 @@
 namespace steradian::scene {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 float factor(const JsonCursor& object, const char* key, double otherwise) {
   return static_cast<float>(object.number(key, otherwise, 0, 1));
 }
@@ -47,7 +45,7 @@ void read_alpha(SurfaceMaterial& m, const JsonCursor& json) {
   } else if (mode != "OPAQUE") {
     json.at("alphaMode").fail("\"" + mode + "\" is not an alpha mode", "OPAQUE, MASK or BLEND");
   }
-  m.alpha_cutoff = static_cast<float>(json.number("alphaCutoff", 0.5, 0, kInfinity));
+  m.alpha_cutoff = static_cast<float>(json.number("alphaCutoff", 0.5, 0, std::numeric_limits<double>::infinity()));
 }
 
 void read_extensions(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& textures) {
@@ -68,7 +66,7 @@ void read_extensions(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& t
     m.sheen_roughness_texture = textures.use(*x, "sheenRoughnessTexture", ColorSpace::linear);
   }
   if (const auto x = find_extension(json, "KHR_materials_ior")) {
-    const double ior = x->number("ior", 1.5, 0, kInfinity);
+    const double ior = x->number("ior", 1.5, 0, std::numeric_limits<double>::infinity());
     if (ior > 0 && ior < 1) x->at("ior").fail("must be 0 or at least 1");
     // The extension's special value: an infinite index, Fresnel 1.
     m.ior = ior == 0 ? std::numeric_limits<float>::max() : static_cast<float>(std::min(ior, 1e30));

@@ -89,7 +89,7 @@ void sort_into_leaves(EdgeMesh& mesh) {
     for (std::uint32_t& e : sides) e = place[e];
 }
 
-struct Side {
+struct TriangleSide {
   std::uint32_t v0, v1, triangle, corner;
   std::int32_t walks;
 };
@@ -100,7 +100,7 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
   EdgeMesh mesh;
   mesh.vertices = positions;
   const std::vector<std::uint32_t> weld = welded(positions);
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   sides.reserve(indices.size());
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     const std::array<std::uint32_t, 3> t = {weld[indices[i]], weld[indices[i + 1]], weld[indices[i + 2]]};
@@ -114,11 +114,11 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
       sides.push_back({std::min(from, to), std::max(from, to), number, c, from < to ? 1 : -1});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
     return std::tie(a.v0, a.v1, a.triangle, a.corner) < std::tie(b.v0, b.v1, b.triangle, b.corner);
   });
   mesh.triangle_edges.resize(mesh.triangles.size());
-  for (const Side& s : sides) {
+  for (const TriangleSide& s : sides) {
     if (mesh.edges.empty() || mesh.edges.back().v0 != s.v0 || mesh.edges.back().v1 != s.v1)
       mesh.edges.push_back({s.v0, s.v1, static_cast<std::uint32_t>(mesh.edge_triangles.size()), 0});
     ++mesh.edges.back().count;

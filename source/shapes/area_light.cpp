@@ -1,6 +1,7 @@
 #include "steradian/area_light.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -8,16 +9,14 @@
 #include "steradian/error.h"
 
 namespace steradian {
-namespace {
-constexpr double kPi = 3.14159265358979324;
-}
+namespace {}
 
 double luminance(Vec3d rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
 PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vertices) {
   if (vertices < 3) throw Error("", "a polygon needs at least 3 vertices, asked for " + std::to_string(vertices));
   // The inscribed K-gon has the share sin(d) / d of the ellipse's area, d = 2 pi / K.
-  const double step = 2 * kPi / vertices;
+  const double step = 2 * std::numbers::pi / vertices;
   const double out = std::sqrt(step / std::sin(step));
   PolygonLight light;
   light.radiance = radiance;
@@ -95,7 +94,7 @@ struct FlatAxes {
 };
 
 FlatAxes axes_of(const Shape& shape) {
-  if (const auto* disk = std::get_if<Ellipse>(&shape)) return {disk->x, disk->y, kPi};
+  if (const auto* disk = std::get_if<Ellipse>(&shape)) return {disk->x, disk->y, std::numbers::pi};
   const auto* polygon = std::get_if<Polygon>(&shape);
   if (polygon == nullptr || polygon->vertices.size() != 4 || !polygon->holes.empty())
     throw Error("profile", "only rects and disks shine by a profile", "give one of those, or a point");
@@ -123,8 +122,8 @@ void set_emission(AreaLight& light, std::shared_ptr<const LightProfile> profile,
   if (emission.area > 0) {
     emission.axes = profile_axes(normal, towards_x);
     const double flux = luminous_flux(*emission.profile);
-    light.radiance = intensity * (flux / (kPi * emission.area * (light.two_sided ? 2 : 1)));
-    light.power = luminance(intensity) * flux / kPi;
+    light.radiance = intensity * (flux / (std::numbers::pi * emission.area * (light.two_sided ? 2 : 1)));
+    light.power = luminance(intensity) * flux / std::numbers::pi;
   }
   light.emission = std::move(emission);
 }

@@ -47,8 +47,6 @@ S irradiance_of_line(Vec3d end_a, Vec3d end_b, Vec3d position, Vec3d normal) {
   return static_cast<S>(static_cast<double>(e) * unit);
 }
 
-const Frame kWorld{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
 Vec3d to_vector(const Kernels<double>::vec3& v) { return {v.x.v, v.y.v, v.z.v}; }
 
 // The direction from which the outline's two ends along the tube are equally far: all of it is in front.
@@ -108,7 +106,7 @@ PolygonLight polygon_for_lobe(const Capsule& capsule, Vec3d position, const Lobe
   if (vertices < 6 || vertices > 2048) throw Error("vertices", "must be from 6 to 2048, here is " + std::to_string(vertices));
   if (!(distance_to_axis(capsule, position) > capsule.radius)) return {};
   Kernels<double> k;
-  const auto seen = seen_from<double>(capsule, position, kWorld);
+  const auto seen = seen_from<double>(capsule, position, Frame::world());
   const auto fan = k.capsule_fan(seen, {lobe.axis.x, lobe.axis.y, lobe.axis.z}, lobe.width, vertices);
   std::vector<Vec3d> corners;
   for (int i = 0; i < vertices; ++i) corners.push_back(normalized(to_vector(k.capsule_fan_corner(fan, i))));

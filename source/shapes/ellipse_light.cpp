@@ -50,8 +50,6 @@ PolygonLight polygon_of(const Kernels<double>::EllipseFan& fan, Vec3d position, 
 // Twice those of kernels/outline/ellipse.glsl: a quarter of the error, where time does not count.
 constexpr int kVerticesNearRim = 64;
 
-const Frame kWorld{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
 }  // namespace
 
 double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) { return irradiance<double>(ellipse, position, normal); }
@@ -66,13 +64,13 @@ double ellipsoid_irradiance(const Ellipsoid& ellipsoid, Vec3d position, Vec3d no
 
 PolygonLight polygon_for_lobe(const Ellipse& ellipse, Vec3d position, const LobeAxis& lobe, int vertices) {
   Kernels<double> k;
-  const auto local = seen_from<double>(ellipse, position, kWorld);
+  const auto local = seen_from<double>(ellipse, position, Frame::world());
   const auto fan = k.ellipse_fan_concentrated(local, {lobe.axis.x, lobe.axis.y, lobe.axis.z}, lobe.width);
   return polygon_of(fan, position, any_lane(fan.near) ? std::max(vertices, kVerticesNearRim) : vertices);
 }
 
 PolygonLight polygon_of_equal_steps(const Ellipse& ellipse, Vec3d position, int vertices) {
-  return polygon_of(Kernels<double>().ellipse_fan(seen_from<double>(ellipse, position, kWorld)), position, vertices);
+  return polygon_of(Kernels<double>().ellipse_fan(seen_from<double>(ellipse, position, Frame::world())), position, vertices);
 }
 
 }  // namespace steradian

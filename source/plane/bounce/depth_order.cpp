@@ -6,10 +6,10 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kOn = 1e-9;             // of a line, of 1024 to 2048 units a side
-constexpr std::size_t kCandidates = 8;   // facets whose lines are tried
-constexpr std::size_t kSplitsWeigh = 4;  // a facet that is cut, against one more on the larger side
-constexpr std::size_t kMostParts = 6;    // facets a segment, on average
+constexpr double kOnDividingLine = 1e-9;  // of a line, of 1024 to 2048 units a side
+constexpr std::size_t kCandidates = 8;    // facets whose lines are tried
+constexpr std::size_t kSplitsWeigh = 4;   // a facet that is cut, against one more on the larger side
+constexpr std::size_t kMostParts = 6;     // facets a segment, on average
 
 struct Line {
   Vec2d normal;
@@ -24,9 +24,9 @@ Line line_of(const Facet& facet) {
 
 struct Heights {
   double a, b;
-  bool on() const { return std::fabs(a) <= kOn && std::fabs(b) <= kOn; }
-  bool in_front() const { return a >= -kOn && b >= -kOn; }
-  bool behind() const { return a <= kOn && b <= kOn; }
+  bool on() const { return std::fabs(a) <= kOnDividingLine && std::fabs(b) <= kOnDividingLine; }
+  bool in_front() const { return a >= -kOnDividingLine && b >= -kOnDividingLine; }
+  bool behind() const { return a <= kOnDividingLine && b <= kOnDividingLine; }
 };
 Heights heights(const Line& line, const Facet& f) { return {line.height(f.a), line.height(f.b)}; }
 

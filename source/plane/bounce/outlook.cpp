@@ -14,14 +14,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFar = 1e12;  // a slope: beyond it lie 5e-25 of what the cosine leaves of a half plane
-constexpr double kOn = 1e-9;   // of the place's own line, of 1024 to 2048 units a side
+constexpr double kFarSlope = 1e12;   // a slope: beyond it lie 5e-25 of what the cosine leaves of a half plane
+constexpr double kOnOwnLine = 1e-9;  // of the place's own line, of 1024 to 2048 units a side
 
 class Looker {
  public:
   Looker(const World& world, const Curve* own, Vec2d from, Vec2d normal)
       : world_(world), own_(own), from_(from), normal_(normal), along_{-normal.y, normal.x} {
-    gaps_.assign(1, {-kFar, kFar, -1});
+    gaps_.assign(1, {-kFarSlope, kFarSlope, -1});
     taken_.clear();
   }
 
@@ -30,9 +30,9 @@ class Looker {
   bool hides(const Box& box) const {
     const Vec2d middle = (box.low + box.high) * 0.5 - from_, half = (box.high - box.low) * 0.5;
     const double ahead_of = dot(middle, normal_), reach = std::fabs(half.x * normal_.x) + std::fabs(half.y * normal_.y);
-    if (ahead_of + reach <= kOn) return true;
-    if (ahead_of - reach <= kOn) return false;
-    double low = kFar, high = -kFar;
+    if (ahead_of + reach <= kOnOwnLine) return true;
+    if (ahead_of - reach <= kOnOwnLine) return false;
+    double low = kFarSlope, high = -kFarSlope;
     for (const Vec2d corner : {box.low, box.high, Vec2d{box.low.x, box.high.y}, Vec2d{box.high.x, box.low.y}}) {
       const Vec2d to = corner - from_;
       const double slope = dot(to, along_) / dot(to, normal_);
@@ -100,9 +100,9 @@ class Looker {
   // By rising angle from a to b, less than half a turn.
   bool range_between(Vec2d a, Vec2d b, Range& range) const {
     const double ahead_a = dot(a, normal_), ahead_b = dot(b, normal_);
-    if (ahead_a <= kOn && ahead_b <= kOn) return false;
-    range.begin = ahead_a <= kOn ? -kFar : std::clamp(dot(a, along_) / ahead_a, -kFar, kFar);
-    range.end = ahead_b <= kOn ? kFar : std::clamp(dot(b, along_) / ahead_b, -kFar, kFar);
+    if (ahead_a <= kOnOwnLine && ahead_b <= kOnOwnLine) return false;
+    range.begin = ahead_a <= kOnOwnLine ? -kFarSlope : std::clamp(dot(a, along_) / ahead_a, -kFarSlope, kFarSlope);
+    range.end = ahead_b <= kOnOwnLine ? kFarSlope : std::clamp(dot(b, along_) / ahead_b, -kFarSlope, kFarSlope);
     return range.begin < range.end;
   }
 
@@ -161,7 +161,7 @@ class Looker {
     for (int k = 0; k < crossings.count; ++k) {
       const Vec2d to = crossings.at[k] - from_;
       const double ahead = dot(to, normal_), slope = dot(to, along_) / ahead;
-      if (!(ahead > kOn && slope > begin && slope < end)) continue;
+      if (!(ahead > kOnOwnLine && slope > begin && slope < end)) continue;
       std::size_t place = count++;
       for (; cuts[place - 1] > slope; --place) cuts[place] = cuts[place - 1];
       cuts[place] = slope;

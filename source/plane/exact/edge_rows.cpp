@@ -6,7 +6,7 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kTouching = 1e-9;  // of an edge's length
+constexpr double kTouchingEnds = 1e-9;  // of an edge's length
 
 // What two edges share but for their ends: a crossing, or ends of one that lie on the other.
 void add_meetings(const Edge& e, const Edge& f, std::vector<Vec2d>& of_e, std::vector<Vec2d>& of_f) {
@@ -14,8 +14,8 @@ void add_meetings(const Edge& e, const Edge& f, std::vector<Vec2d>& of_e, std::v
   const double c_side = cross(d, f.a - e.a), d_side = cross(d, f.b - e.a), a_side = cross(g, e.a - f.a), b_side = cross(g, e.b - f.a);
   const auto touch = [](Vec2d along, Vec2d from, Vec2d p, double side, std::vector<Vec2d>& to) {
     const double length2 = dot(along, along), at = dot(p - from, along);
-    if (std::fabs(side) <= kTouching * length2 && at > kTouching * length2 && at < (1 - kTouching) * length2) to.push_back(p);
-    return std::fabs(side) <= kTouching * length2;
+    if (std::fabs(side) <= kTouchingEnds * length2 && at > kTouchingEnds * length2 && at < (1 - kTouchingEnds) * length2) to.push_back(p);
+    return std::fabs(side) <= kTouchingEnds * length2;
   };
   bool touches = touch(d, e.a, f.a, c_side, of_e);
   touches = touch(d, e.a, f.b, d_side, of_e) || touches;

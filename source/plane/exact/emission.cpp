@@ -12,15 +12,11 @@ namespace {
 
 using std::numbers::pi;
 
-Vec2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 void add(PlaneLight& sum, Vec3d radiance, double mean, Vec2d moment) {
   sum.radiance += radiance * mean;
   sum.moment_x += radiance * moment.x;
   sum.moment_y += radiance * moment.y;
 }
-
-bool is_spot(const PlaneEmission& e) { return e.spot_axis.x != 0 || e.spot_axis.y != 0; }
 
 double window(double r, double range) {
   const double q = r / range;
@@ -65,7 +61,7 @@ class SegmentIntegral {
   }
 
   void add(double begin, double end, PlaneLight& sum) const {
-    double from = tangent(direction(begin)), to = tangent(direction(end));
+    double from = tangent(direction_at(begin)), to = tangent(direction_at(end));
     if (from > to) std::swap(from, to);
     if (emission_.gradient) {
       // The piece may be of a longer curve.
@@ -133,7 +129,7 @@ class ArcQuadrature {
 
  private:
   double parameter(double angle, bool back) const {
-    const Vec2d u = direction(angle);
+    const Vec2d u = direction_at(angle);
     return angle_of(curve_.ellipse.to_unit(from_ + u * distance_along(curve_, back, from_, u)));
   }
 
@@ -179,7 +175,7 @@ class ArcQuadrature {
   Vec2d from_;
 };
 
-bool is_circle(const Ellipse& e) {
+bool is_circular(const Ellipse& e) {
   const double xx = dot(e.x, e.x), yy = dot(e.y, e.y);
   return std::fabs(xx - yy) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
 }
@@ -193,7 +189,7 @@ double circle_window(const Curve& curve, double range, Vec2d from, double begin,
   // Law of cosines: where the near side of the circle leaves the range, if it does before the tangent.
   const double farthest = d2 - rho2 <= 1 ? pi / 2 : std::acos(std::min((d2 + 1 - rho2) / (2 * d), 1.0));
   const auto antiderivative = [&](double angle) {
-    const Vec2d u = direction(angle);
+    const Vec2d u = direction_at(angle);
     double psi = std::atan2(cross(c, u), dot(c, u));
     psi = std::clamp(psi, -farthest, farthest);
     const double s = std::sin(psi), x = std::clamp(d * s, -std::sqrt(rho2), std::sqrt(rho2));
@@ -220,7 +216,7 @@ void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, Em
       SegmentIntegral(part_of(curve, cuts[i], cuts[i + 1]), emission, from).add(v.begin, v.end, sum);
   } else {
     PlaneLight part;
-    const bool closed = plain && !v.back && is_circle(curve.ellipse);
+    const bool closed = plain && !v.back && is_circular(curve.ellipse);
     if (!closed || parts == EmissionParts::radiance_and_moments) ArcQuadrature(curve, emission, from).add(v.begin, v.end, v.back, part);
     if (closed) part.radiance = emission.radiance * circle_window(curve, emission.range, from, v.begin, v.end);
     sum.radiance += part.radiance;
@@ -232,13 +228,13 @@ void add_clipped(const Visible& v, const PlaneEmission& emission, Vec2d from, Em
 }  // namespace
 
 bool within_spot(const PlaneEmission& emission, Vec2d u) {
-  if (!is_spot(emission)) return true;
+  if (!emission.is_spot()) return true;
   const Vec2d axis = -emission.spot_axis;
   return std::fabs(std::atan2(cross(axis, u), dot(axis, u))) <= emission.spot_half_angle;
 }
 
 void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d from, EmissionParts parts, PlaneLight& sum) {
-  if (!is_spot(emission)) {
+  if (!emission.is_spot()) {
     add_clipped(piece, emission, from, parts, sum);
     return;
   }

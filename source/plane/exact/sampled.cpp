@@ -11,12 +11,6 @@ namespace {
 
 const PlaneBody& body_of(const World& world, const Curve& c) { return world.scene.bodies[static_cast<std::size_t>(c.body)]; }
 
-double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
-  const Vec2d ab = b - a;
-  const double t = std::clamp(dot(p - a, ab) / std::max(dot(ab, ab), 1e-300), 0.0, 1.0);
-  return length(p - a - ab * t);
-}
-
 // Never more than the distance: exact for segments and circles, for ellipses scaled by the smaller half axis.
 double distance_bound(const Curve& c, Vec2d p) {
   if (c.kind == Curve::Kind::segment) return distance_to_segment(p, c.a, c.b);

@@ -17,8 +17,6 @@ namespace {
 
 using std::numbers::pi;
 
-Vec2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 using Curves = std::vector<const Curve*>;
 
 class Seen {
@@ -99,7 +97,7 @@ class Seen {
     for (const MirrorView& mirror : view_.mirrors) {
       if (mirror.edge != v.curve || dot(mirror.normal, from_ - v.curve->a) <= 0) continue;
       const auto on_edge = [&](double angle) {
-        return from_ + direction(angle) * distance_along(*v.curve, v.back, from_, direction(angle));
+        return from_ + direction_at(angle) * distance_along(*v.curve, v.back, from_, direction_at(angle));
       };
       const Path path{mirror.reflected(from_), &mirror, with_deep(view_.clear), with_deep(mirror.clear)};
       // A mirror turns directions around.
@@ -203,7 +201,7 @@ class Seen {
   // A path with what may be met between two directions alone.
   Path between(const Path& path, double begin, double end) const {
     if (end - begin >= 0.5 * pi || (path.before.empty() && path.beyond.empty())) return path;
-    const Fan fan(path.eye, direction(begin), direction(end));
+    const Fan fan(path.eye, direction_at(begin), direction_at(end));
     const auto met = [&](const Curves& curves, auto&& seen_at) {
       Curves near;
       int body = -1;
@@ -294,7 +292,7 @@ class Seen {
         add_integral(at, begin, end, rules_.tolerance, sum);
         continue;
       }
-      const Vec2d u = direction(0.5 * (begin + end));
+      const Vec2d u = direction_at(0.5 * (begin + end));
       const Vec3d here = share(path, u, way(u));
       if (begin == cuts[0]) shared = here;
       if (here.x == shared.x && here.y == shared.y && here.z == shared.z) continue;

@@ -14,8 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-Vec2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 // A direction as an edge mirrors it.
 Vec2d mirrored(const Curve& edge, Vec2d u) {
   const Vec2d along = (edge.b - edge.a) / length(edge.b - edge.a);
@@ -79,7 +77,7 @@ PlaneLight Tracer::hard_suns() const {
   std::vector<Vec2d> directions;
   for (const PlaneSun& sun : world_.scene.suns) {
     if (sun.half_width > 0) continue;
-    const Vec2d to = direction(sun.direction);
+    const Vec2d to = direction_at(sun.direction);
     directions.assign(1, to);
     for (const Curve* c : curves_)
       if (world_.extras->matter[static_cast<std::size_t>(c->body)] == Matter::mirror) {

@@ -12,9 +12,7 @@ namespace {
 using std::numbers::pi;
 
 // In the space where an ellipse is round, floats lose as much as its half axes differ: 1e-7 times this in a direction.
-constexpr double kThinnest = 60;
-
-bool is_spot(const PlaneEmission& e) { return e.spot_axis.x != 0 || e.spot_axis.y != 0; }
+constexpr double kThinnestEmitter = 60;
 
 // A gradient between two of its stops: radiance c + slope dot(axis, p - origin), for all p whose colour lies there.
 struct Ramp {
@@ -40,7 +38,7 @@ class Taking {
   Taking(const World& world, std::size_t body) : world_(world), body_(body), light_(*world.scene.bodies[body].light) {}
 
   std::optional<std::vector<Emitter>> run() {
-    const bool plain = light_.profile == PlaneProfile::uniform && !light_.gradient && !is_spot(light_);
+    const bool plain = light_.profile == PlaneProfile::uniform && !light_.gradient && !light_.is_spot();
     for (std::size_t c = world_.first_curve[body_]; c < world_.first_curve[body_ + 1]; ++c) {
       const Curve& curve = world_.curves[c];
       if (curve.kind == Curve::Kind::segment) {
@@ -51,7 +49,7 @@ class Taking {
         e.radius = length(curve.ellipse.x);
         add(e);
       } else {
-        if (stretch_of(curve.ellipse) > kThinnest) return {};
+        if (stretch_of(curve.ellipse) > kThinnestEmitter) return {};
         add_arcs(curve);
       }
     }

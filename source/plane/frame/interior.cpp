@@ -8,12 +8,12 @@
 namespace steradian::plane {
 namespace {
 
-struct Disk {
+struct InnerDisk {
   Vec2d center;
   double radius;
 };
 
-Disk around(const Curve& c) {
+InnerDisk around(const Curve& c) {
   if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
   if (c.tau_span < std::numbers::pi) {
     // About the chord, in the space where the ellipse is round and from there in the plane.
@@ -28,13 +28,13 @@ Disk around(const Curve& c) {
 
 std::vector<const Curve*> curves_that_matter_within(const std::vector<const Curve*>& curves, std::size_t own, Vec2d center, double radius) {
   std::vector<const Curve*> result;
-  std::vector<Disk> others;
+  std::vector<InnerDisk> others;
   for (std::size_t i = own; i < curves.size(); ++i) others.push_back(around(*curves[i]));
   for (std::size_t i = 0; i < own; ++i) {
     // Within the wider of the two radii of the line between the point and what it may hide.
-    const Disk mine = around(*curves[i]);
+    const InnerDisk mine = around(*curves[i]);
     const Vec2d at = mine.center - center;
-    const bool matters = std::any_of(others.begin(), others.end(), [&](const Disk& other) {
+    const bool matters = std::any_of(others.begin(), others.end(), [&](const InnerDisk& other) {
       const Vec2d to = other.center - center;
       const double l2 = dot(to, to), t = l2 > 0 ? std::clamp(dot(at, to) / l2, 0.0, 1.0) : 0;
       const double limit = std::max(radius, other.radius) + mine.radius;
@@ -51,7 +51,7 @@ namespace {
 
 // Do edges that follow each other run across all ways from one disk to the other? Between the two, all ways lie within the lines that
 // touch both from outside.
-bool divides(const std::vector<const Curve*>& edges, std::size_t count, const Disk& from, const Disk& to) {
+bool divides(const std::vector<const Curve*>& edges, std::size_t count, const InnerDisk& from, const InnerDisk& to) {
   const Vec2d axis = to.center - from.center;
   const double d = length(axis), growth = to.radius - from.radius;
   if (d <= from.radius + to.radius) return false;
@@ -104,7 +104,7 @@ void keep_seen_from(const SeenWithin& all, Vec2d p, SeenWithin& seen) {
     Vec2d a = part.a - p, b = part.b - p;
     if (part.kind != Curve::Kind::segment) {
       // Where the tangents of the circle about it touch.
-      const Disk disk = around(part);
+      const InnerDisk disk = around(part);
       const Vec2d to = disk.center - p, left{-to.y, to.x};
       const double d2 = dot(to, to), tangent2 = d2 - disk.radius * disk.radius;
       if (tangent2 <= 0) return true;
@@ -165,7 +165,6 @@ const Curve& curve_of(const Curve* c) { return *c; }
 
 template <class Curves>
 double share_between(const Curves& chords, Vec2d p) {
-  constexpr double pi = std::numbers::pi;
   struct Interval {
     double begin, end;
   };
@@ -178,16 +177,16 @@ double share_between(const Curves& chords, Vec2d p) {
     if (turn == 0 || (turn > 0 && !chord.two_sided)) continue;  // on its line; behind it: inside an occluder
     const Vec2d from = turn > 0 ? a : b;
     const double begin = std::atan2(from.y, from.x), end = begin + std::fabs(std::atan2(turn, dot(a, b)));
-    taken.push_back({begin, std::min(end, pi)});
-    if (end > pi) taken.push_back({-pi, end - 2 * pi});
+    taken.push_back({begin, std::min(end, std::numbers::pi)});
+    if (end > std::numbers::pi) taken.push_back({-std::numbers::pi, end - 2 * std::numbers::pi});
   }
   std::sort(taken.begin(), taken.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
-  double sum = 0, reached = -pi;
+  double sum = 0, reached = -std::numbers::pi;
   for (const Interval& i : taken) {
     sum += std::max(i.end - std::max(i.begin, reached), 0.0);
     reached = std::max(reached, i.end);
   }
-  return 1 - sum / (2 * pi);
+  return 1 - sum / (2 * std::numbers::pi);
 }
 
 }  // namespace

@@ -35,12 +35,6 @@ int nodes_for(double d, double stretch, double span, bool lambert, bool within_r
 // An edge of size 1 at this distance from one of its ends is at least 5 from a pixel: TilePart::small.
 constexpr double kSmallParts = 6;
 
-Vec2d nearest_on(Vec2d a, Vec2d b, Vec2d p) {
-  const Vec2d ab = b - a;
-  const double l = dot(ab, ab);
-  return l > 0 ? a + ab * std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : a;
-}
-
 }  // namespace
 
 DepthLine LeafBuilder::Depth::line() const { return {f(normal.x), f(normal.y), f(offset)}; }
@@ -101,7 +95,7 @@ LeafBuilder::Depth LeafBuilder::depth_of_round(const Blocker& b, Vec2d center) c
   }
   const bool run = !light_.hull.empty();
   const double radius = run ? 0 : light_.radius;
-  const Vec2d at = run ? nearest_of({light_.hull.data(), light_.hull.size()}, center) : nearest_on(light_.a, light_.b, center),
+  const Vec2d at = run ? nearest_of({light_.hull.data(), light_.hull.size()}, center) : nearest_on_segment(light_.a, light_.b, center),
               to = center - at;
   const double d = length(to);
   const Vec2d normal = to / d;
@@ -124,7 +118,7 @@ bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
     Vec2d best;
     double best_d2 = 1e300;
     for (int k = 0; k < count; ++k) {
-      const Vec2d p = nearest_on(space.to_unit(s.at(k)), space.to_unit(next(k)), {0, 0});
+      const Vec2d p = nearest_on_segment(space.to_unit(s.at(k)), space.to_unit(next(k)), {0, 0});
       const double d2 = dot(p, p);
       if (d2 < best_d2) best_d2 = d2, best = p;
     }

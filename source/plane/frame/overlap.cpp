@@ -12,12 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-Vec2d nearest_on(Vec2d a, Vec2d b, Vec2d p) {
-  const Vec2d ab = b - a;
-  const double l = dot(ab, ab);
-  return l > 0 ? a + ab * std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : a;
-}
-
 // The normal in the plane of a line with this normal in the ellipse's unit space.
 Vec2d normal_from_unit(const Ellipse& e, Vec2d n) {
   const Vec2d v{e.y.y * n.x - e.x.y * n.y, e.x.x * n.y - e.y.x * n.x};
@@ -61,7 +55,7 @@ DividingLine line_to(const Ellipse& space, Vec2d p) {
 
 Meeting meet_edge(const Emitter& e, const Ellipse& blocker) {
   Meeting result;
-  const Vec2d s = blocker.to_unit(e.a), t = blocker.to_unit(e.b), nearest = nearest_on(s, t, {0, 0});
+  const Vec2d s = blocker.to_unit(e.a), t = blocker.to_unit(e.b), nearest = nearest_on_segment(s, t, {0, 0});
   if (length(nearest) >= 1 - kTouching) {
     result.line = line_to(blocker, nearest);
     result.line.normal = -result.line.normal;
@@ -122,7 +116,7 @@ bool comes_within(double gap, const Emitter& e, const Vec2d* v, std::size_t coun
     bool inside = count > 2;
     for (std::size_t k = 0; k < count; ++k) {
       const Vec2d p = space.to_unit(v[k]), q = space.to_unit(v[(k + 1) % count]);
-      nearest = std::min(nearest, length(nearest_on(p, q, {0, 0})));
+      nearest = std::min(nearest, length(nearest_on_segment(p, q, {0, 0})));
       inside = inside && cross(q - p, -p) > 0;
     }
     return inside || nearest < 1 + gap / e.radius;

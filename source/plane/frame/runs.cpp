@@ -11,10 +11,10 @@ namespace {
 using std::numbers::pi;
 using RunShape = Emitter::RunShape;
 
-constexpr double kMostTurn = 2 * pi / 3;  // of a run that is not closed
-constexpr double kStraight = 1e-9;        // turns of less are none
-constexpr std::size_t kParts = 4;         // that a run is taken apart in
-constexpr double kLeastHeight = 1e-3;     // of the tile over every line: floats must not doubt it
+constexpr double kMostTurnOfRun = 2 * pi / 3;  // of a run that is not closed
+constexpr double kStraight = 1e-9;             // turns of less are none
+constexpr std::size_t kParts = 4;              // that a run is taken apart in
+constexpr double kLeastHeight = 1e-3;          // of the tile over every line: floats must not doubt it
 
 double turn_between(const Emitter& a, const Emitter& b) {
   const Vec2d u = a.b - a.a, v = b.b - b.a;
@@ -73,7 +73,7 @@ void append_chains(const std::vector<Emitter>& strand, std::vector<Emitter>& to)
     for (; end < strand.size(); ++end) {
       const double turn = turn_between(strand[end - 1], strand[end]);
       const bool other_way = std::fabs(turn) > kStraight && std::fabs(turned) > kStraight && turn * turned < 0;
-      if (other_way || std::fabs(turned + turn) > kMostTurn) break;
+      if (other_way || std::fabs(turned + turn) > kMostTurnOfRun) break;
       turned += turn;
     }
     append(&strand[i], end - i, to);

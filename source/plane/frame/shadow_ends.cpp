@@ -7,9 +7,10 @@
 namespace steradian::plane {
 namespace {
 
-float f(double x) { return static_cast<float>(x); }
-TileVertex vertex(Vec2d p) { return {f(p.x), f(p.y)}; }
-TileDisk disk(const Silhouette& s) { return {f(s.center.x), f(s.center.y), f(s.radius)}; }
+TileVertex vertex(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+TileDisk disk(const Silhouette& s) {
+  return {static_cast<float>(s.center.x), static_cast<float>(s.center.y), static_cast<float>(s.radius)};
+}
 
 // However many ends there are, these are the ones that others are compared with.
 constexpr std::size_t kFurthest = 16, kLooks = 24;
@@ -204,7 +205,9 @@ void ShadowEnds::write(TileLight& light) {
     }
     const bool ordered = !h.deep && ((s.begins | s.ends) & ~h.ahead) == 0;
     if (!ordered && s.kind == Silhouette::Kind::segment) {
-      (h.deep ? deep_ : chords_).push_back({f(s.x[0]), f(s.y[0]), f(s.x[1]), f(s.y[1]), h.depth.x, h.depth.y, h.depth.c});
+      (h.deep ? deep_ : chords_)
+          .push_back({static_cast<float>(s.x[0]), static_cast<float>(s.y[0]), static_cast<float>(s.x[1]), static_cast<float>(s.y[1]),
+                      h.depth.x, h.depth.y, h.depth.c});
       continue;
     }
     const TileSpan span{static_cast<int>(vertices_.size()), std::popcount(s.begins), std::popcount(s.ends)};

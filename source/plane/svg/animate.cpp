@@ -21,7 +21,7 @@
 namespace steradian::plane::svg {
 namespace {
 
-constexpr double kFlatness = 1e-5;  // of a motion's path, as a share of the picture's larger side
+constexpr double kMotionFlatness = 1e-5;  // of a motion's path, as a share of the picture's larger side
 
 bool is_animation(std::string_view name) {
   return name == "animate" || name == "set" || name == "animateTransform" || name == "animateMotion" || name == "animateColor";
@@ -78,7 +78,7 @@ struct Place {
 class Animating {
  public:
   Animating(Document& document, double seconds, Budget& budget)
-      : document_(document), seconds_(seconds), tolerance_(kFlatness * size_of(document)), budget_(budget) {}
+      : document_(document), seconds_(seconds), tolerance_(kMotionFlatness * size_of(document)), budget_(budget) {}
 
   void run() {
     const std::vector<pugi::xml_node> all = animations_of(document_.root());

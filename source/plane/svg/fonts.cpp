@@ -151,16 +151,4 @@ const Face* Fonts::face(const std::string& families, const std::string& weight, 
   return found->second.get();
 }
 
-std::vector<std::string> family_names(const std::string& css) {
-  std::vector<std::string> names;
-  for (std::string_view rest = css; !rest.empty();) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    std::string_view name = trimmed(rest.substr(0, comma));
-    if (name.size() > 1 && (name.front() == '"' || name.front() == '\'')) name = name.substr(1, name.size() - 2);
-    if (!name.empty()) names.emplace_back(name);
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  return names;
-}
-
 }  // namespace steradian::plane::svg

@@ -27,9 +27,6 @@ class Face {
   std::unique_ptr<Handle> handle_;
 };
 
-// The names of CSS's font-family, without their quotes.
-std::vector<std::string> family_names(const std::string& css);
-
 class Fonts {
  public:
   Fonts();

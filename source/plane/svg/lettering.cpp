@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "plane/svg/text.h"
+
 namespace steradian::plane::svg {
 namespace {
 
@@ -22,7 +24,7 @@ char32_t take_character(std::string_view& text) {
   return c;
 }
 
-bool is_space(char32_t c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_text_space(char32_t c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -57,7 +59,7 @@ class Layout {
         begin_run(n, style);
         for (std::string_view text = child.value(); !text.empty();) {
           char32_t c = take_character(text);
-          if (is_space(c)) {
+          if (is_text_space(c)) {
             if (after_space_) continue;
             c = ' ';
           }

@@ -23,7 +23,7 @@ namespace {
 
 // How far a flattened curve may be from its own, as a share of the picture's larger side: 0.01 of a pixel in a picture of
 // 1000 pixels, whatever a user unit is.
-constexpr double kFlatness = 1e-5;
+constexpr double kCurveFlatness = 1e-5;
 constexpr int kDeepest = 64;  // nested groups and uses: deeper is a cycle or an attack
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000, kMostSuns = 1000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
@@ -95,7 +95,7 @@ class Reader {
 
   double diagonal() const { return std::hypot(result_.scene.width, result_.scene.height) / std::sqrt(2.0); }
 
-  double flatness() const { return kFlatness * std::max(result_.scene.width, result_.scene.height); }
+  double flatness() const { return kCurveFlatness * std::max(result_.scene.width, result_.scene.height); }
 
   void children(pugi::xml_node n, const Style& style, int depth) {
     if (uses_ > 0 && drawing_.count(n.internal_object()) == 0) return;

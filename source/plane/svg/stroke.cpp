@@ -37,15 +37,14 @@ class Side {
     const double first = angle_of(left(before));
     // One point in the middle will do where the arc is that flat.
     if (n <= 1) {
-      points.push_back(at + direction(first + 0.5 * angle) * radius_);
+      points.push_back(at + direction_at(first + 0.5 * angle) * radius_);
       return;
     }
-    for (int i = 0; i <= n; ++i) points.push_back(at + direction(first + angle * i / n) * radius_);
+    for (int i = 0; i <= n; ++i) points.push_back(at + direction_at(first + angle * i / n) * radius_);
   }
 
  private:
   static Vec2d left(Vec2d along) { return {-along.y, along.x}; }
-  static Vec2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
   double radius_, step_;
 };
 

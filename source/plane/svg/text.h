@@ -13,6 +13,8 @@ namespace steradian::plane::svg {
 
 std::string_view trimmed(std::string_view text);
 std::vector<std::string> words(std::string_view text);  // between white space
+// The names of CSS's font-family, without their quotes.
+std::vector<std::string> family_names(const std::string& css);
 
 // Walks a list of numbers. Independent of the locale.
 class Scanner {

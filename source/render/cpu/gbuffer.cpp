@@ -20,8 +20,6 @@ void put(TileVector& v, std::size_t i, Vec3f a) {
   v.z[i] = a.z;
 }
 
-bool weighs(Vec3f a) { return a.x > 0 || a.y > 0 || a.z > 0; }
-
 // What the tile holds, now that it holds this surface.
 void note(SurfaceTile& tile, const Surface& s) {
   tile.any_surface = true;
@@ -37,8 +35,6 @@ std::array<TileVector*, 12> vectors_of(SurfaceTile& t) {
   return {&t.position, &t.normal, &t.geometric_normal, &t.view,   &t.albedo,  &t.f0, &t.f90,
           &t.tangent,  &t.sheen,  &t.coat_normal,      &t.passes, &t.radiance};
 }
-
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 }  // namespace
 

@@ -17,25 +17,25 @@ struct Interval {
 Vec3f lowest(Vec3f a, Vec3f b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3f highest(Vec3f a, Vec3f b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
-struct Box {
+struct LightBox {
   Interval x, y, z;
 };
-Box box_of(Vec3f low, Vec3f high) { return {{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}; }
+LightBox box_of(Vec3f low, Vec3f high) { return {{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}; }
 
 // Largest and least product of two numbers from two intervals.
 float largest_product(Interval a, Interval b) { return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
 float least_product(Interval a, Interval b) { return std::min({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
 
 // Largest, or least, height of the vertex v above the horizons of the surfaces.
-float height(Vec3f v, const Box& positions, const Box& normals, float (*product)(Interval, Interval)) {
+float height(Vec3f v, const LightBox& positions, const LightBox& normals, float (*product)(Interval, Interval)) {
   const auto along = [&](float c, Interval p, Interval n) { return product({c - p.high, c - p.low}, n); };
   return along(v.x, positions.x, normals.x) + along(v.y, positions.y, normals.y) + along(v.z, positions.z, normals.z);
 }
-float largest_height(Vec3f v, const Box& positions, const Box& normals) { return height(v, positions, normals, largest_product); }
-float least_height(Vec3f v, const Box& positions, const Box& normals) { return height(v, positions, normals, least_product); }
+float largest_height(Vec3f v, const LightBox& positions, const LightBox& normals) { return height(v, positions, normals, largest_product); }
+float least_height(Vec3f v, const LightBox& positions, const LightBox& normals) { return height(v, positions, normals, least_product); }
 
 // Distance range of the box from a plane.
-Interval heights(const Box& box, Vec3f normal, Vec3f point) {
+Interval heights(const LightBox& box, Vec3f normal, Vec3f point) {
   Interval h;
   for (int i = 0; i < 8; ++i) {
     const Vec3f p{(i & 1) != 0 ? box.x.high : box.x.low, (i & 2) != 0 ? box.y.high : box.y.low, (i & 4) != 0 ? box.z.high : box.z.low};
@@ -44,13 +44,13 @@ Interval heights(const Box& box, Vec3f normal, Vec3f point) {
   return h;
 }
 
-bool faces(const auto& flat, const Box& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
-bool faces(const packed::Ellipsoid&, const Box&) { return true; }
-bool faces(const packed::Capsule&, const Box&) { return true; }
-bool faces(const packed::Punctual&, const Box&) { return true; }
-bool faces(const packed::Pieces&, const Box&) { return true; }
+bool faces(const auto& flat, const LightBox& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
+bool faces(const packed::Ellipsoid&, const LightBox&) { return true; }
+bool faces(const packed::Capsule&, const LightBox&) { return true; }
+bool faces(const packed::Punctual&, const LightBox&) { return true; }
+bool faces(const packed::Pieces&, const LightBox&) { return true; }
 
-bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
+bool reaches(const PackLight& light, const LightBox& positions, const LightBox& normals) {
   if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
       punctual != nullptr && punctual->kind == PunctualKind::directional) {
     const Interval zero{0, 0};
@@ -65,14 +65,14 @@ bool reaches(const PackLight& light, const Box& positions, const Box& normals) {
 }
 
 // Whether a shape that is larger by `spread` than the light's is all above the horizons.
-bool above(const auto& shape, const Box& positions, const Box& normals) {
+bool above(const auto& shape, const LightBox& positions, const LightBox& normals) {
   return !shape.any_bound([&](Vec3f point, float radius) { return !(least_height(point, positions, normals) > radius); });
 }
-bool before(const auto& flat, const Box& positions) { return heights(positions, flat.normal, flat.point).low > 0; }
+bool before(const auto& flat, const LightBox& positions) { return heights(positions, flat.normal, flat.point).low > 0; }
 
 struct SeenWhole {
-  const Box& positions;
-  const Box& normals;
+  const LightBox& positions;
+  const LightBox& normals;
   float spread;
   bool operator()(const packed::Polygon& p) const { return before(p, positions) && above(p, positions, normals); }
   bool operator()(packed::Disk d) const {
@@ -117,7 +117,7 @@ bool reaches(const PackLight& light, const SurfaceBounds& surfaces) {
 }
 
 bool sees_whole(const PackLight& light, const SurfaceBounds& surfaces, float spread) {
-  const Box positions = box_of(surfaces.low, surfaces.high), normals = box_of(surfaces.normal_low, surfaces.normal_high);
+  const LightBox positions = box_of(surfaces.low, surfaces.high), normals = box_of(surfaces.normal_low, surfaces.normal_high);
   return std::visit(SeenWhole{positions, normals, spread}, light.shape);
 }
 

@@ -15,8 +15,6 @@ struct SpecularLobe {
   bool layered = false;  // of a metallic-roughness surface or a coat
 };
 
-bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
-
 Material ggx_of_any_width(bool anisotropic) {
   Material m;
   m.brdf = Brdf::ggx;

@@ -96,8 +96,8 @@ void multiply(std::initializer_list<float*> numbers, float by) {
     for (std::size_t i = 0; i < 16; ++i) sixteen[i] *= by;
 }
 
-// Gives a lane that nobody asks for finite numbers and an empty interval. Where the processor has no packets of sixteen, Embree splits them,
-// and its halves must be valid rays in every lane.
+// Gives a lane that nobody asks for finite numbers and an empty interval. Where the processor has no packets of sixteen, Embree splits
+// them, and its halves must be valid rays in every lane.
 void disable(RTCRay16& rays, std::size_t lane) {
   rays.org_x[lane] = rays.org_y[lane] = rays.org_z[lane] = rays.dir_x[lane] = rays.dir_y[lane] = rays.time[lane] = 0;
   rays.dir_z[lane] = rays.tnear[lane] = 1;

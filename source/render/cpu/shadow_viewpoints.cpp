@@ -5,7 +5,7 @@ namespace {
 
 using shadow::Viewpoint;
 
-Vec3d get(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(Vec3f{v.x[i], v.y[i], v.z[i]}); }
+Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(Vec3f{v.x[i], v.y[i], v.z[i]}); }
 
 }  // namespace
 
@@ -15,7 +15,8 @@ TilePoints points_for_shadows(const SurfaceTile& tile, Terminator terminator) {
   std::vector<Vec3d> positions(kTilePixels);
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (tile.material[i] == nullptr) continue;
-    const Vec3d position = get(tile.position, i), geometric = get(tile.geometric_normal, i), normal = normalized(get(tile.normal, i));
+    const Vec3d position = double_of(tile.position, i), geometric = double_of(tile.geometric_normal, i),
+                normal = normalized(double_of(tile.normal, i));
     Viewpoint& at = result.points[i];
     positions[i] = at.position = position + geometric * shadow::offset_from_surface(position);
     at.normal = normal;

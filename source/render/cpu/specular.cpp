@@ -38,8 +38,6 @@ struct SpecularPass::Lobe {
 
 namespace {
 
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
-
 void add_to(TileVector& v, std::size_t i, Vec3f a) {
   v.x[i] += a.x;
   v.y[i] += a.y;

@@ -345,7 +345,6 @@ Material sheen_of(const Surface& s) {
 
 std::vector<SurfaceLobe> lobes_of(const Surface& s) {
   std::vector<SurfaceLobe> lobes;
-  const auto weighs = [](Vec3f w) { return w.x > 0 || w.y > 0 || w.z > 0; };
   if (s.material->unlit) return lobes;
   if (weighs(s.albedo)) {
     Material m;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "steradian/vector.h"
+
 namespace steradian {
 
 struct SurfaceMaterial;
@@ -28,6 +30,7 @@ using TilePlane = std::array<float, kTilePixels + 16>;
 struct TileVector {
   alignas(64) TilePlane x, y, z;
 };
+inline Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 // Slots without a surface hold a normal of zero; every light sends them nothing.
 struct SurfaceTile {

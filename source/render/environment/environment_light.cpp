@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "lobes/lobe.h"
 
 namespace steradian::environment {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Of the map that integrals see: the sun's disc is one and a half texels wide.
 constexpr int kMostColumns = 1024;
 // Cones that stand for a lobe. What they are off by is measured by EnvironmentRender.SpecularAgreesWithTheReference.
@@ -38,7 +38,7 @@ double integrate_mean_grazing(double cos_view) {
   double sum = 0;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
-      const double square = (i + 0.5) / kSteps, phi = kPi * (j + 0.5) / kSteps;  // even in the projected area of the sky
+      const double square = (i + 0.5) / kSteps, phi = std::numbers::pi * (j + 0.5) / kSteps;  // even in the projected area of the sky
       const Vec3d l{std::sqrt(square) * std::cos(phi), std::sqrt(square) * std::sin(phi), std::sqrt(1 - square)};
       sum += std::pow(1 - dot(view, normalized(view + l)), 5);
     }
@@ -84,7 +84,7 @@ EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid
 Vec3d EnvironmentLight::diffuse(const Material& lobe, Vec3d normal, Vec3d view) const {
   const Vec3d irradiance = environment_.irradiance ? environment_.irradiance->at(normal) : harmonics_.at(normal);
   const double passed = lobe.fresnel_loss > 0 ? 1 - lobe.fresnel_loss * mean_grazing(dot(normal, view)) : 1;
-  return lobe.albedo * irradiance * (passed / kPi);
+  return lobe.albedo * irradiance * (passed / std::numbers::pi);
 }
 
 // A GGX lobe by half vectors of those that the view sees, in float.
@@ -100,7 +100,7 @@ EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame
     std::array<Vec3f, kCones> d;
     for (int i = 0; i < kCones; ++i) {
       const auto [u, v] = place_of_cone(i);
-      const double r = std::sqrt(u), phi = 2 * kPi * v;
+      const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
       d[static_cast<std::size_t>(i)] = static_cast<Vec3f>(Vec3d{r * std::cos(phi), r * std::sin(phi), u});
     }
     return d;
@@ -125,8 +125,8 @@ EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame
     const float weight = l.z * (view_length + view.z) / (l.z * view_length + view.z * light_length) * (1.0f / kCones);
     // Density per solid angle: G1 D / (4 v.z), G1 = 2 v.z / (v.z + |Av|).
     const float k = h.x * h.x / (ax * ax) + h.y * h.y / (ay * ay) + h.z * h.z;
-    const float pdf = 1 / (2 * (view.z + view_length) * static_cast<float>(kPi) * ax * ay * k * k);
-    const float width = 0.5f / std::sqrt(kCones * pdf * static_cast<float>(kPi));
+    const float pdf = 1 / (2 * (view.z + view_length) * static_cast<float>(std::numbers::pi) * ax * ay * k * k);
+    const float width = 0.5f / std::sqrt(kCones * pdf * static_cast<float>(std::numbers::pi));
     const Vec3f radiance = filtered_.mean(fx * l.x + fy * l.y + fz * l.z, width) * weight;
     const float c = std::max(1 - v_dot_h, 0.0f), grazing = c * c * c * c * c;
     sums.plain += radiance;
@@ -157,7 +157,7 @@ Vec3d EnvironmentLight::through_cones(const Material& material, const Surface& s
     const double pdf = lobe.pdf(l);
     if (!(pdf > 0)) continue;
     // A disc of solid angle 1 / (n pdf) varies by a quarter of its radius' square in each direction.
-    const double width = 0.5 * std::sqrt(1 / (kCones * pdf * kPi));
+    const double width = 0.5 * std::sqrt(1 / (kCones * pdf * std::numbers::pi));
     const auto radiance = static_cast<Vec3d>(filtered_.mean(static_cast<Vec3f>(frame.to_world(l)), static_cast<float>(width)));
     sum += lobe.radiance(lobe.evaluate(l)) * radiance * (1 / (kCones * pdf));
   }

@@ -1,6 +1,7 @@
 #include "render/environment/harmonics.h"
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "steradian/area_light.h"  // luminance
@@ -8,7 +9,6 @@
 namespace steradian::environment {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kDegree = HarmonicIrradiance::kDegree;
 // Columns of the map that the integrals run over. Against whole texels of the map an average over 1/256 of the circle changes a
 // coefficient of degree l by (l / 256 * 2 pi)^2 / 24: 0.16 % at l = 8, whose share of the irradiance is under 1 %.
@@ -23,7 +23,7 @@ struct Norms {
       for (int m = 0; m <= l; ++m) {
         double ratio = 1;
         for (int k = l - m + 1; k <= l + m; ++k) ratio /= k;
-        of[l][m] = std::sqrt((2 * l + 1) / (4 * kPi) * ratio * (m > 0 ? 2 : 1));
+        of[l][m] = std::sqrt((2 * l + 1) / (4 * std::numbers::pi) * ratio * (m > 0 ? 2 : 1));
       }
   }
 };
@@ -60,12 +60,12 @@ std::array<double, 81> harmonics_at(Vec3d d) {
 }
 
 double cosine_coefficient(int degree) {
-  if (degree == 1) return 2 * kPi / 3;
+  if (degree == 1) return 2 * std::numbers::pi / 3;
   if (degree % 2 == 1) return 0;
   double binomial = 1;  // degree over degree / 2, over 2^degree
   for (int k = 1; k <= degree / 2; ++k) binomial *= (degree / 2.0 + k) / k / 4;
   const double sign = degree % 4 == 2 ? 1 : -1;
-  return degree == 0 ? kPi : sign * 2 * kPi / ((degree + 2.0) * (degree - 1.0)) * binomial;
+  return degree == 0 ? std::numbers::pi : sign * 2 * std::numbers::pi / ((degree + 2.0) * (degree - 1.0)) * binomial;
 }
 
 HarmonicIrradiance::HarmonicIrradiance(const DirectionGrid& whole) {
@@ -87,8 +87,8 @@ HarmonicIrradiance::HarmonicIrradiance(const DirectionGrid& whole) {
 
   double squares = 0, mean = 0;
   for (int i = 0; i < kNormals; ++i) {
-    const Vec3d normal =
-        direction_of({i * 0.61803398874989485 - std::floor(i * 0.61803398874989485), std::acos(1 - (2 * i + 1.0) / kNormals) / kPi});
+    const Vec3d normal = direction_of(
+        {i * 0.61803398874989485 - std::floor(i * 0.61803398874989485), std::acos(1 - (2 * i + 1.0) / kNormals) / std::numbers::pi});
     double exact = 0;
     for (int j = 0; j < grid.map.height; ++j) {
       double row = 0;

@@ -19,8 +19,6 @@ constexpr float kCenter = kBallCenter, kAlong = kBallAlong, kAcross = kBallRadiu
 
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float
 
-bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
-
 // Schlick's Fresnel averaged over the lobe.
 Vec3f mean_reflectance(const ShadowMap& map, const LobeArrays& lobes, std::size_t i) {
   const Vec3f f0 = map.f0[i], f90 = map.f90[i];

@@ -19,9 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
-bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
-
 // Ground truth looks at a surface as its material describes it.
 bool needs_whole_surfaces(const RenderOptions& options) {
   return options.indirect.mode == IndirectMode::path || options.method == "reference";

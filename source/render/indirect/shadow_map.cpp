@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "core/float_mode.h"
@@ -15,7 +16,6 @@
 namespace steradian::indirect {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
 constexpr unsigned kCastsShadow = 2;  // RayScene: light passes the shapes that only stand for lights
 
 // A ray from a light, the flux it carries, and how its direction changes from column to column and row to row.
@@ -45,7 +45,7 @@ double spot_falloff(const PunctualLight& light, Vec3d unit) {
 Emitter spot(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
   const double t = std::sqrt(1 - light.cos_outer * light.cos_outer) / light.cos_outer;
-  return {luminance(light.intensity) * 2 * kPi * (1 - light.cos_outer), [=](int i, int j, int side) {
+  return {luminance(light.intensity) * 2 * std::numbers::pi * (1 - light.cos_outer), [=](int i, int j, int side) {
             LightRay r;
             const double step = 2 * t / side;
             r.origin = light.position;
@@ -63,13 +63,13 @@ Emitter spot(const PunctualLight& light) {
 Emitter sphere(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
   const packed::Punctual source = packed::prepare(light);
-  const double power = source.profile != nullptr ? luminous_flux(*source.profile) : 4 * kPi;
+  const double power = source.profile != nullptr ? luminous_flux(*source.profile) : 4 * std::numbers::pi;
   return {luminance(light.intensity) * power, [=](int i, int j, int side) {
             LightRay r;
-            const double z = 1 - 2 * (j + 0.5) / side, s = std::sqrt(1 - z * z), phi = 2 * kPi * (i + 0.5) / side;
+            const double z = 1 - 2 * (j + 0.5) / side, s = std::sqrt(1 - z * z), phi = 2 * std::numbers::pi * (i + 0.5) / side;
             r.origin = light.position;
             r.direction = frame.to_world({s * std::cos(phi), s * std::sin(phi), z});
-            r.solid_angle = 4 * kPi / (static_cast<double>(side) * side);
+            r.solid_angle = 4 * std::numbers::pi / (static_cast<double>(side) * side);
             const double falloff = light.kind == PunctualKind::spot ? spot_falloff(light, r.direction)
                                    : source.profile != nullptr
                                        ? packed::profile_intensity(source, r.direction.x, r.direction.y, r.direction.z)
@@ -109,7 +109,7 @@ Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles
   const double sides = light.two_sided ? 2 : 1;
   const double lum = luminance(radiance);
   const double surface = lum > 0 && light.power > 0 ? light.power / lum : total;  // without the tessellation's deficit
-  return {lum * kPi * surface * sides, [=](int i, int j, int side) {
+  return {lum * std::numbers::pi * surface * sides, [=](int i, int j, int side) {
             LightRay r;
             // Where on the light: the additive recurrence of Roberts 2018 in three dimensions.
             constexpr double kRoot = 1.2207440846057596;  // of x^4 = x + 1
@@ -124,12 +124,12 @@ Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles
             Vec3d normal = normalized(cross(t.b - t.a, t.c - t.a));
             if (sides == 2 && (i + j) % 2 == 1) normal = -normal;
             r.origin = t.a * (1 - root) + t.b * (root * (1 - v)) + t.c * (root * v);
-            const double w = (j + 0.5) / side, s = std::sqrt(w), z = std::sqrt(1 - w), phi = 2 * kPi * (i + 0.5) / side;
+            const double w = (j + 0.5) / side, s = std::sqrt(w), z = std::sqrt(1 - w), phi = 2 * std::numbers::pi * (i + 0.5) / side;
             r.direction = Frame::from_normal(normal).to_world({s * std::cos(phi), s * std::sin(phi), z});
             const double rays = static_cast<double>(side) * side;
-            r.flux = radiance * (kPi * surface * sides / rays);
-            r.solid_angle = kPi * sides / (rays * std::max(z, 0.05));
-            r.back = std::sqrt(surface / kPi);
+            r.flux = radiance * (std::numbers::pi * surface * sides / rays);
+            r.solid_angle = std::numbers::pi * sides / (rays * std::max(z, 0.05));
+            r.back = std::sqrt(surface / std::numbers::pi);
             return r;
           }};
 }
@@ -183,8 +183,6 @@ struct Texel {
   std::uint16_t column = 0, row = 0;
   bool lit = false;
 };
-
-bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
 // How far the section of the texel's cone with the tangent plane reaches along one step.
 Vec3d section(const LightRay& r, Vec3d step, Vec3d normal, double along) {
@@ -251,7 +249,7 @@ Place place_on(const Scene& scene, FirstHit hit, const MapRay& ray) {
   return {hit.mesh, hit.triangle, static_cast<float>(u / sum), static_cast<float>(v / sum), static_cast<float>(dot(e2, q) / determinant)};
 }
 
-constexpr int kBlock = 16;  // texels, 4 x 4
+constexpr int kMapBlock = 16;  // texels, 4 x 4
 
 // Blocks side by side in a light's grid.
 struct BlockRow {
@@ -264,12 +262,12 @@ struct BlockRow {
 LightRay light_ray(const BlockRow& row, int block, int k) { return row.emitter->ray(4 * block + k % 4, row.y + k / 4, row.side); }
 
 // What the rays of a block meet; hits: what of that is known, null for nothing. Whether ray k meets something is bit k.
-unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kBlock], const FirstHit* hits, Place (&places)[kBlock]) {
+unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kMapBlock], const FirstHit* hits, Place (&places)[kMapBlock]) {
   alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[kBlock];
+  alignas(64) int valid[kMapBlock];
   bool any = false;
   unsigned met = 0;
-  for (int k = 0; k < kBlock; ++k) {
+  for (int k = 0; k < kMapBlock; ++k) {
     const MapRay& r = of[k];
     packet.ray.org_x[k] = r.origin.x, packet.ray.org_y[k] = r.origin.y, packet.ray.org_z[k] = r.origin.z;
     packet.ray.dir_x[k] = r.direction.x, packet.ray.dir_y[k] = r.direction.y, packet.ray.dir_z[k] = r.direction.z;
@@ -287,7 +285,7 @@ unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kBloc
     met |= 1u << k;
   }
   if (any) rays.intersect(valid, packet);
-  for (int k = 0; k < kBlock; ++k) {
+  for (int k = 0; k < kMapBlock; ++k) {
     if (valid[k] == 0 || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
     places[k] = {packet.hit.geomID[k], packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k], packet.ray.tfar[k]};
     met |= 1u << k;
@@ -349,7 +347,7 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, F
       MapRay* to = hits->rays(size);
       tbb::parallel_for(begin, end, [&](std::size_t r) {
         for (std::size_t i = 0; i < rows[r].size(); ++i)
-          to[rows[r].first - first + i] = map_ray(light_ray(rows[r], static_cast<int>(i) / kBlock, static_cast<int>(i) % kBlock));
+          to[rows[r].first - first + i] = map_ray(light_ray(rows[r], static_cast<int>(i) / kMapBlock, static_cast<int>(i) % kMapBlock));
       });
       hits->find(size);
     }
@@ -357,17 +355,17 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, F
       const FlushDenormals flush;
       const BlockRow& row = rows[r];
       for (int block = 0; block < row.side / 4; ++block) {
-        const std::size_t texel = row.first + static_cast<std::size_t>(kBlock * block);
-        LightRay light_rays[kBlock];
-        MapRay asked[kBlock];
-        FirstHit known[kBlock];
-        Place places[kBlock];
-        for (int k = 0; k < kBlock; ++k) {
+        const std::size_t texel = row.first + static_cast<std::size_t>(kMapBlock * block);
+        LightRay light_rays[kMapBlock];
+        MapRay asked[kMapBlock];
+        FirstHit known[kMapBlock];
+        Place places[kMapBlock];
+        for (int k = 0; k < kMapBlock; ++k) {
           asked[k] = map_ray(light_rays[k] = light_ray(row, block, k));
           if (hits != nullptr) known[k] = hits->hit(texel - first + static_cast<std::size_t>(k));
         }
         const unsigned met = meet(scene, rays, asked, hits != nullptr ? known : nullptr, places);
-        for (int k = 0; k < kBlock; ++k) {
+        for (int k = 0; k < kMapBlock; ++k) {
           Texel t;
           if ((met >> k & 1) != 0) t = shade(scene, light_rays[k], places[k]);
           t.column = static_cast<std::uint16_t>(4 * block + k % 4);

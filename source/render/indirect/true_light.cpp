@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/indirect/light_sets.h"
 #include "integrals/ltc/ggx_tables.h"
@@ -11,10 +12,7 @@
 namespace steradian::indirect {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
-
 Vec3d wide(Vec3f v) { return static_cast<Vec3d>(v); }
-bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
 // One surface and the direction that its table is looked up at: BRDF times the cosine of the other direction, RGB.
 class End {
@@ -30,7 +28,7 @@ class End {
 
   Vec3d local(Vec3d w) const { return frame_.to_local(w); }
   double view_cosine() const { return view_.z; }
-  Vec3d diffuse(Vec3d l) const { return albedo_ * (std::max(l.z, 0.0) / kPi); }
+  Vec3d diffuse(Vec3d l) const { return albedo_ * (std::max(l.z, 0.0) / std::numbers::pi); }
 
   Vec3d ggx(Vec3d l) const {
     if (!glossy_ || !(l.z > 0)) return {};
@@ -115,7 +113,7 @@ Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f vi
     const Vec3d pair = wide(map.flux[i]) * out * in;
     if (!(pair.x + pair.y + pair.z > 0)) continue;
     if (options.shadows != nullptr && options.shadows->occluded(receiver.position, map.position[i])) continue;
-    sum += pair / (d2 + (options.soften ? static_cast<double>(map.area[i]) / kPi : 0));
+    sum += pair / (d2 + (options.soften ? static_cast<double>(map.area[i]) / std::numbers::pi : 0));
   }
   return sum;
 }

@@ -9,7 +9,6 @@ namespace steradian::lights {
 namespace {
 
 Vec3f at(const Planes& planes, std::uint32_t i) { return {planes.x[i], planes.y[i], planes.z[i]}; }
-Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 void put(TileVector& v, std::size_t i, Vec3f a) {
   v.x[i] = a.x;
   v.y[i] = a.y;

@@ -74,7 +74,7 @@ std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
                                                 constants.size() * sizeof(std::int32_t), constants.data());
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *p.shaders.at(shader), "main", &specialization);
-    p.made.push_back(device_.handles().device.createComputePipeline(nullptr, {{}, stage, *p.layout}));
+    p.made.push_back(device_.handles().device.createComputePipeline(device_.handles().pipeline_cache, {{}, stage, *p.layout}));
   });
   return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
 }

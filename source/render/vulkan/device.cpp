@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
 #include <optional>
 
+#include "core/atomic_file.h"
 #include "render/vulkan/handles.h"
 
 namespace steradian::vulkan {
@@ -107,6 +114,41 @@ std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
   return found;
 }
 
+const char* pipeline_cache_file() {
+  const char* path = std::getenv("STERADIAN_PIPELINE_CACHE");
+  return path != nullptr && *path != '\0' ? path : nullptr;
+}
+
+// The file's bytes where this driver wrote them for this device, else none: drivers need not survive those of others.
+std::vector<char> read_pipeline_cache(const vk::raii::PhysicalDevice& device) {
+  if (pipeline_cache_file() == nullptr) return {};
+  std::ifstream file(pipeline_cache_file(), std::ios::binary);
+  std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  VkPipelineCacheHeaderVersionOne header{};
+  if (bytes.size() < sizeof header) return {};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  const bool ours =
+      header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
+      header.deviceID == properties.deviceID &&
+      std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), properties.pipelineCacheUUID.begin());
+  return ours ? bytes : std::vector<char>{};
+}
+
+// A cache that cannot be written costs the next run its time, and nothing else.
+void write_pipeline_cache(const vk::raii::PipelineCache& cache) noexcept {
+  if (pipeline_cache_file() == nullptr || !*cache) return;
+  try {
+    const auto bytes = cache.getData();
+    write_file(pipeline_cache_file(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  } catch (const std::exception&) {
+  }
+}
+
+std::mutex shared_mutex;
+int shared_users = 0;
+std::map<std::pair<std::string, bool>, std::shared_ptr<const Device>> shared_devices;
+
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -150,6 +192,8 @@ Device::Device(const DeviceOptions& options) {
       const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
       h.device = h.physical.createDevice({{}, queue});
       h.queue = h.device.getQueue(h.queue_family, 0);
+      const std::vector<char> cached = read_pipeline_cache(h.physical);
+      h.pipeline_cache = h.device.createPipelineCache({{}, cached.size(), cached.data()});
       h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, h.queue_family});
       return;
     }
@@ -160,11 +204,30 @@ Device::Device(const DeviceOptions& options) {
 
 Device::~Device() {
   const Handles& h = *handles_;
+  if (!h.hangs) write_pipeline_cache(h.pipeline_cache);
   h.leave(handles_);
 }
 
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
 
 std::size_t Device::allocations() const { return handles_->allocations; }
+
+std::shared_ptr<const Device> open_device(const DeviceOptions& options) {
+  const std::lock_guard lock(shared_mutex);
+  if (shared_users == 0) return std::make_shared<const Device>(options);
+  std::shared_ptr<const Device>& device = shared_devices[{options.name, options.validation}];
+  if (device == nullptr) device = std::make_shared<const Device>(options);
+  return device;
+}
+
+SharedDevices::SharedDevices() {
+  const std::lock_guard lock(shared_mutex);
+  ++shared_users;
+}
+
+SharedDevices::~SharedDevices() {
+  const std::lock_guard lock(shared_mutex);
+  if (--shared_users == 0) shared_devices.clear();
+}
 
 }  // namespace steradian::vulkan

@@ -35,6 +35,7 @@ struct DeviceOptions {
   bool validation = false;  // demand the validation layer, and keep what it says
 };
 
+// Where the environment names a file by STERADIAN_PIPELINE_CACHE, compiled pipelines are read from it and written to it.
 class Device {
  public:
   // Throws Error where there is no such device.
@@ -53,6 +54,19 @@ class Device {
  private:
   std::unique_ptr<Handles> handles_;
   DeviceInfo info_;
+};
+
+// Opens a device, or answers with the one that a living SharedDevices has opened before under the same options.
+std::shared_ptr<const Device> open_device(const DeviceOptions& options);
+
+// While one lives, open_device() keeps what it opens, with the pipelines made so far. For programs that use devices from one thread at a
+// time, as tests do.
+class SharedDevices {
+ public:
+  SharedDevices();
+  ~SharedDevices();
+  SharedDevices(const SharedDevices&) = delete;
+  SharedDevices& operator=(const SharedDevices&) = delete;
 };
 
 }  // namespace steradian::vulkan

@@ -69,10 +69,7 @@ DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
 
 // The cache's, made anew where that is of another device.
 std::shared_ptr<KeptOnDevice> kept_of(std::shared_ptr<const Device> device, const std::string& name, RenderCache* cache) {
-  const auto make = [&] {
-    return std::make_shared<KeptOnDevice>(device != nullptr ? std::move(device)
-                                                            : std::make_shared<const Device>(DeviceOptions{name, false}));
-  };
+  const auto make = [&] { return std::make_shared<KeptOnDevice>(device != nullptr ? std::move(device) : open_device({name, false})); };
   if (cache == nullptr) return make();
   auto& [kept, kept_name] = cache->parts().on_device;
   if (kept == nullptr || (device != nullptr ? kept->device != device : kept_name != name)) {

@@ -35,6 +35,7 @@ struct Device::Handles {
   std::uint32_t queue_family = 0;
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
+  vk::raii::PipelineCache pipeline_cache = nullptr;
   float timestamp_period = 0;  // nanoseconds of a tick
   // By what tells programs apart: how many buffers they have, and their shaders, word for word. They stay as long as the device: pipelines
   // take longer to make than pictures.

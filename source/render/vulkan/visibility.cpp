@@ -89,7 +89,8 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {
   return d.createRenderPass({{}, attachments, subpass, dependencies});
 }
 
-vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, vk::PipelineLayout layout, vk::RenderPass pass) {
+vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, const vk::raii::PipelineCache& cache, vk::PipelineLayout layout,
+                                 vk::RenderPass pass) {
   const vk::raii::ShaderModule vertex = module_of(d, visibility_vertex_shader()), fragment = module_of(d, visibility_fragment_shader());
   const vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
                                                       {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main"}};
@@ -106,7 +107,7 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, vk::PipelineLayout l
   blend.colorWriteMask = vk::ColorComponentFlagBits::eR;
   const vk::PipelineColorBlendStateCreateInfo blends({}, VK_FALSE, vk::LogicOp::eCopy, blend);
   return d.createGraphicsPipeline(
-      nullptr, {{}, stages, &input, &assembly, nullptr, &viewports, &raster, &samples, &depth, &blends, &dynamic, layout, pass, 0});
+      cache, {{}, stages, &input, &assembly, nullptr, &viewports, &raster, &samples, &depth, &blends, &dynamic, layout, pass, 0});
 }
 
 }  // namespace
@@ -145,7 +146,7 @@ Visibility::Visibility(const Device& device) : device_(device), seen_(device), h
     h.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eVertex, 0, sizeof(Push));
     h.layout = d.device.createPipelineLayout({{}, *h.set_layout, push});
-    h.pipeline = make_pipeline(d.device, *h.layout, *h.pass);
+    h.pipeline = make_pipeline(d.device, d.pipeline_cache, *h.layout, *h.pass);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformTexelBuffer, 2);
     h.pool = d.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
     h.set = std::move(d.device.allocateDescriptorSets({*h.pool, *h.set_layout}).front());

@@ -7,7 +7,7 @@
 namespace steradian::scene {
 namespace {
 
-constexpr double kMost = 1e12;
+constexpr double kLargestEntry = 1e12;
 constexpr std::size_t kMostPlanes = 721, kMostAngles = 361, kMostLamps = 20;
 
 class Lines {
@@ -100,13 +100,13 @@ LightProfile read_eulumdat(PhotometryText text) {
   const std::size_t angles = lines.count("the number of angles of a plane", 2, kMostAngles);
   lines.skip(6);   // distance of angles; report, name, number, file, date
   lines.skip(11);  // sizes; downward flux; light output ratio
-  const double conversion = lines.number("the factor of intensities", 0, kMost);
+  const double conversion = lines.number("the factor of intensities", 0, kLargestEntry);
   lines.skip(1);  // tilt
   const std::size_t sets = lines.count("the number of sets of lamps", 1, kMostLamps);
   LightProfile profile;
   for (std::size_t i = 0; i < sets; ++i) {
     lines.skip(2);  // how many (below 0: measured absolutely), what
-    profile.rated_lumens += lines.number("the lamps' lumens", 0, kMost);
+    profile.rated_lumens += lines.number("the lamps' lumens", 0, kLargestEntry);
     lines.skip(3);  // colour, rendering index, watts
   }
   lines.skip(10);  // ratios of rooms
@@ -118,7 +118,7 @@ LightProfile read_eulumdat(PhotometryText text) {
   profile.vertical = lines.rising("an angle of a plane", angles, 180);
   const Held held = planes_held(symmetry, planes);
   const double factor = conversion * profile.rated_lumens / 1000;
-  for (std::size_t i = 0; i < held.count * angles; ++i) profile.candela.push_back(factor * lines.number("an intensity", 0, kMost));
+  for (std::size_t i = 0; i < held.count * angles; ++i) profile.candela.push_back(factor * lines.number("an intensity", 0, kLargestEntry));
 
   for (std::size_t i = 0; i < held.count; ++i) {
     const std::size_t plane = held.first + i;

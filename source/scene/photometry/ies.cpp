@@ -7,7 +7,7 @@
 namespace steradian::scene {
 namespace {
 
-constexpr double kMost = 1e12;  // of lumens, candelas and factors
+constexpr double kLargestFactor = 1e12;  // of lumens, candelas and factors
 constexpr double kAnyNumber = 1e300;
 
 std::string upper_without_blanks(std::string_view text) {
@@ -30,7 +30,7 @@ void skip_tilt(PhotometryText& text, std::string_view line) {
   if (upper_without_blanks(line) != "TILT=INCLUDE") return;
   text.number("the lamp's geometry", 1, 3);
   const std::size_t pairs = text.count("the number of tilts", 1, text.size());
-  for (std::size_t i = 0; i < 2 * pairs; ++i) text.number("a tilt's angle or factor", -kMost, kMost);
+  for (std::size_t i = 0; i < 2 * pairs; ++i) text.number("a tilt's angle or factor", -kLargestFactor, kLargestFactor);
 }
 
 // -90 to 90 where the file gives one half. Returns how many angles it had.
@@ -68,22 +68,22 @@ LightProfile read_ies(PhotometryText text) {
   skip_tilt(text, line);
 
   LightProfile profile;
-  const double lamps = text.number("the number of lamps", -kMost, kMost);
-  const double lumens = text.number("the lumens of a lamp", -1, kMost);  // -1: intensities are those of the whole luminaire
-  const double multiplier = text.number("the multiplier of intensities", 0, kMost);
+  const double lamps = text.number("the number of lamps", -kLargestFactor, kLargestFactor);
+  const double lumens = text.number("the lumens of a lamp", -1, kLargestFactor);  // -1: intensities are those of the whole luminaire
+  const double multiplier = text.number("the multiplier of intensities", 0, kLargestFactor);
   const std::size_t vertical = text.count("the number of vertical angles", 2, text.size());
   const std::size_t horizontal = text.count("the number of horizontal angles", 1, text.size());
   const std::size_t type = text.count("the type of photometry", 1, 3);
   if (type == 3) text.fail("type A photometry is not read", "types B (2) and C (1) are: convert the file");
   for (const char* what : {"the unit of lengths", "the width", "the length", "the height"}) text.number(what, -kAnyNumber, kAnyNumber);
-  const double ballast = text.number("the ballast's factor", 0, kMost);
+  const double ballast = text.number("the ballast's factor", 0, kLargestFactor);
   const double photometric = text.number("the ballast-lamp photometric factor", -kAnyNumber, kAnyNumber);
   text.number("the watts", -kAnyNumber, kAnyNumber);
   if (lumens > 0 && lamps > 0) profile.rated_lumens = lamps * lumens;
   // In 2002 the third factor became "for future use", in 2019 a code of how the file was made.
   const bool is_factor = first.find("LM-63-2002") == first.npos && first.find("LM-63-2019") == first.npos && photometric > 0;
   const double factor = multiplier * ballast * (is_factor ? photometric : 1);
-  if (!(factor <= kMost)) text.fail("the multipliers of intensities come to more than 1e12");
+  if (!(factor <= kLargestFactor)) text.fail("the multipliers of intensities come to more than 1e12");
 
   // Each intensity takes a digit and a blank: what the file cannot hold is not asked memory for.
   if (vertical * horizontal > text.size())
@@ -97,7 +97,8 @@ LightProfile read_ies(PhotometryText text) {
     text.fail("the horizontal angles are none of 0 to 90, 180 or 360 degrees, 90 to 270, or one alone");
   if (!is_c && horizontal < 2)
     text.fail("photometry of type B has one horizontal angle", "it shines between the angles measured: give two or more");
-  for (std::size_t i = 0; i < vertical * horizontal; ++i) profile.candela.push_back(factor * text.number("an intensity", 0, kMost));
+  for (std::size_t i = 0; i < vertical * horizontal; ++i)
+    profile.candela.push_back(factor * text.number("an intensity", 0, kLargestFactor));
   if (!text.nothing_follows()) text.fail("more follows than the numbers of angles announce", "check the numbers of angles after TILT=");
   if (is_c)
     complete_circle(profile);

@@ -1,0 +1,31 @@
+// Small symmetric matrices: linear systems and eigenvectors. Eigen stands behind them in one unit, because its decompositions take the
+// compiler half a minute in each unit that has them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace steradian::scene {
+
+// A symmetric matrix of n rows, by rows.
+struct SymmetricMatrix {
+  explicit SymmetricMatrix(std::size_t rows) : n(rows), entries(rows * rows, 0.0) {}
+  double& operator()(std::size_t row, std::size_t column) { return entries[row * n + column]; }
+  double operator()(std::size_t row, std::size_t column) const { return entries[row * n + column]; }
+  // Adds weight * v v'.
+  void add_square(const std::vector<double>& v, double weight = 1);
+
+  std::size_t n;
+  std::vector<double> entries;
+};
+
+// x with matrix * x = right, by LDL'. Not finite where the matrix is singular.
+std::vector<double> solve(const SymmetricMatrix& matrix, const std::vector<double>& right);
+
+struct EigenSystem {
+  std::vector<double> values;                // in increasing order
+  std::vector<std::vector<double>> vectors;  // unit vectors, in the same order
+};
+EigenSystem eigen_system(const SymmetricMatrix& matrix);
+
+}  // namespace steradian::scene
