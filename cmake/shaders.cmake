@@ -3,9 +3,7 @@
 find_program(STERADIAN_GLSLC glslc DOC "Compiler of shaders")
 
 function(steradian_shaders target)
-  if(NOT STERADIAN_GLSLC)
-    message(FATAL_ERROR "glslc is not installed: the component render needs it to compile its shaders (apt-get install glslc)")
-  endif()
+  steradian_require(VULKAN "the compiler of shaders, glslc," glslc "${STERADIAN_GLSLC}")
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
   file(MAKE_DIRECTORY ${folder})
   foreach(shader ${ARGN})

@@ -17,9 +17,8 @@ ROOT = Path(__file__).resolve().parent.parent
 # From the top to the bottom. A folder may include those of the rows below its own, and of its own row where no circle results.
 ROWS = [
     ["apps/steradian"],
-    ["studies"],
-    ["bench"],
-    ["apps/steradian/eval", "apps/viewer"],
+    ["apps/bench"],
+    ["apps/steradian/eval", "apps/viewer", "apps/command_line"],
     ["source/plane_vulkan"],
     ["source/render"],
     ["source/plane", "source/fit"],
@@ -41,7 +40,7 @@ def folder_of(path):
 def included(path):
     """The project's files that a file includes, relative to the root."""
     for name in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', path.read_text(), re.MULTILINE):
-        for base in (path.parent, ROOT / "source", ROOT / "include", ROOT / "kernels", ROOT / "apps" / "steradian", ROOT):
+        for base in (path.parent, ROOT / "source", ROOT / "include", ROOT / "kernels", ROOT / "apps" / "steradian", ROOT / "apps" / "command_line", ROOT / "apps", ROOT):
             if (base / name).is_file():
                 yield (base / name).resolve().relative_to(ROOT)
                 break
@@ -50,7 +49,7 @@ def included(path):
 def inclusions():
     """[(including file, included file)] over all folders, relative to the root."""
     found = []
-    for top in ("apps", "bench", "studies", "source", "include", "tables"):
+    for top in ("apps", "source", "include", "tables"):
         for path in sorted((ROOT / top).rglob("*")):
             if path.suffix in (".h", ".cpp") and "_test" not in path.name:
                 found += [(path.relative_to(ROOT), other) for other in included(path)]

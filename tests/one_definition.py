@@ -2,7 +2,7 @@
 """No name is defined twice in one namespace: one_definition.py [COMPILER INCLUDE...]
 
 The linker merges what two files define under one name, silently, and keeps whichever copy comes first. Two checks find that before:
-types, templates' types and inline constants of all files of source/, bench/ and studies/ are collected by namespace (what stands in an unnamed
+types, templates' types and inline constants of all files of source/ and apps/ are collected by namespace (what stands in an unnamed
 namespace, or in a namespace named after an instruction set, is a file's own); and with a COMPILER, one unit that includes every header must compile.
 Exit 1 when a name has two definitions. With --test: exit 1 when one made up for the purpose is not found.
 """
@@ -70,8 +70,8 @@ def main():
         found = [len(doubles({"a.h": text, "b.h": text})[0]) == 2, not doubles({"a.h": text, "b.cpp": hidden})[0]]
         print(f"two definitions found, an unnamed namespace's left alone: {found}")
         sys.exit(not all(found))
-    files = [p for top in ("include", "source", "bench", "studies", "apps") for p in sorted((ROOT / top).rglob("*"))
-             if p.suffix in (".h", ".cpp") and "_test" not in p.name]
+    files = [p for top in ("include", "source", "apps") for p in sorted((ROOT / top).rglob("*"))
+             if p.suffix in (".h", ".cpp") and "_test" not in p.name and not p.name.startswith("without_")]
     words, count = doubles({p.relative_to(ROOT): p.read_text() for p in files})
     print("\n".join(words + [f"{count} names in {len(files)} files, {len(words)} with two definitions"]))
     if sys.argv[1:]:

@@ -49,7 +49,8 @@ set(one_definition Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/one_definition
 set(has -DSTERADIAN_HAS_SSE2=1 -DSTERADIAN_HAS_AVX2=1 -DSTERADIAN_HAS_AVX512=1)
 add_test(NAME OneDefinition.NoNameHasTwo
   COMMAND ${one_definition} ${CMAKE_CXX_COMPILER} ${has} -I${PROJECT_SOURCE_DIR} -I${PROJECT_SOURCE_DIR}/source -I${PROJECT_SOURCE_DIR}/include
-          -I${PROJECT_SOURCE_DIR}/kernels -I${PROJECT_SOURCE_DIR}/apps/steradian)
+          -I${PROJECT_SOURCE_DIR}/kernels -I${PROJECT_SOURCE_DIR}/apps -I${PROJECT_SOURCE_DIR}/apps/steradian
+          -I${PROJECT_SOURCE_DIR}/apps/command_line)
 add_test(NAME OneDefinition.ASecondOneIsFound COMMAND ${one_definition} --test)
 
 # No inclusion runs upward through the layers, and the picture of the dependencies is the one that is drawn from them.
@@ -62,7 +63,7 @@ add_test(NAME Layers.ThePictureIsCurrent COMMAND ${layers} --check ${PROJECT_SOU
 set(shader_counts Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/shader_counts.py)
 add_test(NAME Shaders.InstructionsAreCounted COMMAND ${shader_counts} --test)
 add_test(NAME Shaders.EveryPipelineIsCounted COMMAND ${shader_counts})
-set_tests_properties(Shaders.InstructionsAreCounted Shaders.EveryPipelineIsCounted PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(Shaders.InstructionsAreCounted Shaders.EveryPipelineIsCounted PROPERTIES SKIP_RETURN_CODE 77 LABELS night)
 
 # The public headers: each alone, by this compiler and by clang where there is one; and steradian.h is all of them.
 add_test(NAME Packaging.HeadersCompileAlone
@@ -78,10 +79,13 @@ add_test(NAME Packaging.InstalledTreeServesEverything COMMAND ${consume} everyth
 set_tests_properties(Packaging.InstalledTreeServesEverything PROPERTIES FIXTURES_REQUIRED installed_tree)
 add_test(NAME Packaging.InstalledTreeFitsALobeOfOnesOwn COMMAND ${consume} lobe ${CMAKE_CXX_COMPILER})
 set_tests_properties(Packaging.InstalledTreeFitsALobeOfOnesOwn PROPERTIES FIXTURES_REQUIRED installed_tree)
+set_tests_properties(Packaging.Installs Packaging.InstalledTreeServesEverything Packaging.InstalledTreeFitsALobeOfOnesOwn PROPERTIES LABELS night)
 foreach(compiler g++ clang++)
   add_test(NAME Packaging.InstalledTreeServesIntegralsAlone_${compiler} COMMAND ${consume} installed ${compiler})
   set_tests_properties(Packaging.InstalledTreeServesIntegralsAlone_${compiler} PROPERTIES FIXTURES_REQUIRED installed_tree)
   add_test(NAME Packaging.SubdirectoryServesIntegralsAlone_${compiler} COMMAND ${consume} subdirectory ${compiler})
+  set_tests_properties(Packaging.InstalledTreeServesIntegralsAlone_${compiler} Packaging.SubdirectoryServesIntegralsAlone_${compiler}
+    PROPERTIES LABELS night)
 endforeach()
 
 # The pages as a site: every link between them leads somewhere.
@@ -89,4 +93,15 @@ find_program(MKDOCS mkdocs)
 if(MKDOCS)
   add_test(NAME Docs.SiteHasNoBrokenLink
     COMMAND ${MKDOCS} build --strict --quiet --config-file ${PROJECT_SOURCE_DIR}/mkdocs.yml --site-dir ${CMAKE_CURRENT_BINARY_DIR}/site)
+  set_tests_properties(Docs.SiteHasNoBrokenLink PROPERTIES LABELS night)
 endif()
+
+# The program with each optional part OFF alone, and with all of them OFF; and a preset says ON or OFF for each.
+set(parts Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/optional_parts.py ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/parts)
+add_test(NAME Parts.EveryPresetSaysOnOrOff COMMAND ${parts} presets)
+foreach(part VULKAN FONTS WINDOW BENCH ALL)
+  add_test(NAME Parts.ProgramBuildsWithout_${part} COMMAND ${parts} ${part})
+  set_tests_properties(Parts.ProgramBuildsWithout_${part} PROPERTIES LABELS night TIMEOUT 3600)
+endforeach()
+
+add_test(NAME Build.TimesAreRead COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/build_times.py --test)

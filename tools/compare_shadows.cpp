@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "studies/line_plot.h"
-#include "studies/shadow_comparison.h"
+#include "bench/studies/line_plot.h"
+#include "bench/studies/shadow_comparison.h"
 
 using namespace steradian;
 using studies::ShadowRow;

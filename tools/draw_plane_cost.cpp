@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "plane/frame/light_field.h"
-#include "studies/line_plot.h"
+#include "bench/studies/line_plot.h"
 #include "steradian/plane.h"
 
 using namespace steradian;

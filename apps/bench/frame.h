@@ -1,5 +1,5 @@
-// A whole picture as a bench: it is rendered again and again, and its passes are medians over the calls. On a Vulkan device, what is made
-// once is made before the first.
+// A whole picture as a bench: it is rendered again and again, and its passes are medians over the calls. A Vulkan device and its pipelines
+// stay from call to call.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,7 @@
 
 #include "benches.h"
 #include "core/simd.h"
-#include "render/vulkan/frame.h"
-#include "steradian/render.h"
+#include "steradian/render_cache.h"
 
 namespace steradian::bench {
 
@@ -21,12 +20,10 @@ struct Frame {
   RenderOptions options;
   std::vector<std::string> order;
   std::map<std::string, std::vector<double>> passes;
-  std::unique_ptr<vulkan::Frame> on_device = {};
+  RenderCache cache = {};  // keeps the Vulkan device and its pipelines
 
   Picture rendered(RenderStats& stats) {
-    if (options.backend == Backend::cpu) return render(scene, options, &stats);
-    if (on_device == nullptr) on_device = std::make_unique<vulkan::Frame>(scene, options);
-    return on_device->render(&stats);
+    return options.backend == Backend::cpu ? render(scene, options, &stats) : render(scene, options, cache, &stats);
   }
   void call() {
     RenderStats stats;

@@ -1,4 +1,4 @@
-// steradian bench: how long the integrals take on this machine.
+// steradian-bench: the times of the integrals on this machine; `steradian bench` starts it.
 #include "bench/run.h"
 
 #include <fmt/format.h>
@@ -8,14 +8,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "../../bench/benches.h"
+#include "bench/benches.h"
 #include "core/progress.h"
 #include "core/read_file.h"
 #include "fit/textured_error.h"
-#include "studies/plane_methods.h"
-#include "studies/table2.h"
+#include "bench/studies/plane_methods.h"
+#include "bench/studies/table2.h"
 #include "steradian/error.h"
-#include "verbs.h"
+#include "steradian/version.h"
+#include "verb.h"
 #include "wrong_use.h"
 
 namespace steradian::app {
@@ -148,46 +149,37 @@ void print_json(const std::vector<BenchResult>& results) {
   fmt::print("{}\n", all.dump(1));
 }
 
-}  // namespace
-
-void add_bench(CLI::App& app, Exit& exit) {
-  CLI::App* verb = app.add_subcommand("bench", "Time the integrals on this machine");
-  verb->group("This machine");
+void add_bench(CommandLine& line) {
+  Verb verb = line.all();
   auto options = std::make_shared<Options>();
-  verb->add_option("--filter", options->filter,
-                   "Only benches whose name begins so, e.g. kernel/lambert; with a $ behind it: the one of that name")
-      ->group("What")
-      ->default_str("");
-  verb->add_option("--simd", options->simd, "Instruction set of the benches that do not name one")
-      ->group("What")
-      ->check(CLI::IsMember({"sse2", "avx2", "avx512"}))
-      ->default_str("widest");
-  verb->add_option("--backend", options->backend, "vulkan: the benches of frames on a Vulkan device, under vulkan/")
-      ->group("What")
-      ->check(CLI::IsMember({"cpu", "vulkan"}));
-  verb->add_option("--device", options->device, "Of vulkan: its number in `steradian info`, or part of its name; none: the first")
-      ->group("What")
-      ->default_str("");
-  verb->add_option("--min-time", options->min_time, "Seconds of runs per bench")
-      ->group("How")
-      ->check(CLI::Range(0.0, 3600.0).description("0..3600"));
-  verb->add_flag("--json", options->json, "Print JSON")->group("How");
-  verb->add_flag("--list", options->list, "Print the names of the benches that would run, one a line")->group("What");
-  verb->add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)")
-      ->group("What");
-  verb->add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)")->group("What");
-  verb->add_flag("--plane", options->plane, "Times and errors of the plane's methods over lights and occluders instead (docs/plane.md)")
-      ->group("What");
-  verb->add_option("--figures", options->figures, "With --table2: write the page's figures into this folder")
-      ->group("What")
-      ->check(CLI::ExistingDirectory);
-  verb->add_option("--compare", options->base, "Print ratios to what an earlier `bench --json` wrote into this file; above 1 is slower")
-      ->group("What")
-      ->check(CLI::ExistingFile);
-  verb->add_option("--fail-above", options->slower, "With --compare: exit 1 when a ratio is above this; 0: never")
-      ->group("What")
-      ->check(CLI::Range(0.0, 1e9).description("0..1e9"));
-  verb->callback([options, &exit] {
+  verb.add("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert; with a $ behind it: the one of that name")
+      .group("What")
+      .default_text("");
+  verb.add("--simd", options->simd, "Instruction set of the benches that do not name one")
+      .group("What")
+      .words({"sse2", "avx2", "avx512"})
+      .default_text("widest");
+  verb.add("--backend", options->backend, "vulkan: the benches of frames on a Vulkan device, under vulkan/")
+      .group("What")
+      .words({"cpu", "vulkan"});
+  verb.add("--device", options->device, "Of vulkan: its number in `steradian info`, or part of its name; none: the first")
+      .group("What")
+      .default_text("");
+  verb.add("--min-time", options->min_time, "Seconds of runs per bench").group("How").range(0.0, 3600.0, "0..3600");
+  verb.add_flag("--json", options->json, "Print JSON").group("How");
+  verb.add_flag("--list", options->list, "Print the names of the benches that would run, one a line").group("What");
+  verb.add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)").group("What");
+  verb.add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)").group("What");
+  verb.add_flag("--plane", options->plane, "Times and errors of the plane's methods over lights and occluders instead (docs/plane.md)")
+      .group("What");
+  verb.add("--figures", options->figures, "With --table2: write the page's figures into this folder").group("What").existing_folder();
+  verb.add("--compare", options->base, "Print ratios to what an earlier `bench --json` wrote into this file; above 1 is slower")
+      .group("What")
+      .existing_file();
+  verb.add("--fail-above", options->slower, "With --compare: exit 1 when a ratio is above this; 0: never")
+      .group("What")
+      .range(0.0, 1e9, "0..1e9");
+  verb.callback([options, &exit = line.exit()] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);
     if (options->plane) return fmt::print("{}", plane::plane_methods_text(plane::measure_plane_methods({})));
@@ -207,4 +199,12 @@ void add_bench(CLI::App& app, Exit& exit) {
   });
 }
 
+}  // namespace
 }  // namespace steradian::app
+
+int main(int argc, char** argv) {
+  steradian::app::CommandLine line("Times of the integrals on this machine, and the literature's tables.",
+                                   std::string("steradian-bench ") + steradian::version());
+  steradian::app::add_bench(line);
+  return line.run(argc, argv);
+}

@@ -1,5 +1,11 @@
+// vulkan/kernel/METHOD/{quad,star,triangle}/n=N: a Phong plane under one light, 1280 x 720 pixels on a Vulkan device, one item an edge of
+// a point; the passes are the device's own time for all edges and for one.
 #include "bench/phong_on_device.h"
 
+#include <algorithm>
+
+#include "bench/benches.h"
+#include "bench/phong_methods.h"
 #include "render/vulkan/compute_program.h"
 #include "render/vulkan/own_lobes.h"
 #include "steradian/error.h"
@@ -90,5 +96,34 @@ std::vector<float> PhongOnDevice::radiance() const {
 }
 
 double PhongOnDevice::device_ms() const { return parts_->ms; }
+
+namespace {
+
+Bench on_device(const std::string& name, const std::string& light_name, const PhongOptions& options, int n, const std::string& device) {
+  const moment::PhongPlane plane = moment::make_phong_plane(1280, 720);
+  const std::vector<moment::NamedLight> lights = moment::comparison_lights();
+  const auto light = std::find_if(lights.begin(), lights.end(), [&](const moment::NamedLight& l) { return l.name == light_name; });
+  auto work = std::make_shared<PhongOnDevice>(plane, *light, n, options, device);
+  const auto edges = static_cast<double>(light->edges);
+  return {name,
+          plane.count * light->edges,
+          name_of(active_simd()),
+          [work] { work->run(); },
+          false,
+          [work, edges] {
+            return std::vector<BenchPass>{{"device", work->device_ms()}, {"an edge", work->device_ms() / edges}};
+          }};
+}
+
+}  // namespace
+
+void add_phong_on_device(BenchList& list, const std::string& device) {
+  for (const PhongVariant& v : phong_variants())
+    for (const char* light : {"quad", "star", "triangle"})
+      for (const int n : kPhongExponents) {
+        const std::string name = "vulkan/kernel/" + v.name + "/" + light + "/n=" + std::to_string(n);
+        list.add(name, [=](const BenchOptions&) { return on_device(name, light, v.options, n, device); });
+      }
+}
 
 }  // namespace steradian::bench

@@ -25,7 +25,7 @@
 namespace steradian::app {
 namespace {
 
-struct Options {
+struct CompareArguments {
   std::string scene, output, size, exposure = "auto", shadows = "off";
   std::vector<std::string> methods;
   bool settings = true;
@@ -80,7 +80,7 @@ Made make_frame(const Scene& scene, RenderOptions options, const std::string& la
   return made;
 }
 
-Subject frame_subject(const std::shared_ptr<const Scene>& scene, const Options& options) {
+Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareArguments& options) {
   Subject subject;
   RenderOptions judge = options.render;
   judge.method = "reference";
@@ -127,7 +127,7 @@ Made make_plane(const PlaneWorld& world, PlaneFrameOptions options, const std::s
   return made;
 }
 
-Subject plane_subject(const std::shared_ptr<const PlaneWorld>& world, const Options& options) {
+Subject plane_subject(const std::shared_ptr<const PlaneWorld>& world, const CompareArguments& options) {
   PlaneFrameOptions frame;
   frame.limits = options.limits;
   frame.threads = options.render.threads;
@@ -180,7 +180,7 @@ double own_error(const Picture& picture) {
   return norm > 0 ? std::sqrt(variance / norm) : 0;
 }
 
-Report compared(const Subject& subject, const Options& options) {
+Report compared(const Subject& subject, const CompareArguments& options) {
   // All of a method's settings first, so that a method that does not exist or serve is refused before the long work.
   std::vector<std::pair<std::vector<Setting>, std::size_t>> settings;
   for (const std::string& method : options.methods) settings.push_back(subject.settings(method));
@@ -234,7 +234,7 @@ void print(const Report& report, const std::string& folder) {
   fmt::print("\n{}\n", (std::filesystem::path(folder) / "index.html").string());
 }
 
-std::shared_ptr<const Scene> scene_of(const Options& options) {
+std::shared_ptr<const Scene> scene_of(const CompareArguments& options) {
   LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, {}});
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return std::make_shared<const Scene>(std::move(loaded.scene));
@@ -252,11 +252,11 @@ bool takes_par(const PlaneWorld& world) {
   }
 }
 
-void run(Options& options) {
+void run(CompareArguments& options) {
   std::vector<std::string> seen;
   for (const std::string& method : options.methods) {
-    if (std::find(seen.begin(), seen.end(), method) != seen.end()) throw CLI::ValidationError("--methods", method + " is named twice");
-    if (method == "reference") throw CLI::ValidationError("--methods", "reference is what the others are compared with");
+    if (std::find(seen.begin(), seen.end(), method) != seen.end()) throw WrongOption("--methods", method + " is named twice");
+    if (method == "reference") throw WrongOption("--methods", "reference is what the others are compared with");
     seen.push_back(method);
   }
   exposure_stops(options.exposure);
@@ -276,7 +276,7 @@ void run(Options& options) {
   } else {
     if (options.methods.empty()) options.methods = {"auto", "ltc", "ltc-compact", "sampled"};
     for (const std::string& method : options.methods)
-      if (!method_of(method)) throw CLI::ValidationError("--methods", "unknown method " + method + ", use " + methods::names());
+      if (!method_of(method)) throw WrongOption("--methods", "unknown method " + method + ", use " + methods::names());
     const PictureSize size = picture_size(options.size.empty() ? "960x540" : options.size);
     options.render.width = size.width;
     options.render.height = size.height;
@@ -290,35 +290,32 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Exit&) {
-  auto options = std::make_shared<Options>();
+void add_compare(CommandLine& line) {
+  auto options = std::make_shared<CompareArguments>();
   RenderOptions& r = options->render;
   r.target_error = 0.02;
   r.spp = 64;
-  CLI::App* verb =
-      app.add_subcommand("compare", "Methods against the reference: pictures, error maps, numbers, and one page with all of it");
-  verb->footer("The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n\n" + methods::help());
-  verb->add_option("SCENE", options->scene, "scene file: .gltf, .glb, .svg")->required();
-  verb->add_option("-o,--output", options->output, "folder")->required();
-  verb->add_option("--methods", options->methods,
-                   "separated by commas; none: auto,ltc,ltc-compact,sampled, of plane scenes exact,par,sampled,marched")
-      ->delimiter(',');
-  verb->add_flag("!--one-setting", options->settings, "not each method's qualities and numbers of samples for the error over time");
-  verb->add_option("--shadows", options->shadows, "of direct light, for all")->check(CLI::IsMember({"off", "on", "exact"}));
-  verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels; none: 960x540, of plane scenes their own")->group("Picture");
-  verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
-  verb->add_option("--exposure", options->exposure, "of the page and of FLIP: stops, or auto")->group("Picture");
-  verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
-  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
-      ->check(CLI::Range(1, 1 << 20));
-  verb->add_option("--spp", r.spp, "of sampled and marched, in the table")->check(CLI::Range(1, 1 << 20))->group("Sampling");
-  verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
-      ->check(CLI::Range(1e-6, 1.0))
-      ->group("Sampling");
-  verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
-  verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
-  add_limits(*verb, options->limits);
-  verb->callback([options] { run(*options); });
+  Verb verb = line.verb("compare", "Methods against the reference: pictures, error maps, numbers, and one page with all of it");
+  verb.footer("The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n\n" + methods::help());
+  verb.add("SCENE", options->scene, "scene file: .gltf, .glb, .svg").required();
+  verb.add("-o,--output", options->output, "folder").required();
+  verb.add("--methods", options->methods,
+           "separated by commas; none: auto,ltc,ltc-compact,sampled, of plane scenes exact,par,sampled,marched")
+      .separator(',');
+  verb.add_flag("!--one-setting", options->settings, "not each method's qualities and numbers of samples for the error over time");
+  verb.add("--shadows", options->shadows, "of direct light, for all").words({"off", "on", "exact"});
+  verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; none: 960x540, of plane scenes their own").group("Picture");
+  verb.add("--camera", r.camera, "camera by name; none: the first").group("Picture");
+  verb.add("--exposure", options->exposure, "of the page and of FLIP: stops, or auto").group("Picture");
+  verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");
+  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
+      .range(1, 1 << 20);
+  verb.add("--spp", r.spp, "of sampled and marched, in the table").range(1, 1 << 20).group("Sampling");
+  verb.add("--target-error", r.target_error, "reference: rms standard error over rms radiance").range(1e-6, 1.0).group("Sampling");
+  verb.add("--seed", r.seed, "of random numbers").group("Sampling");
+  verb.add("--threads", r.threads, "0: all").range(0, 4096).group("Machine");
+  verb.add_limits(options->limits);
+  verb.callback([options] { run(*options); });
 }
 
 }  // namespace steradian::app

@@ -17,7 +17,7 @@
 namespace steradian::app {
 namespace {
 
-struct Options {
+struct DiffArguments {
   std::string a, b;
   bool json = false;
   std::vector<std::string> fail_above;
@@ -40,7 +40,7 @@ Limit parse_limit(const std::string& text) {
     } catch (const std::exception&) {  // falls through to the message
     }
   }
-  throw CLI::ValidationError("--fail-above", "'" + text + "' is not METRIC=VALUE with rmse, relative_l2 or max");
+  throw WrongOption("--fail-above", "'" + text + "' is not METRIC=VALUE with rmse, relative_l2 or max");
 }
 
 // The largest difference of alpha, where both pictures have it.
@@ -61,7 +61,7 @@ void say_what_is_left_out(const std::string& path, const Picture& picture, bool 
   if (!names.empty()) fmt::print(stderr, "warning: {}: not compared: {}\n", path, fmt::join(names, ", "));
 }
 
-void run(const Options& options, Exit& exit) {
+void run(const DiffArguments& options, Exit& exit) {
   std::vector<Limit> limits;
   for (const std::string& text : options.fail_above) limits.push_back(parse_limit(text));
   const Picture reference = read_picture(options.b, options.limits);
@@ -91,16 +91,15 @@ void run(const Options& options, Exit& exit) {
 
 }  // namespace
 
-void add_diff(CLI::App& app, Exit& exit) {
-  auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("diff", "Difference of two pictures (EXR, PNG, JPEG) in numbers");
-  verb->add_option("A", options->a, "picture")->required();
-  verb->add_option("B", options->b, "reference picture")->required();
-  verb->add_flag("--json", options->json, "print JSON");
-  verb->add_option("--fail-above", options->fail_above,
-                   "METRIC=VALUE: exit 1 when rmse, relative_l2 or max is above VALUE; may be repeated");
-  add_limits(*verb, options->limits);
-  verb->callback([options, &exit] { run(*options, exit); });
+void add_diff(CommandLine& line) {
+  auto options = std::make_shared<DiffArguments>();
+  Verb verb = line.verb("diff", "Difference of two pictures (EXR, PNG, JPEG) in numbers");
+  verb.add("A", options->a, "picture").required();
+  verb.add("B", options->b, "reference picture").required();
+  verb.add_flag("--json", options->json, "print JSON");
+  verb.add("--fail-above", options->fail_above, "METRIC=VALUE: exit 1 when rmse, relative_l2 or max is above VALUE; may be repeated");
+  verb.add_limits(options->limits);
+  verb.callback([options, &exit = line.exit()] { run(*options, exit); });
 }
 
 }  // namespace steradian::app

@@ -151,7 +151,7 @@ bool answer_stream(const std::string& in, const std::string& out, Answer answer)
   return all_answered;
 }
 
-struct Options {
+struct EvalArguments {
   std::string input, output, method = "auto";
   int spp = 256;
   std::uint64_t seed = 1;
@@ -161,38 +161,32 @@ struct Options {
 
 }  // namespace
 
-void add_eval(CLI::App& app, Exit& exit) {
-  CLI::App* verb = app.add_subcommand("eval", "Answer single integrals: JSON lines in, JSON lines out");
-  verb->group("Light");
-  verb->footer(std::string() +
-               "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
-               "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
-               "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n\n" +
-               methods::help());
-  auto options = std::make_shared<Options>();
-  verb->add_option("INPUT", options->input, "File of queries, one a line (default: standard input)")
-      ->group("Input and output")
-      ->default_str("");
-  verb->add_option("-o,--output", options->output, "File of answers (default: standard output)")
-      ->group("Input and output")
-      ->default_str("");
-  add_limits(*verb, options->limits);
-  verb->add_flag("--plane", options->plane,
-                 "Light at points of SVG scenes: {\"scene\": \"file.svg\", \"position\": [x, y]}; methods exact, par, sampled, marched")
-      ->group("Input and output");
-  verb->add_option("--method", options->method, "For queries that name none: " + methods::names())
-      ->group("Defaults for queries that do not say")
-      ->check(CLI::Validator(
-          [](std::string& name) {
-            return method_of(name) || name == "par" || name == "marched" ? std::string()
-                                                                         : "unknown method " + name + ", use " + methods::names();
-          },
-          ""));
-  verb->add_option("--spp", options->spp, "Pairs of samples of method sampled")
-      ->group("Defaults for queries that do not say")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()).description("1.."));
-  verb->add_option("--seed", options->seed, "Seed of method sampled")->group("Defaults for queries that do not say");
-  verb->callback([options, &exit] {
+void add_eval(CommandLine& line) {
+  Verb verb = line.verb("eval", "Answer single integrals: JSON lines in, JSON lines out");
+  verb.group("Light");
+  verb.footer(std::string() +
+              "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
+              "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
+              "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n\n" +
+              methods::help());
+  auto options = std::make_shared<EvalArguments>();
+  verb.add("INPUT", options->input, "File of queries, one a line (default: standard input)").group("Input and output").default_text("");
+  verb.add("-o,--output", options->output, "File of answers (default: standard output)").group("Input and output").default_text("");
+  verb.add_limits(options->limits);
+  verb.add_flag("--plane", options->plane,
+                "Light at points of SVG scenes: {\"scene\": \"file.svg\", \"position\": [x, y]}; methods exact, par, sampled, marched")
+      .group("Input and output");
+  verb.add("--method", options->method, "For queries that name none: " + methods::names())
+      .group("Defaults for queries that do not say")
+      .check([](const std::string& name) {
+        return method_of(name) || name == "par" || name == "marched" ? std::string()
+                                                                     : "unknown method " + name + ", use " + methods::names();
+      });
+  verb.add("--spp", options->spp, "Pairs of samples of method sampled")
+      .group("Defaults for queries that do not say")
+      .range(1, std::numeric_limits<int>::max(), "1..");
+  verb.add("--seed", options->seed, "Seed of method sampled").group("Defaults for queries that do not say");
+  verb.callback([options, &exit = line.exit()] {
     if (options->plane) {
       PlaneQueryDefaults plane;
       if (options->method != "auto") plane.method = plane_method_from_name(options->method);
@@ -203,7 +197,7 @@ void add_eval(CLI::App& app, Exit& exit) {
       if (!answer_stream(options->input, options->output, point)) exit.code = 1;
       return;
     }
-    if (!method_of(options->method)) throw CLI::ValidationError("--method", options->method + " needs --plane");
+    if (!method_of(options->method)) throw WrongOption("--method", options->method + " needs --plane");
     const eval::QueryDefaults defaults = {*method_of(options->method), options->spp, options->seed};
     eval::QueryReader reader(defaults);
     const auto answer = [&](std::string_view line, std::string& out) { return eval::answer_line(reader, line, out); };

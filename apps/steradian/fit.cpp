@@ -1,7 +1,6 @@
 // steradian fit --lobe NAME | --samples FILE --layout classic|compact -o FILE
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
 
@@ -18,7 +17,7 @@ namespace {
 
 using namespace fit;
 
-struct Options {
+struct FitArguments {
   std::string lobe = "ggx", samples, layout = "classic", output, picture, normalisation = "middle";
   bool report = false, fresnel_lobe = false;
   CompactSizes compact;
@@ -37,11 +36,11 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
   return dot == std::string::npos ? path + suffix : path.substr(0, dot) + suffix + path.substr(dot);
 }
 
-ClassicNormalisation normalisation_of(const Options& options) {
+ClassicNormalisation normalisation_of(const FitArguments& options) {
   return options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
 }
 
-void write_table(const LtcTable& table, const Options& options, const std::string& path) {
+void write_table(const LtcTable& table, const FitArguments& options, const std::string& path) {
   const std::vector<TableFile> files = options.layout == "classic"
                                            ? classic_files(classic_table(table, normalisation_of(options)), table.family.name, path)
                                            : compact_files(compact_table(table, options.compact), table.family.name, path);
@@ -49,24 +48,24 @@ void write_table(const LtcTable& table, const Options& options, const std::strin
   for (const TableFile& file : files) fmt::print("{}\n", file.path);
 }
 
-LookUp look_up_of(const LtcTable& table, const Options& options) {
+LookUp look_up_of(const LtcTable& table, const FitArguments& options) {
   if (options.layout == "compact") return [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
   return [t = classic_table(table, normalisation_of(options))](double r, double c) { return t.look_up(r, c); };
 }
 
-void report(const LtcTable& table, const Options& options) {
+void report(const LtcTable& table, const FitArguments& options) {
   const LookUp look_up = look_up_of(table, options);
   if (options.layout == "compact") fmt::print("bytes        {}\n", compact_table(table, options.compact).bytes());
   ReportOptions all = whole_grid(), on_nodes = node_grid();
   const auto& fixed = table.family.fixed_roughness;
   if (fixed) all.roughness = on_nodes.roughness = {*fixed};
-  const Report whole = measure(table.family, look_up, all);
-  const Report nodes = measure(table.family, look_up, on_nodes);
+  const fit::Report whole = measure(table.family, look_up, all);
+  const fit::Report nodes = measure(table.family, look_up, on_nodes);
   fmt::print("{}", describe(whole, nodes, fixed ? std::vector<BetweenNodes>{} : measure_between_nodes(table, look_up)));
   if (!options.picture.empty()) write_picture(draw(whole, all), options.picture);
 }
 
-void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const Options& options) {
+void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const FitArguments& options) {
   fmt::print("\nFresnel, F90 = 1, whole grid: relative error by n_A and f_A, and with the lobe of its own\n");
   for (double f0 : {0.04, 0.2, 0.9}) {
     const FresnelError e = measure_fresnel(table.family, look_up_of(table, options), look_up_of(fresnel, options), f0, whole_grid());
@@ -74,13 +73,12 @@ void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const Option
   }
 }
 
-void run(const Options& options) {
-  if (options.output.empty() && !options.report) throw CLI::RequiredError("-o or --report");
+void run(const FitArguments& options) {
+  if (options.output.empty() && !options.report) throw WrongOption("-o or --report", "one of them is required");
   if (options.fresnel_lobe && options.layout == "compact")
-    throw CLI::ValidationError("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
+    throw WrongOption("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
   if (!options.samples.empty() && options.layout == "compact")
-    throw CLI::ValidationError("--samples",
-                               "the compact layout's matrix follows the roughness, which samples do not have; use --layout classic");
+    throw WrongOption("--samples", "the compact layout's matrix follows the roughness, which samples do not have; use --layout classic");
   LobeSamples samples;
   if (!options.samples.empty()) samples = read_lobe_samples(options.samples, options.limits);
   const LobeFamily& family = options.samples.empty() ? lobe_family(options.lobe) : samples.family;
@@ -112,30 +110,27 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_fit(CLI::App& app, Exit&) {
-  CLI::App* verb = app.add_subcommand("fit", "Fit linearly transformed cosines to a lobe and write or judge the table");
-  const auto options = std::make_shared<Options>();
+void add_fit(CommandLine& line) {
+  Verb verb = line.verb("fit", "Fit linearly transformed cosines to a lobe and write or judge the table");
+  const auto options = std::make_shared<FitArguments>();
   std::vector<std::string> names;
   for (const LobeFamily& family : lobe_families()) names.push_back(family.name);
-  verb->add_option("--lobe", options->lobe, "What to fit")->check(CLI::IsMember(names));
-  verb->add_option("--samples", options->samples, "Measured reflection in place of a lobe: MERL's .binary, or lines of angles and values")
-      ->excludes("--lobe");
-  verb->add_option("--size", options->fit.size, "Nodes along roughness and along the view")->check(CLI::Range(2, 1024));
-  verb->add_option("--layout", options->layout, "Two textures, or plain arrays of at most 4 KB")
-      ->check(CLI::IsMember({"classic", "compact"}));
-  verb->add_option("-o,--output", options->output,
-                   "Table: .h .glsl .json; classic also .dds .exr, as NAME_1 (matrix) and NAME_2 (magnitudes)");
-  verb->add_flag("--fresnel-lobe", options->fresnel_lobe,
-                 "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel; with --report, what it gains")
-      ->needs("--output");
-  verb->add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
-  verb->add_option("--report-picture", options->picture, "The error over roughness and view (.png, .exr)")->needs("--report");
-  verb->add_option("--normalisation", options->normalisation,
-                   "Of the classic matrix: its element that is 1, in the table and in the report")
-      ->check(CLI::IsMember({"middle", "last"}));
-  verb->add_option("--threads", options->fit.threads, "0: all")->check(CLI::Range(0, 4096));
-  add_limits(*verb, options->limits);
-  verb->callback([options] { run(*options); });
+  verb.add("--lobe", options->lobe, "What to fit").words(names);
+  verb.add("--samples", options->samples, "Measured reflection in place of a lobe: MERL's .binary, or lines of angles and values")
+      .excludes("--lobe");
+  verb.add("--size", options->fit.size, "Nodes along roughness and along the view").range(2, 1024);
+  verb.add("--layout", options->layout, "Two textures, or plain arrays of at most 4 KB").words({"classic", "compact"});
+  verb.add("-o,--output", options->output, "Table: .h .glsl .json; classic also .dds .exr, as NAME_1 (matrix) and NAME_2 (magnitudes)");
+  verb.add_flag("--fresnel-lobe", options->fresnel_lobe,
+                "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel; with --report, what it gains")
+      .needs("--output");
+  verb.add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
+  verb.add("--report-picture", options->picture, "The error over roughness and view (.png, .exr)").needs("--report");
+  verb.add("--normalisation", options->normalisation, "Of the classic matrix: its element that is 1, in the table and in the report")
+      .words({"middle", "last"});
+  verb.add("--threads", options->fit.threads, "0: all").range(0, 4096);
+  verb.add_limits(options->limits);
+  verb.callback([options] { run(*options); });
 }
 
 }  // namespace steradian::app

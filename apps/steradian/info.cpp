@@ -51,7 +51,7 @@ Json facts() {
       {"simdjson", dotted(simdjson::SIMDJSON_VERSION_MAJOR, simdjson::SIMDJSON_VERSION_MINOR, simdjson::SIMDJSON_VERSION_REVISION)},
       {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-      {"cli11", CLI11_VERSION},
+      {"cli11", command_line_library()},
   };
   return info;
 }
@@ -68,20 +68,19 @@ std::string text_of(const Json& value) {
 
 }  // namespace
 
-void add_info(CLI::App& app, Exit&) {
-  CLI::App* verb =
-      app.add_subcommand("info", "Print what a scene holds (.gltf, .glb), or without one version, instruction sets, libraries and devices");
-  verb->group("This machine");
+void add_info(CommandLine& line) {
+  Verb verb = line.verb("info", "Print what a scene holds (.gltf, .glb), or without one version, instruction sets, libraries and devices");
+  verb.group("This machine");
   struct Options {
     std::string scene;
     bool json = false;
     Limits limits;
   };
   auto options = std::make_shared<Options>();
-  verb->add_option("SCENE", options->scene, "scene file: its cameras, lights, materials, extensions");
-  verb->add_flag("--json", options->json, "Print JSON");
-  add_limits(*verb, options->limits);
-  verb->callback([options] {
+  verb.add("SCENE", options->scene, "scene file: its cameras, lights, materials, extensions");
+  verb.add_flag("--json", options->json, "Print JSON");
+  verb.add_limits(options->limits);
+  verb.callback([options] {
     const Json info = options->scene.empty() ? facts() : scene_facts(options->scene, options->limits);
     if (!options->scene.empty() && !options->json) return fmt::print("{}", scene_text(info));
     if (options->json) return fmt::print("{}\n", info.dump(1));

@@ -2,9 +2,8 @@
 
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
-
 #include "steradian/tone.h"
+#include "verb.h"
 
 namespace steradian::app {
 
@@ -14,7 +13,7 @@ PictureSize picture_size(const std::string& text) {
   if (std::sscanf(text.c_str(), "%dx%d%n", &size.width, &size.height, &used) == 2 && static_cast<std::size_t>(used) == text.size() &&
       size.width >= 1 && size.height >= 1 && size.width <= 16384 && size.height <= 16384)
     return size;
-  throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
+  throw WrongOption("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 16384 pixels a side");
 }
 
 std::optional<float> exposure_stops(const std::string& text) {
@@ -23,7 +22,7 @@ std::optional<float> exposure_stops(const std::string& text) {
   int used = 0;
   if (std::sscanf(text.c_str(), "%f%n", &stops, &used) == 1 && static_cast<std::size_t>(used) == text.size() && stops >= -30 && stops <= 30)
     return stops;
-  throw CLI::ValidationError("--exposure", "'" + text + "' is not auto or a number of stops, -30 to 30");
+  throw WrongOption("--exposure", "'" + text + "' is not auto or a number of stops, -30 to 30");
 }
 
 std::vector<std::string> tone_curve_names() {

@@ -3,7 +3,6 @@
 
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -33,7 +32,7 @@ namespace {
 
 constexpr const char* kDefaultSize = "1280x720";
 
-struct Options {
+struct RenderArguments {
   std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
                              indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
                              exposure = "auto", tone = "neutral", environment, background = "on", light_units = "auto", occluders = "black",
@@ -63,7 +62,7 @@ std::vector<AddedLight> added_lights(const std::vector<std::string>& names) {
   return lights;
 }
 
-nlohmann::ordered_json stats_json(const Options& options, const RenderStats& stats) {
+nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderStats& stats) {
   nlohmann::ordered_json passes = nlohmann::ordered_json::array();
   for (const PassTime& pass : stats.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
   return {{"version", version()},
@@ -95,7 +94,7 @@ IndirectMode indirect_mode(const std::string& name) {
   return name == "ltc" ? IndirectMode::ltc : name == "ggx" ? IndirectMode::ggx : name == "path" ? IndirectMode::path : IndirectMode::off;
 }
 
-void parse_indirect(Options& options) {
+void parse_indirect(RenderArguments& options) {
   IndirectOptions& indirect = options.render.indirect;
   indirect.mode = indirect_mode(options.indirect);
   indirect.quads = options.indirect_quads == "on";
@@ -104,18 +103,18 @@ void parse_indirect(Options& options) {
   int used = 0;
   if (std::sscanf(options.indirect_shadows.c_str(), "%d%n", &indirect.shadow_rays, &used) != 1 ||
       static_cast<std::size_t>(used) != options.indirect_shadows.size() || indirect.shadow_rays < 1 || indirect.shadow_rays > 64)
-    throw CLI::ValidationError("--indirect-shadows", "'" + options.indirect_shadows + "' is not off or a number of rays, 1 to 64");
+    throw WrongOption("--indirect-shadows", "'" + options.indirect_shadows + "' is not off or a number of rays, 1 to 64");
   if (indirect.mode == IndirectMode::ggx && options.render.method != "reference")
-    throw CLI::ValidationError("--indirect-shadows", "the baseline --indirect ggx has none");
+    throw WrongOption("--indirect-shadows", "the baseline --indirect ggx has none");
 }
 
 // Whether it may take minutes: such a render keeps what it has when it is interrupted.
-bool samples(const Options& options) {
+bool samples(const RenderArguments& options) {
   return options.render.method == "reference" || options.render.method == "sampled" || options.indirect == "path";
 }
 
 // Everything that the picture depends on.
-std::string identity_of(const Options& options, const Scene& scene) {
+std::string identity_of(const RenderArguments& options, const Scene& scene) {
   const RenderOptions& r = options.render;
   return fmt::format(
              "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} {} | scattering {}",
@@ -128,7 +127,7 @@ std::string identity_of(const Options& options, const Scene& scene) {
 }
 
 // The picture; running out of memory says what was being made, and how large it is.
-Picture rendered(const Scene& scene, const Options& options, RenderStats& stats, RenderState& state) {
+Picture rendered(const Scene& scene, const RenderArguments& options, RenderStats& stats, RenderState& state) {
   try {
     return render(scene, options.render, &stats, &state);
   } catch (const std::bad_alloc&) {
@@ -140,80 +139,80 @@ Picture rendered(const Scene& scene, const Options& options, RenderStats& stats,
 }
 
 // Of three dimensions: what an option needs to have an effect.
-void refuse_unused_in_space(const CLI::App& verb, const Options& options) {
+void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
   const RenderOptions& r = options.render;
   const bool path = options.indirect == "path", points = options.indirect == "ltc" || options.indirect == "ggx";
   const bool samples = r.method == "sampled" || path;
   const char* bounce = "--indirect ltc or ggx";
-  refuse_without_effect(verb, {{"--spp", samples, "--method sampled or --indirect path"},
-                               {"--target-error", r.method == "reference", "--method reference"},
-                               {"--terminator", options.shadows != "off", "--shadows on or exact"},
-                               {"--light-error", options.light_sum != "all", "--lights auto or tree"},
-                               {"--device", options.backend == "vulkan", "--backend vulkan"},
-                               {"--resume", (samples || r.method == "reference") && options.frames.empty(),
-                                "--method reference or sampled, or --indirect path"},
-                               {"--vpls", points, bounce},
-                               {"--indirect-pairs", points, bounce},
-                               {"--indirect-clamp", points, bounce},
-                               {"--indirect-shadows", points, bounce},
-                               {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
-                               {"--moments", false, "a plane scene (.svg)"},
-                               {"--occluders", false, "a plane scene (.svg)"},
-                               {"--normal-map", false, "a plane scene (.svg)"},
-                               {"--lamp-height", false, "a plane scene (.svg)"},
-                               {"--bounces", false, "a plane scene (.svg)"},
-                               {"--bounce-lattice", false, "a plane scene (.svg)"},
-                               {"--fps", !options.frames.empty(), "--frames"},
-                               {"--animation", !options.frames.empty(), "--frames"},
-                               {"--force", !options.frames.empty(), "--frames"},
-                               {"--stats", options.frames.empty(), "one picture, not --frames"},
-                               {"--edits", false, "a plane scene (.svg)"}});
+  verb.refuse_without_effect(
+      {{"--spp", samples, "--method sampled or --indirect path"},
+       {"--target-error", r.method == "reference", "--method reference"},
+       {"--terminator", options.shadows != "off", "--shadows on or exact"},
+       {"--light-error", options.light_sum != "all", "--lights auto or tree"},
+       {"--device", options.backend == "vulkan", "--backend vulkan"},
+       {"--resume", (samples || r.method == "reference") && options.frames.empty(), "--method reference or sampled, or --indirect path"},
+       {"--vpls", points, bounce},
+       {"--indirect-pairs", points, bounce},
+       {"--indirect-clamp", points, bounce},
+       {"--indirect-shadows", points, bounce},
+       {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
+       {"--moments", false, "a plane scene (.svg)"},
+       {"--occluders", false, "a plane scene (.svg)"},
+       {"--normal-map", false, "a plane scene (.svg)"},
+       {"--lamp-height", false, "a plane scene (.svg)"},
+       {"--bounces", false, "a plane scene (.svg)"},
+       {"--bounce-lattice", false, "a plane scene (.svg)"},
+       {"--fps", !options.frames.empty(), "--frames"},
+       {"--animation", !options.frames.empty(), "--frames"},
+       {"--force", !options.frames.empty(), "--frames"},
+       {"--stats", options.frames.empty(), "one picture, not --frames"},
+       {"--edits", false, "a plane scene (.svg)"}});
 }
 
 // Of the plane: the options of three dimensions have none.
-void refuse_unused_in_plane(const CLI::App& verb, const Options& options) {
+void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  refuse_without_effect(
-      verb, {{"--quality", false, third},
-             {"--table", false, third},
-             {"--shadows", options.shadows != "off", third},
-             {"--terminator", false, third},
-             {"--multiple-scattering", false, third},
-             {"--indirect", false, third},
-             {"--vpls", false, third},
-             {"--indirect-shadows", false, third},
-             {"--indirect-pairs", false, third},
-             {"--indirect-quads", false, third},
-             {"--indirect-clamp", false, third},
-             {"--max-lights", false, third},
-             {"--light", false, third},
-             {"--lights", false, third},
-             {"--light-error", false, third},
-             {"--environment", false, third},
-             {"--background", false, third},
-             {"--light-units", false, third},
-             {"--camera", false, third},
-             {"--target-error", false, third},
-             {"--resume", false, third},
-             {"--device", options.backend == "vulkan", "--backend vulkan"},
-             {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
-             {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},
-             {"--normal-map", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
-             {"--lamp-height", !options.normal_map.empty(), "--normal-map"},
-             {"--occluders", options.normal_map.empty(), "a light map, not --normal-map"},
-             {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
-             {"--frames", method == "auto" || method == "exact", "--method exact"},
-             {"--bounce-lattice", options.bounces != "0", "--bounces"},
-             {"--edits", !options.frames.empty(), "--frames"},
-             {"--fps", !options.frames.empty(), "--frames"},
-             {"--force", !options.frames.empty(), "--frames"},
-             {"--animation", false, third},
-             {"--stats", options.frames.empty(), "one picture, not --frames"}});
+  verb.refuse_without_effect(
+      {{"--quality", false, third},
+       {"--table", false, third},
+       {"--shadows", options.shadows != "off", third},
+       {"--terminator", false, third},
+       {"--multiple-scattering", false, third},
+       {"--indirect", false, third},
+       {"--vpls", false, third},
+       {"--indirect-shadows", false, third},
+       {"--indirect-pairs", false, third},
+       {"--indirect-quads", false, third},
+       {"--indirect-clamp", false, third},
+       {"--max-lights", false, third},
+       {"--light", false, third},
+       {"--lights", false, third},
+       {"--light-error", false, third},
+       {"--environment", false, third},
+       {"--background", false, third},
+       {"--light-units", false, third},
+       {"--camera", false, third},
+       {"--target-error", false, third},
+       {"--resume", false, third},
+       {"--device", options.backend == "vulkan", "--backend vulkan"},
+       {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
+       {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},
+       {"--normal-map", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
+       {"--lamp-height", !options.normal_map.empty(), "--normal-map"},
+       {"--occluders", options.normal_map.empty(), "a light map, not --normal-map"},
+       {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
+       {"--frames", method == "auto" || method == "exact", "--method exact"},
+       {"--bounce-lattice", options.bounces != "0", "--bounces"},
+       {"--edits", !options.frames.empty(), "--frames"},
+       {"--fps", !options.frames.empty(), "--frames"},
+       {"--force", !options.frames.empty(), "--frames"},
+       {"--animation", false, third},
+       {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
 // A plane scene has its own size, one unit a pixel, and its own methods.
-void run_plane(Options& options) {
+void run_plane(RenderArguments& options) {
   PlaneRender job;
   job.scene = options.scene;
   job.output = options.output;
@@ -246,14 +245,14 @@ void run_plane(Options& options) {
   render_plane_scene(job);
 }
 
-void run(const CLI::App& verb, Options& options) {
+void run(const Verb& verb, RenderArguments& options) {
   RenderOptions& render_options = options.render;
   if (is_plane_scene(options.scene)) {
     refuse_unused_in_plane(verb, options);
     return run_plane(options);
   }
   if (render_options.method == "par" || render_options.method == "marched")
-    throw CLI::ValidationError("--method", render_options.method + " is for plane scenes (.svg)");
+    throw WrongOption("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   render_options.backend = options.backend == "vulkan" ? Backend::vulkan : Backend::cpu;
   render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
@@ -283,7 +282,7 @@ void run(const CLI::App& verb, Options& options) {
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
-  refuse_without_effect(verb, {{"--background", loaded.scene.environment != nullptr, "--environment, or a file with one"}});
+  verb.refuse_without_effect({{"--background", loaded.scene.environment != nullptr, "--environment, or a file with one"}});
   render_options.background = options.background == "on";
   loaded.scene.multiple_scattering = options.multiple_scattering;
 
@@ -334,132 +333,115 @@ void run(const CLI::App& verb, Options& options) {
 
 }  // namespace
 
-void add_render(CLI::App& app, Exit&) {
-  auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("render", "Render a scene (.gltf, .glb, .svg) to a picture (.exr linear, .png tone mapped)");
-  verb->footer(methods::help());
+void add_render(CommandLine& line) {
+  auto options = std::make_shared<RenderArguments>();
+  Verb verb = line.verb("render", "Render a scene (.gltf, .glb, .svg) to a picture (.exr linear, .png tone mapped)");
+  verb.footer(methods::help());
   RenderOptions& r = options->render;
-  verb->add_option("SCENE", options->scene, "scene file")->required();
-  verb->add_option("-o,--output", options->output, "picture: .exr or .png")->required();
-  verb->add_option("--method", r.method, "how specular light is done; plane scenes: auto, exact, par, sampled, marched")
-      ->check(CLI::Validator(
-          [](std::string& name) {
-            const bool known = method_of(name).has_value() || name == "par" || name == "marched";
-            return known ? std::string() : "unknown method " + name + ", use " + methods::names();
-          },
-          ""))
-      ->group("Light");
-  verb->add_option("--table", r.table, "of ltc: a fitted table (fit --layout classic -o FILE.json) in place of GGX's, under area lights")
-      ->group("Light");
-  verb->add_option("--quality", options->quality, "of closed-form, half-vector, ltc and series; of auto: draft takes ltc-compact for GGX")
-      ->check(CLI::IsMember({"draft", "normal", "high"}))
-      ->group("Light");
-  verb->add_option("--shadows", options->shadows, "of direct light; on: by rays where a point sees over 512 edges, exact: never by rays")
-      ->check(CLI::IsMember({"off", "on", "exact"}))
-      ->group("Light");
-  verb->add_option("--terminator", options->terminator,
-                   "shadows of curved meshes upon themselves: as the facets stand, or as normals describe")
-      ->check(CLI::IsMember({"strict", "smooth"}))
-      ->group("Light");
-  verb->add_flag("--multiple-scattering", options->multiple_scattering, "GGX gives back what one bounce loses between the facets")
-      ->group("Light");
-  verb->add_option("--indirect", options->indirect, "one bounce: virtual lights by ltc, by the baseline ggx, or path tracing (--spp)")
-      ->check(CLI::IsMember({"off", "ltc", "ggx", "path"}))
-      ->group("Light");
-  verb->add_option("--vpls", r.indirect.virtual_lights, "virtual lights of the bounce, about")
-      ->check(CLI::Range(64, 1 << 22))
-      ->group("Light");
-  verb->add_option("--indirect-shadows", options->indirect_shadows, "visibility of the bounce: off, or rays a pixel")->group("Light");
-  verb->add_option("--indirect-pairs", r.indirect.kept_pairs, "virtual lights a pixel keeps on average; 0: all of its share")
-      ->check(CLI::Range(0.0, 1e9))
-      ->group("Light");
-  verb->add_option("--indirect-quads", options->indirect_quads, "of ltc: receivers with alpha < 0.1 see virtual lights as quads")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->group("Light");
-  verb->add_option("--indirect-clamp", options->indirect_clamp, "soft bound of near virtual lights, by their area")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->group("Light");
-  verb->add_option("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
-      ->check(CLI::Range(1, 1 << 20))
-      ->group("Light");
-  verb->add_option("--lights", options->light_sum,
-                   "diffuse light: all one by one, far ones together (tree) within a bound (layer light_bound); auto: tree from 64 on")
-      ->check(CLI::IsMember({"auto", "all", "tree"}))
-      ->group("Light");
-  verb->add_option("--light-error", r.light_error, "of tree: error of each light, as a share of what it sends where it faces best")
-      ->check(CLI::Range(1e-6, 1.0))
-      ->group("Light");
-  verb->add_option("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
-      ->check(CLI::IsMember({"default", "none", "sun", "studio"}))
-      ->group("Light");
-  verb->add_option("--environment", options->environment, "light from all around: a map (.hdr, .exr, .png, .jpg), white, or sky")
-      ->group("Light");
-  verb->add_option(
-          "--light-units", options->light_units,
-          "of punctual lights beside emission: candela as glTF says; watt: divided by 683; auto: watt for files of Blender's exporter")
-      ->check(CLI::IsMember({"auto", "candela", "watt"}))
-      ->group("Light");
-  verb->add_option("--background", options->background, "whether the picture shows the environment")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->group("Picture");
-  verb->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->group("Picture");
-  verb->add_option("--camera", r.camera, "camera by name; none: the first")->group("Picture");
-  verb->add_option("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)")->group("Picture");
-  verb->add_option("--tone", options->tone, "of .png: the curve from radiance to the screen")
-      ->check(CLI::IsMember(tone_curve_names()))
-      ->group("Picture");
-  verb->add_option("--aa", r.aa, "primary samples a pixel")->check(CLI::Range(1, 4096))->group("Picture");
-  CLI::Option* spp =
-      verb->add_option("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
-          ->check(CLI::Range(1, 1 << 20))
-          ->group("Sampling");
-  verb->add_option("--target-error", r.target_error, "reference: rms standard error over rms radiance")
-      ->check(CLI::Range(1e-6, 1.0))
-      ->group("Sampling");
-  verb->add_flag("--resume", options->resume, "go on with what an interrupted reference, sampled or path-traced render kept beside -o")
-      ->group("Sampling");
-  verb->add_option("--seed", r.seed, "of random numbers")->group("Sampling");
-  verb->add_option("--backend", options->backend, "where to compute")->check(CLI::IsMember({"cpu", "vulkan"}))->group("Machine");
-  verb->add_option("--device", r.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first")
-      ->group("Machine");
-  verb->add_option("--threads", r.threads, "0: all")->check(CLI::Range(0, 4096))->group("Machine");
-  verb->add_option("--stats", options->stats, "write times and counts of the passes to this JSON file")->group("Machine");
-  add_limits(*verb, options->limits);
-  verb->add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)")->group("Picture");
-  verb->add_option("--normal-map", options->normal_map,
-                   "plane scenes: the picture of this normal map (.png, .exr; green upwards), lit; of its size, and with its alpha")
-      ->group("Picture");
-  verb->add_option("--lamp-height", options->lamp_height, "of --normal-map: degrees at which lamps stand above the plane")
-      ->check(CLI::Range(0.0, 90.0))
-      ->group("Picture");
-  verb->add_option("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
-      ->check(CLI::IsMember({"black", "fill", "clear"}))
-      ->group("Picture");
-  verb->add_option("--frames", options->frames,
-                   "A..B: pictures numbered by the #s of -o, of a file's animation (glTF, SMIL), or of a plane scene with --edits")
-      ->group("Frames");
-  verb->add_option("--fps", options->fps, "frame N shows the moment N / fps seconds")->check(CLI::Range(1e-3, 1e6))->group("Frames");
-  verb->add_option("--animation", options->animation, "by its name; none: the file's first")->group("Frames");
-  verb->add_flag("--force", options->force, "make frames again that are there")->group("Frames");
-  verb->add_option("--edits", options->edits, "plane scenes: JSON file of what moves, changes or goes before which of --frames")
-      ->group("Frames");
-  verb->add_option(
-          "--bounce-lattice", options->bounce_lattice,
-          "plane scenes: what walls send on is linear over 8 x 8 pixels where that is off by less than this share of its brightest "
-          "place; 0: at every pixel")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group("Light");
-  verb->add_option("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
-      ->check(CLI::Validator(
-          [](std::string& text) {
+  verb.add("SCENE", options->scene, "scene file").required();
+  verb.add("-o,--output", options->output, "picture: .exr or .png").required();
+  verb.add("--method", r.method, "how specular light is done; plane scenes: auto, exact, par, sampled, marched")
+      .check([](const std::string& name) {
+        const bool known = method_of(name).has_value() || name == "par" || name == "marched";
+        return known ? std::string() : "unknown method " + name + ", use " + methods::names();
+      })
+      .group("Light");
+  verb.add("--table", r.table, "of ltc: a fitted table (fit --layout classic -o FILE.json) in place of GGX's, under area lights")
+      .group("Light");
+  verb.add("--quality", options->quality, "of closed-form, half-vector, ltc and series; of auto: draft takes ltc-compact for GGX")
+      .words({"draft", "normal", "high"})
+      .group("Light");
+  verb.add("--shadows", options->shadows, "of direct light; on: by rays where a point sees over 512 edges, exact: never by rays")
+      .words({"off", "on", "exact"})
+      .group("Light");
+  verb.add("--terminator", options->terminator, "shadows of curved meshes upon themselves: as the facets stand, or as normals describe")
+      .words({"strict", "smooth"})
+      .group("Light");
+  verb.add_flag("--multiple-scattering", options->multiple_scattering, "GGX gives back what one bounce loses between the facets")
+      .group("Light");
+  verb.add("--indirect", options->indirect, "one bounce: virtual lights by ltc, by the baseline ggx, or path tracing (--spp)")
+      .words({"off", "ltc", "ggx", "path"})
+      .group("Light");
+  verb.add("--vpls", r.indirect.virtual_lights, "virtual lights of the bounce, about").range(64, 1 << 22).group("Light");
+  verb.add("--indirect-shadows", options->indirect_shadows, "visibility of the bounce: off, or rays a pixel").group("Light");
+  verb.add("--indirect-pairs", r.indirect.kept_pairs, "virtual lights a pixel keeps on average; 0: all of its share")
+      .range(0.0, 1e9)
+      .group("Light");
+  verb.add("--indirect-quads", options->indirect_quads, "of ltc: receivers with alpha < 0.1 see virtual lights as quads")
+      .words({"on", "off"})
+      .group("Light");
+  verb.add("--indirect-clamp", options->indirect_clamp, "soft bound of near virtual lights, by their area")
+      .words({"on", "off"})
+      .group("Light");
+  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
+      .range(1, 1 << 20)
+      .group("Light");
+  verb.add("--lights", options->light_sum,
+           "diffuse light: all one by one, far ones together (tree) within a bound (layer light_bound); auto: tree from 64 on")
+      .words({"auto", "all", "tree"})
+      .group("Light");
+  verb.add("--light-error", r.light_error, "of tree: error of each light, as a share of what it sends where it faces best")
+      .range(1e-6, 1.0)
+      .group("Light");
+  verb.add("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
+      .words({"default", "none", "sun", "studio"})
+      .group("Light");
+  verb.add("--environment", options->environment, "light from all around: a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
+  verb.add("--light-units", options->light_units,
+           "of punctual lights beside emission: candela as glTF says; watt: divided by 683; auto: watt for files of Blender's exporter")
+      .words({"auto", "candela", "watt"})
+      .group("Light");
+  verb.add("--background", options->background, "whether the picture shows the environment").words({"on", "off"}).group("Picture");
+  verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").group("Picture");
+  verb.add("--camera", r.camera, "camera by name; none: the first").group("Picture");
+  verb.add("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)").group("Picture");
+  verb.add("--tone", options->tone, "of .png: the curve from radiance to the screen").words(tone_curve_names()).group("Picture");
+  verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");
+  verb.add("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
+      .range(1, 1 << 20)
+      .group("Sampling");
+  verb.add("--target-error", r.target_error, "reference: rms standard error over rms radiance").range(1e-6, 1.0).group("Sampling");
+  verb.add_flag("--resume", options->resume, "go on with what an interrupted reference, sampled or path-traced render kept beside -o")
+      .group("Sampling");
+  verb.add("--seed", r.seed, "of random numbers").group("Sampling");
+  verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"}).group("Machine");
+  verb.add("--device", r.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first").group("Machine");
+  verb.add("--threads", r.threads, "0: all").range(0, 4096).group("Machine");
+  verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").group("Machine");
+  verb.add_limits(options->limits);
+  verb.add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)").group("Picture");
+  verb.add("--normal-map", options->normal_map,
+           "plane scenes: the picture of this normal map (.png, .exr; green upwards), lit; of its size, and with its alpha")
+      .group("Picture");
+  verb.add("--lamp-height", options->lamp_height, "of --normal-map: degrees at which lamps stand above the plane")
+      .range(0.0, 90.0)
+      .group("Picture");
+  verb.add("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
+      .words({"black", "fill", "clear"})
+      .group("Picture");
+  verb.add("--frames", options->frames,
+           "A..B: pictures numbered by the #s of -o, of a file's animation (glTF, SMIL), or of a plane scene with --edits")
+      .group("Frames");
+  verb.add("--fps", options->fps, "frame N shows the moment N / fps seconds").range(1e-3, 1e6).group("Frames");
+  verb.add("--animation", options->animation, "by its name; none: the file's first").group("Frames");
+  verb.add_flag("--force", options->force, "make frames again that are there").group("Frames");
+  verb.add("--edits", options->edits, "plane scenes: JSON file of what moves, changes or goes before which of --frames").group("Frames");
+  verb.add("--bounce-lattice", options->bounce_lattice,
+           "plane scenes: what walls send on is linear over 8 x 8 pixels where that is off by less than this share of its brightest "
+           "place; 0: at every pixel")
+      .range(0.0, 1.0)
+      .group("Light");
+  verb.add("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
+      .check(
+          [](const std::string& text) {
             const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
             return number || text == "all" ? std::string() : "give a number of bounces, or all";
           },
-          "N|all"))
-      ->group("Light");
-  verb->callback([options, spp, verb] {
-    options->spp_given = spp->count() > 0;
-    run(*verb, *options);
+          "N|all")
+      .group("Light");
+  verb.callback([options, verb] {
+    options->spp_given = verb.given("--spp");
+    run(verb, *options);
   });
 }
 

@@ -1,27 +1,17 @@
-// The program's verbs, one file each. add_x describes the verb's options to the command line and says what to run.
+// The program's verbs, one file each: add_x describes the verb's options to the command line, with the function that runs it.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "steradian/limits.h"
+#include "verb.h"
 
 namespace steradian::app {
 
-// What main returns: 0 done, 1 the work failed or a comparison did not hold, 2 wrong use.
-struct Exit {
-  int code = 0;
-};
-
-// --max-memory and --max-work: what a file may take.
-void add_limits(CLI::App& verb, Limits& limits);
-
-void add_eval(CLI::App& app, Exit& exit);
-void add_bench(CLI::App& app, Exit& exit);
-void add_diff(CLI::App& app, Exit& exit);
-void add_render(CLI::App& app, Exit& exit);
-void add_compare(CLI::App& app, Exit& exit);
-void add_fit(CLI::App& app, Exit& exit);
-void add_info(CLI::App& app, Exit& exit);
-void add_view(CLI::App& app, Exit& exit);
+void add_eval(CommandLine& line);
+void add_bench(CommandLine& line);
+void add_diff(CommandLine& line);
+void add_render(CommandLine& line);
+void add_compare(CommandLine& line);
+void add_fit(CommandLine& line);
+void add_info(CommandLine& line);
+void add_view(CommandLine& line);
 
 }  // namespace steradian::app

@@ -11,7 +11,7 @@
 namespace steradian::view {
 namespace {
 
-std::filesystem::file_time_type time_of(const std::string& path) {
+std::filesystem::file_time_type drawing_time(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::last_write_time(path, ignored);
 }
@@ -32,7 +32,7 @@ void Drawing::load() {
   endless_ = animation.endless();
   animation_ = std::move(animation);
   sheet_ = fresh_sheet(std::move(scene));
-  file_time_ = time_of(path_);
+  file_time_ = drawing_time(path_);
   before_.clear();
   saved_steps_ = 0;
   after_.clear();
@@ -262,7 +262,7 @@ void Drawing::redo() {
 // ---- files
 
 bool Drawing::file_changed() const {
-  const auto now = time_of(path_);
+  const auto now = drawing_time(path_);
   return now != std::filesystem::file_time_type{} && now != file_time_;
 }
 
@@ -273,7 +273,7 @@ void Drawing::save_scene(const std::string& path) {
   write_file(path, plane_scene_to_svg(sheet_.scene));
   close_step();
   saved_steps_ = before_.size();
-  if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(path_)) file_time_ = time_of(path);
+  if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(path_)) file_time_ = drawing_time(path);
 }
 
 void Drawing::save_picture(const std::string& path, float exposure_stops, ToneCurve curve) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace steradian::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
 constexpr double kFar = 1e300;  // of a handle that is not seen
 
 const Vec3d& axis_of(const Gizmo& gizmo, Handle handle) { return gizmo.axes[handle == Handle::x ? 0 : handle == Handle::y ? 1 : 2]; }
@@ -17,13 +17,6 @@ std::optional<double> along_axis(Vec3d origin, Vec3d axis, const Ray& ray) {
   if (d < 1e-4) return {};  // within half a degree of the axis: a pixel would be metres
   const Vec3d w = ray.origin - origin;
   return (dot(w, axis) - c * dot(w, ray.direction)) / d;
-}
-
-double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
-  const Vec2d d{b.x - a.x, b.y - a.y};
-  const double square = d.x * d.x + d.y * d.y;
-  const double t = square > 0 ? std::clamp(((p.x - a.x) * d.x + (p.y - a.y) * d.y) / square, 0.0, 1.0) : 0.0;
-  return std::hypot(p.x - a.x - t * d.x, p.y - a.y - t * d.y);
 }
 
 constexpr Handle kAxes[] = {Handle::x, Handle::y, Handle::z};
@@ -40,7 +33,7 @@ double distance_to_handle(const Gizmo& gizmo, Handle handle, const Camera& camer
   double nearest = kFar;
   std::optional<Vec2d> last;
   for (int i = 0; i <= kSegments; ++i) {
-    const double angle = 2 * kPi * i / kSegments;
+    const double angle = 2 * std::numbers::pi * i / kSegments;
     const auto here = project(camera, gizmo.origin + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * gizmo.size, width, height);
     if (last && here) nearest = std::min(nearest, distance_to_segment(pointer, *last, *here));
     last = here;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lobes/lobe.h"
 
@@ -13,7 +14,6 @@ constexpr const char* kPunctual = "KHR_lights_punctual";
 constexpr const char* kProfile = "EXT_lights_ies";
 constexpr const char* kStrength = "/extensions/KHR_materials_emissive_strength";
 constexpr const char* kLobe = "/extras/steradian";
-constexpr double kPi = 3.14159265358979324;
 
 const char* extension_of(LampKind kind) {
   switch (kind) {
@@ -111,7 +111,7 @@ LampValues values_of(const Document& document, const Lamp& lamp) {
                                 lamp.kind == LampKind::area ? 1000 : 1);  // the draft's
   if (lamp.kind == LampKind::punctual && lamp.type == "spot") {
     v.inner_angle = document.number(at + "/spot/innerConeAngle", 0);
-    v.outer_angle = document.number(at + "/spot/outerConeAngle", kPi / 4);
+    v.outer_angle = document.number(at + "/spot/outerConeAngle", std::numbers::pi / 4);
   }
   if (lamp.kind == LampKind::punctual) v.type = lamp.type;
   if (lamp.kind != LampKind::area) return v;

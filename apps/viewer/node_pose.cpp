@@ -17,12 +17,6 @@ std::array<double, 4> product(const std::array<double, 4>& a, const std::array<d
           a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-// Rodrigues' rotation of a vector about a unit axis.
-Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
-}
-
 // What differs from what the file says is written; a value that is glTF's default and not there stays away.
 void put(Document& document, int node, const char* key, const Json& value, const Json& otherwise) {
   const std::string pointer = node_pointer(node, key);

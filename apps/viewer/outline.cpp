@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "scene/gltf_accessor.h"
 #include "scene/merge_polygons.h"
@@ -12,9 +13,8 @@
 namespace steradian::view {
 namespace {
 
-constexpr const char* kName = "steradian view: an outline";  // of the buffer that holds it
-constexpr std::size_t kMostCorners = 1000;                   // edges are tried against each other at every step of a drag
-constexpr double kPi = 3.14159265358979324;
+constexpr const char* kOutlineName = "steradian view: an outline";  // of the buffer that holds it
+constexpr std::size_t kMostCorners = 1000;                          // edges are tried against each other at every step of a drag
 
 std::string indexed(const char* array, std::size_t i) { return std::string("/") + array + "/" + std::to_string(i); }
 
@@ -66,7 +66,8 @@ class Packed {
     bytes_.insert(bytes_.end(), first, first + values.size() * sizeof(T));
   }
   Json buffer() const {
-    return {{"name", kName}, {"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + scene::base64(bytes_)}};
+    return {
+        {"name", kOutlineName}, {"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + scene::base64(bytes_)}};
   }
   Json view(std::size_t part, std::size_t buffer) const {
     const std::size_t end = part + 1 < offsets_.size() ? offsets_[part + 1] : bytes_.size();
@@ -85,7 +86,7 @@ std::size_t first_accessor(const Document& document, const Json& primitive) {
     const auto accessor = primitive.at(at).get<std::size_t>();
     const int view = document.index(indexed("accessors", accessor) + "/bufferView");
     const int buffer = view < 0 ? -1 : document.index(indexed("bufferViews", static_cast<std::size_t>(view)) + "/buffer");
-    if (buffer >= 0 && document.text(indexed("buffers", static_cast<std::size_t>(buffer)) + "/name", "") == kName) return accessor;
+    if (buffer >= 0 && document.text(indexed("buffers", static_cast<std::size_t>(buffer)) + "/name", "") == kOutlineName) return accessor;
   }
   return document.count("/accessors");
 }
@@ -199,7 +200,7 @@ int add_polygon_light(Document& document, Vec3d position, Vec3d direction, doubl
   outline.normal = {0, 0, -1};  // as area lights shine
   auto& contour = outline.contours.emplace_back();
   for (int i = 0; i < 5; ++i) {
-    const double angle = kPi / 2 - 2 * kPi * i / 5;
+    const double angle = std::numbers::pi / 2 - 2 * std::numbers::pi * i / 5;
     contour.push_back({size / 2 * std::cos(angle), size / 2 * std::sin(angle), 0});
   }
   set_outline(document, {LampKind::mesh, node, static_cast<int>(material), name, "mesh"}, outline);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 
 #include "view_state.h"
@@ -12,7 +13,6 @@ namespace {
 
 constexpr ImU32 kAxisColors[] = {IM_COL32(235, 80, 70, 255), IM_COL32(110, 200, 70, 255), IM_COL32(80, 140, 250, 255)};
 constexpr ImU32 kBright = IM_COL32(255, 220, 90, 255), kMark = IM_COL32(255, 240, 180, 255), kEdge = IM_COL32(0, 0, 0, 160);
-constexpr double kPi = 3.14159265358979324;
 
 class Overlay {
  public:
@@ -80,7 +80,7 @@ class Overlay {
     constexpr int kSegments = 64;
     const Frame frame = Frame::from_normal(axis);
     const auto point = [&](int i) {
-      const double angle = 2 * kPi * i / kSegments;
+      const double angle = 2 * std::numbers::pi * i / kSegments;
       return gizmo.origin + (frame.x * std::cos(angle) + frame.y * std::sin(angle)) * gizmo.size;
     };
     for (int i = 0; i < kSegments; ++i) line(point(i), point(i + 1), color);

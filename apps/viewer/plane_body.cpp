@@ -7,12 +7,6 @@
 namespace steradian::view {
 namespace {
 
-double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
-  const Vec2d d = b - a;
-  const double square = dot(d, d), t = square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0;
-  return length(p - (a + d * t));
-}
-
 // How often the contours run around a point, counter-clockwise in a plane whose y is up.
 int winding(const PlaneBody& body, Vec2d p) {
   int around = 0;

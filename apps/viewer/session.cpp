@@ -7,7 +7,7 @@
 namespace steradian::view {
 namespace {
 
-std::filesystem::file_time_type time_of(const std::string& path) {
+std::filesystem::file_time_type scene_time(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::last_write_time(path, ignored);
 }
@@ -35,7 +35,7 @@ void Session::take_document(std::unique_ptr<Document> document) {
   document_ = std::move(document);
   animations_ = std::move(animations);
   if (animation_ >= animations_.size()) animation_ = 0;
-  file_time_ = time_of(this->path());
+  file_time_ = scene_time(this->path());
   changed();
 }
 
@@ -450,7 +450,7 @@ void Session::reload() {
 }
 
 bool Session::file_changed() const {
-  const auto now = time_of(document_->file().path);
+  const auto now = scene_time(document_->file().path);
   return now != std::filesystem::file_time_type{} && now != file_time_;
 }
 
@@ -458,7 +458,7 @@ void Session::save_scene(const std::string& path) {
   document_->close_step();
   write_gltf_file(with_camera(document_->file(), camera_ ? camera_->camera() : Camera{}), path);
   document_->mark_saved();
-  if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(document_->file().path)) file_time_ = time_of(path);
+  if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(document_->file().path)) file_time_ = scene_time(path);
 }
 
 void Session::save_picture(const std::string& path, float exposure_stops, ToneCurve curve) {

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace steradian::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979324;
-constexpr const char* kName = "steradian view";
-
-Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
-}
+constexpr const char* kCameraName = "steradian view";
 
 scene::Affine pose_of(const Camera& camera) { return {camera.x, camera.y, camera.z, camera.position}; }
 
@@ -20,7 +15,7 @@ scene::Affine pose_of(const Camera& camera) { return {camera.x, camera.y, camera
 
 void ViewCamera::turn(double yaw, double pitch) {
   // As far as straight up and down, not over.
-  const double now = std::asin(std::clamp(camera_.z.y, -1.0, 1.0)), most = kPi / 2 - 1e-3;
+  const double now = std::asin(std::clamp(camera_.z.y, -1.0, 1.0)), most = std::numbers::pi / 2 - 1e-3;
   pitch = std::clamp(now + pitch, std::min(-most, now), std::max(most, now)) - now;
   for (Vec3d* axis : {&camera_.x, &camera_.y, &camera_.z}) *axis = rotated(*axis, {0, 1, 0}, yaw);
   for (Vec3d* axis : {&camera_.y, &camera_.z}) *axis = rotated(*axis, camera_.x, -pitch);
@@ -32,7 +27,7 @@ void ViewCamera::turn(double yaw, double pitch) {
 
 void ViewCamera::orbit(double right, double down) {
   const Vec3d about = target();
-  turn(-right * kPi, down * kPi);
+  turn(-right * std::numbers::pi, down * std::numbers::pi);
   camera_.position = about + camera_.z * distance_;
 }
 
@@ -77,7 +72,7 @@ std::optional<Vec2d> project(const Camera& camera, Vec3d point, double width, do
   return Vec2d{(dot(d, camera.x) / (depth * w) + 1) / 2 * width, (1 - dot(d, camera.y) / (depth * h)) / 2 * height};
 }
 
-Camera as_read(const Camera& camera) { return scene::camera_at(pose_of(camera), camera.yfov, kName); }
+Camera as_read(const Camera& camera) { return scene::camera_at(pose_of(camera), camera.yfov, kCameraName); }
 
 scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera) {
   Json& json = file.json;
@@ -87,11 +82,11 @@ scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera) {
   std::size_t node = 0;
   Json& nodes = json["nodes"];
   if (!nodes.is_array()) nodes = Json::array();
-  while (node < nodes.size() && !(nodes[node].value("name", "") == kName && nodes[node].contains("camera"))) ++node;
+  while (node < nodes.size() && !(nodes[node].value("name", "") == kCameraName && nodes[node].contains("camera"))) ++node;
   if (node == nodes.size()) {
     if (!json.contains("cameras")) json["cameras"] = Json::array();
-    nodes.push_back({{"name", kName}, {"camera", json["cameras"].size()}});
-    json["cameras"].push_back({{"name", kName}, {"type", "perspective"}, {"perspective", {{"yfov", camera.yfov}}}});
+    nodes.push_back({{"name", kCameraName}, {"camera", json["cameras"].size()}});
+    json["cameras"].push_back({{"name", kCameraName}, {"type", "perspective"}, {"perspective", {{"yfov", camera.yfov}}}});
   }
   for (const char* key : {"translation", "rotation", "scale"}) nodes[node].erase(key);
   nodes[node]["matrix"] = matrix;

@@ -6,7 +6,7 @@
 #include "render/cpu/ltc_points.h"
 #include "render/cpu/phong.h"
 #include "render/cpu/sheen.h"
-#include "studies/table2.h"
+#include "bench/studies/table2.h"
 
 namespace steradian {
 namespace {

@@ -6,9 +6,9 @@
 #include "core/atomic_file.h"
 #include "core/float_mode.h"
 #include "integrals/phong.h"
-#include "studies/line_plot.h"
+#include "bench/studies/line_plot.h"
 #include "bench/phong_plane.h"
-#include "studies/table2.h"
+#include "bench/studies/table2.h"
 #include "steradian/picture.h"
 
 namespace steradian::moment {

@@ -50,24 +50,14 @@ std::vector<std::string> nearest_beginnings(const std::string& word, std::vector
   return nearest;
 }
 
-std::string unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return {};
-  const std::string word = argv[1];
-  std::vector<std::string> verbs;
+std::string unknown_verb(const std::string& word, const std::vector<std::string>& verbs) {
   std::string list;
-  for (const CLI::App* verb : app.get_subcommands({})) {
-    if (verb->get_name() == word) return {};
-    verbs.push_back(verb->get_name());
-    list += (list.empty() ? "" : ", ") + verb->get_name();
+  for (const std::string& verb : verbs) {
+    if (verb == word) return {};
+    list += (list.empty() ? "" : ", ") + verb;
   }
   const std::string nearest = nearest_word(word, verbs);
   return "'" + word.substr(0, 64) + "' is not a verb" + (nearest.empty() ? "; verbs: " + list : "; did you mean '" + nearest + "'?");
-}
-
-void refuse_without_effect(const CLI::App& verb, std::initializer_list<ConditionalOption> options) {
-  for (const ConditionalOption& option : options)
-    if (!option.has_effect && verb.get_option(option.name)->count() > 0)
-      throw CLI::ValidationError(option.name, std::string("changes nothing here: it needs ") + option.needs);
 }
 
 }  // namespace steradian::app

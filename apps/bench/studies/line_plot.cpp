@@ -1,4 +1,4 @@
-#include "studies/line_plot.h"
+#include "bench/studies/line_plot.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "studies/plane_methods.h"
+#include "bench/studies/plane_methods.h"
 
 #include <algorithm>
 #include <cmath>

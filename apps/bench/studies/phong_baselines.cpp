@@ -1,4 +1,4 @@
-#include "studies/phong_baselines.h"
+#include "bench/studies/phong_baselines.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,6 @@
 
 namespace steradian::moment {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Unit directions of the light's corners in walk order, about the mirrored view r.
 struct Seen {
@@ -99,10 +97,10 @@ double by_spherical_gaussian(const PreparedPolygon& light, const ShadingPoint& a
   if (!(length_of_mean > 0)) return 0;
   const double r = std::min(length_of_mean / seen.solid_angle, 1 - 1e-9);
   const double sharpness = r * (3 - r * r) / (1 - r * r);  // of that mean cosine: Banerjee et al. 2005
-  const double peak = seen.solid_angle / (2 * kPi * one_minus_exp_over(sharpness));
+  const double peak = seen.solid_angle / (2 * std::numbers::pi * one_minus_exp_over(sharpness));
   const Vec3d axis = seen.mean / length_of_mean;
   const double together = length(axis * sharpness + seen.mirror * n);
-  return (n + 1) / (2 * kPi) * peak * std::exp(together - sharpness - n) * 2 * kPi * one_minus_exp_over(together);
+  return (n + 1) / (2 * std::numbers::pi) * peak * std::exp(together - sharpness - n) * 2 * std::numbers::pi * one_minus_exp_over(together);
 }
 
 double by_anisotropic_gaussian(const PreparedPolygon& light, const ShadingPoint& at, double n) {
@@ -132,7 +130,7 @@ double by_anisotropic_gaussian(const PreparedPolygon& light, const ShadingPoint&
   const Flat r = to_plane(frame, seen.mirror);
   const double dx = r.x - middle.x, dy = r.y - middle.y;
   const double far = (yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy) / determinant;
-  return (n + 1) / n * seen.solid_angle / (2 * kPi * std::sqrt(determinant)) * std::exp(-0.5 * far);
+  return (n + 1) / n * seen.solid_angle / (2 * std::numbers::pi * std::sqrt(determinant)) * std::exp(-0.5 * far);
 }
 
 double by_representative_point(const PreparedPolygon& light, const ShadingPoint& at, double n) {
@@ -151,9 +149,9 @@ double by_representative_point(const PreparedPolygon& light, const ShadingPoint&
   }
   const double cosine = 1 - 1 / (n + 1), radius = std::sqrt(1 - cosine * cosine) / cosine;
   constexpr int kCorners = 48;  // of the cone, with the circle's area
-  const double wide = radius * std::sqrt(2 * kPi / kCorners / std::sin(2 * kPi / kCorners));
+  const double wide = radius * std::sqrt(2 * std::numbers::pi / kCorners / std::sin(2 * std::numbers::pi / kCorners));
   for (int k = 0; k < kCorners && p.size() > 2; ++k) {
-    const double t0 = 2 * kPi * k / kCorners, t1 = 2 * kPi * (k + 1) / kCorners;
+    const double t0 = 2 * std::numbers::pi * k / kCorners, t1 = 2 * std::numbers::pi * (k + 1) / kCorners;
     p = left_of(p, {wide * std::cos(t0), wide * std::sin(t0)}, {wide * std::cos(t1), wide * std::sin(t1)});
   }
   if (p.size() < 3) return 0;
@@ -163,7 +161,7 @@ double by_representative_point(const PreparedPolygon& light, const ShadingPoint&
   std::vector<Vec3d> part;
   for (const Flat& f : p) part.push_back(normalized(Vec3d{f.x, f.y, 1}));
   const double towards = 1 / std::sqrt(1 + middle.x * middle.x + middle.y * middle.y);
-  return (n + 1) / (2 * kPi) * std::pow(towards, n) * solid_angle_of(part);
+  return (n + 1) / (2 * std::numbers::pi) * std::pow(towards, n) * solid_angle_of(part);
 }
 
 namespace {
@@ -197,22 +195,22 @@ class HalfWidthTable {
     K k;
     const double s2 = (1 - c) * (1 + c);
     const auto height = [&](double phi) { return k.moment_peak_height(s2, c * c, n, f_is_x, std::cos(phi), std::sin(phi)).v; };
-    double low = 0, high = kPi / 2;
+    double low = 0, high = std::numbers::pi / 2;
     for (int step = 0; step < 50; ++step) (height(0.5 * (low + high)) > 0.5 * height(0) ? low : high) = 0.5 * (low + high);
-    return low / (f_is_x == 1 ? kPi / 3 : kPi / 4);
+    return low / (f_is_x == 1 ? std::numbers::pi / 3 : std::numbers::pi / 4);
   }
 };
 
 // The kernel's peak with another half width: what follows from x_w once more.
 K::MomentPeak with_half_width(K::MomentPeak p, const K::MomentEdge& edge, double n, int f_is_x, double ratio) {
   K k;
-  const double widest = f_is_x == 1 ? kPi / 3 : kPi / 4;
+  const double widest = f_is_x == 1 ? std::numbers::pi / 3 : std::numbers::pi / 4;
   const auto height = [&](const auto& phi) {
     return k.moment_peak_height(edge.s * edge.s, edge.c * edge.c, n, f_is_x, k.moment_peak_cosine(phi), k.moment_peak_sine(phi));
   };
   p.ratio_w = ratio;
   p.x_w = widest * ratio;
-  p.x_t = std::min(p.x_w.v + 0.3946 * widest * (1 - std::pow(1 - ratio, 12)), kPi / 2);  // eq. 14
+  p.x_t = std::min(p.x_w.v + 0.3946 * widest * (1 - std::pow(1 - ratio, 12)), std::numbers::pi / 2);  // eq. 14
   const double scale = 1 / std::max(p.peak.v, 1e-12);
   p.y_w = std::clamp(scale * height(p.x_w).v, 0.01, 0.99);
   p.y_t = scale * height(p.x_t).v;
@@ -248,7 +246,7 @@ double by_peak_fit_with_table(Method method, const PreparedPolygon& light, const
     const auto p = with_half_width(k.moment_peak_prepare(edge, n, f_is_x), edge, n, f_is_x, tables[f_is_x].look_up(edge.c.v, n));
     sum += k.moment_edge_share(edge, k.moment_fit_front(edge, p, fit_of(method, edge, p), f_is_x)).v;
   }
-  return std::clamp(sum / (2 * kPi), 0.0, 1.0);
+  return std::clamp(sum / (2 * std::numbers::pi), 0.0, 1.0);
 }
 
 const std::vector<Baseline>& phong_baselines() {

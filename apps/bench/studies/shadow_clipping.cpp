@@ -1,4 +1,4 @@
-#include "studies/shadow_clipping.h"
+#include "bench/studies/shadow_clipping.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "studies/table2.h"
+#include "bench/studies/table2.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "bench/run.h"
 #include "core/float_mode.h"
 #include "bench/phong_plane.h"
-#include "studies/phong_baselines.h"
+#include "bench/studies/phong_baselines.h"
 
 namespace steradian::moment {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/shadow_comparison.h"
+#include "bench/studies/shadow_comparison.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +12,7 @@
 #include "shadow/visible_part.h"
 #include "steradian/ltc.h"
 #include "steradian/polygon_derivatives.h"
-#include "studies/shadow_clipping.h"
+#include "bench/studies/shadow_clipping.h"
 
 namespace steradian::studies {
 namespace {

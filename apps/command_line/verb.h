@@ -1,0 +1,122 @@
+// The command line: verbs, their options and the errors of wrong use. CLI11 stands behind it in verb.cpp alone, because its single header
+// costs every unit that includes it about fifteen seconds.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "steradian/limits.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace steradian::app {
+
+// Wrong use of an option: the command line prints "OPTION: MESSAGE" and exits with 2.
+class WrongOption : public std::runtime_error {
+ public:
+  WrongOption(std::string option, const std::string& message) : std::runtime_error(message), option_(std::move(option)) {}
+  const std::string& option() const { return option_; }
+
+ private:
+  std::string option_;
+};
+
+// One option of a verb. Each function restricts the option or describes it, and returns it again.
+class VerbOption {
+ public:
+  VerbOption(CLI::App* verb, CLI::Option* option) : verb_(verb), option_(option) {}
+
+  VerbOption& group(const std::string& name);
+  VerbOption& required();
+  VerbOption& needs(const std::string& other);
+  VerbOption& excludes(const std::string& other);
+  VerbOption& separator(char c);                      // one argument holds several values
+  VerbOption& default_text(const std::string& text);  // the default as --help shows it
+  VerbOption& words(const std::vector<std::string>& allowed);
+  // `text` replaces "INT in [low - high]" in --help.
+  VerbOption& range(int low, int high, const std::string& text = {});
+  VerbOption& range(double low, double high, const std::string& text = {});
+  VerbOption& range(std::uint64_t low, std::uint64_t high);
+  VerbOption& bytes();  // takes 500MB and 4GB
+  VerbOption& existing_file();
+  VerbOption& existing_folder();
+  // `problem` returns an empty text for a valid argument, else the message.
+  VerbOption& check(const std::function<std::string(const std::string&)>& problem, const std::string& text = {});
+
+ private:
+  CLI::App* verb_;
+  CLI::Option* option_;
+};
+
+// An option that has an effect only under a condition.
+struct ConditionalOption {
+  const char* name;  // "--spp"
+  bool has_effect;
+  const char* needs;  // the condition as a user reads it: "--method sampled"
+};
+
+// One verb of the program: its options and the function that runs it. The values must outlive the command line.
+class Verb {
+ public:
+  explicit Verb(CLI::App* app) : app_(app) {}
+
+  void group(const std::string& name);
+  void footer(const std::string& text);
+  VerbOption add(const std::string& name, std::string& value, const std::string& help);
+  VerbOption add(const std::string& name, std::vector<std::string>& values, const std::string& help);
+  VerbOption add(const std::string& name, int& value, const std::string& help);
+  VerbOption add(const std::string& name, std::optional<int>& value, const std::string& help);
+  VerbOption add(const std::string& name, std::uint64_t& value, const std::string& help);
+  VerbOption add(const std::string& name, double& value, const std::string& help);
+  VerbOption add_flag(const std::string& name, bool& value, const std::string& help);
+  void add_limits(Limits& limits);  // --max-memory and --max-work: the most that a file may take
+  // All arguments from the first that is no option of the verb, --help too.
+  void pass_on(std::vector<std::string>& arguments);
+
+  bool given(const std::string& name) const;
+  // Throws WrongOption for the first option that the user gave and that has no effect.
+  void refuse_without_effect(std::initializer_list<ConditionalOption> options) const;
+  void callback(std::function<void()> run);
+
+ private:
+  CLI::App* app_;
+};
+
+// The program's exit status: 0 done, 1 the work failed or a comparison did not hold, 2 wrong use.
+struct Exit {
+  int code = 0;
+};
+
+// The whole command line of a program.
+class CommandLine {
+ public:
+  CommandLine(const std::string& description, const std::string& version);
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  Verb verb(const std::string& name, const std::string& help);
+  // The program itself, for a program without verbs.
+  Verb all();
+  Exit& exit() { return exit_; }
+  // Reads the arguments, runs the verb and returns the exit status. Messages go to standard error.
+  int run(int argc, char** argv);
+
+ private:
+  struct Parser;
+  Parser* parser_;
+  Exit exit_;
+};
+
+// The version of the library behind it, CLI11.
+std::string command_line_library();
+
+}  // namespace steradian::app
