@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""make_page.py FILE: writes the page as one file that opens without a server.
+"""Writes the page as one file that opens without a server.
 
 Its parts: page.html, the topics of dist/es/ that the scene uses, the shader of the lights, and the scripts.
 """
+import argparse
 import base64
 import json
 import re
 import struct
-import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -41,7 +41,9 @@ def page():
 
 
 def main():
-    out = Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("file", type=Path, help="the page to write, e.g. out/web/webgl/index.html")
+    out = parser.parse_args().file
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(page())
 
