@@ -6,6 +6,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <limits>
+#include <memory>
 #include <optional>
 
 #include "core/atomic_file.h"
@@ -193,14 +195,14 @@ void add_eval(CommandLine& line) {
       plane.sampling = {options->spp, options->seed};
       plane.limits = options->limits;
       PlaneAnswers answers(plane);
-      const auto point = [&](std::string_view line, std::string& out) { return answers.answer_line(line, out); };
+      const auto point = [&](std::string_view query, std::string& out) { return answers.answer_line(query, out); };
       if (!answer_stream(options->input, options->output, point)) exit.code = 1;
       return;
     }
     if (!method_of(options->method)) throw WrongOption("--method", options->method + " needs --plane");
     const eval::QueryDefaults defaults = {*method_of(options->method), options->spp, options->seed};
     eval::QueryReader reader(defaults);
-    const auto answer = [&](std::string_view line, std::string& out) { return eval::answer_line(reader, line, out); };
+    const auto answer = [&](std::string_view query, std::string& out) { return eval::answer_line(reader, query, out); };
     if (!answer_stream(options->input, options->output, answer)) exit.code = 1;
   });
 }

@@ -117,7 +117,8 @@ STERADIAN_INLINE void add_arc(const TileLight& light, TileBuffer& tile, int i) {
   add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * ramp);
 }
 
-__attribute__((flatten)) void add_arcs(const TileLight& light, TileBuffer& tile, unsigned blocks) {
+// A call of its own: add_light would flatten it once more.
+__attribute__((flatten, noinline)) void add_arcs(const TileLight& light, TileBuffer& tile, unsigned blocks) {
   for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes))
     if ((blocks >> (i / 16) & 1) != 0) add_arc(light, tile, i);
 }

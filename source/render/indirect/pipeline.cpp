@@ -26,12 +26,12 @@ bool needs_whole_surfaces(const RenderOptions& options) {
 
 // Places spread over the picture, for the culling's threshold.
 VectorArray some_receivers(const FrameSurfaces& s) {
-  constexpr int kAcross = 16, kDown = 9;
-  VectorArray places(kAcross * kDown);
+  constexpr int kColumns = 16, kDown = 9;
+  VectorArray places(kColumns * kDown);
   std::size_t n = 0;
   for (int j = 0; j < kDown; ++j)
-    for (int i = 0; i < kAcross; ++i) {
-      const std::size_t at = s.raster.at((2 * i + 1) * s.raster.width / (2 * kAcross), (2 * j + 1) * s.raster.height / (2 * kDown));
+    for (int i = 0; i < kColumns; ++i) {
+      const std::size_t at = s.raster.at((2 * i + 1) * s.raster.width / (2 * kColumns), (2 * j + 1) * s.raster.height / (2 * kDown));
       if (dot(s.normal[at], s.normal[at]) > 0) places.put(n++, s.position[at]);
     }
   places.resize(n);
@@ -40,11 +40,11 @@ VectorArray some_receivers(const FrameSurfaces& s) {
 
 // Distance between the surfaces of neighbouring pixels: the median over places spread over the picture.
 double pixel_spacing(const FrameSurfaces& s) {
-  constexpr int kAcross = 32, kDown = 18;
+  constexpr int kColumns = 32, kDown = 18;
   std::vector<double> spacings;
   for (int j = 0; j < kDown; ++j)
-    for (int i = 0; i < kAcross; ++i) {
-      const int x = (2 * i + 1) * s.raster.width / (2 * kAcross), y = (2 * j + 1) * s.raster.height / (2 * kDown);
+    for (int i = 0; i < kColumns; ++i) {
+      const int x = (2 * i + 1) * s.raster.width / (2 * kColumns), y = (2 * j + 1) * s.raster.height / (2 * kDown);
       if (x + 1 >= s.raster.width || y + 1 >= s.raster.height) continue;
       const std::size_t at = s.raster.at(x, y), right = s.raster.at(x + 1, y), below = s.raster.at(x, y + 1);
       const Vec3f n = s.normal[at];

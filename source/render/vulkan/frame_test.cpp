@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/test_memory.h"
+#include "night.h"
 #include "render/vulkan/test_frames.h"
 #include "steradian/error.h"
 
