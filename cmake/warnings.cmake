@@ -5,3 +5,7 @@ target_compile_options(steradian_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wn
 if(STERADIAN_WERROR)
   target_compile_options(steradian_warnings INTERFACE -Werror)
 endif()
+
+# Tests mix float and double freely. Linked behind steradian_warnings, whose option it takes back.
+add_library(steradian_test_warnings INTERFACE)
+target_compile_options(steradian_test_warnings INTERFACE -Wno-double-promotion)
