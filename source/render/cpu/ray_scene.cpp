@@ -207,11 +207,15 @@ void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16& r = rays.ray;
-  for (std::size_t i = 0; i < 16; ++i)
-    if (valid[i] == 0) disable(r, i);
   const auto numbers = {r.org_x, r.org_y, r.org_z, r.tnear, r.tfar};
   multiply(numbers, unit_);
+  alignas(64) float ends[16];
+  std::copy_n(r.tfar, 16, ends);
+  for (std::size_t i = 0; i < 16; ++i)
+    if (valid[i] == 0) r.tfar[i] = -1;  // an empty interval, as in disable()
   rtcIntersect16(valid, rtc_.get(), &context, &rays);
+  for (std::size_t i = 0; i < 16; ++i)
+    if (valid[i] == 0) r.tfar[i] = ends[i];
   multiply(numbers, 1 / unit_);
 }
 

@@ -36,6 +36,7 @@ class RayScene {
   bool follow(const Scene& scene);
 
   // Traces 16 neighbouring camera rays, of unit directions; valid[i] is -1 for a ray to trace, 0 for none. hit.geomID[i] is the mesh.
+  // Lanes without a ray hold finite numbers, too.
   void intersect(const int valid[16], RTCRayHit16& rays) const;
 
   // One ray from anywhere, in a unit direction. Returns false when nothing is hit.
