@@ -6,7 +6,7 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-// The corners of a round light gather about the mirrored view.
+// Corners of a round light gather about the mirrored view.
 template <class Integral>
 STERADIAN_INLINE auto integrate_outline(const PackLight& light, const SeenLight& seen, const PackKernels::mat3& frame, const PackVec3& p,
                                         const PackVec3& view, double exponent, Integral& integral) {
@@ -17,7 +17,7 @@ STERADIAN_INLINE auto integrate_outline(const PackLight& light, const SeenLight&
   return integrate(RoundOutline{seen, frame, p, about}, shading, integral);
 }
 
-// A function for each method, so that it holds one walk in registers.
+// Each method has a function, so that it holds one walk in registers.
 template <class Share>
 __attribute__((flatten, noinline)) void radiance_by(const Share& share, double exponent, const PhongOptions& options,
                                                     const PackLight& light, const Points& points, float* result) {
